@@ -6,7 +6,7 @@ use nalgebra::Complex;
 use serde::Serialize;
 
 use super::Band;
-use crate::numerics::scan::{largest_of, places};
+use crate::numerics::scan::{largest_of, narrow, places};
 use crate::system::{BandOver, System};
 
 /// A tuned mass damper: a mass on a spring and a viscous damper.
@@ -57,6 +57,11 @@ impl TunedMassDamper {
             best = found.unwrap_or(best);
         }
         Self::of_logarithms(&best)
+    }
+
+    /// What it comes to along a band.
+    pub fn along(self, band: &Band) -> Damped {
+        Along::of(band).damped(self)
     }
 
     fn logarithms(&self) -> Vec<f64> {
@@ -123,6 +128,16 @@ pub fn bare_amplitude(system: &System) -> f64 {
 /// of its frequency as width.
 const PIECES: u32 = 256;
 
+/// Part of the highest value from which on a peak is looked at as well.
+const ALMOST: f64 = 0.9;
+/// Relative difference up to which two largest values are one: some roundings.
+const SAME: f64 = 4e-15;
+/// Ratio of distances of places around a narrow resonance, down to this part of its width; no resonance is narrower than
+/// the last.
+const CLOSER: f64 = 0.5;
+const PART_OF_WIDTH: f64 = 0.25;
+const NARROWEST: f64 = 1e-14;
+
 /// By how much the structure's natural frequency may be off, to either side, where a tuned device is
 /// compared with one that is not.
 pub const DETUNED: [f64; 2] = [0.97, 1.03];
@@ -173,6 +188,27 @@ impl Rivals {
     }
 }
 
+/// Places around a resonance that is narrower than a piece of the band, ever closer ones down to its width; none in other
+/// bands.
+fn near_resonance(band: &Band) -> Vec<f64> {
+    let [from, to] = band.range;
+    let (piece, system) = ((to - from) / f64::from(PIECES), &band.base);
+    if band.over != BandOver::Frequency || !(from <= 1.0 && 1.0 <= to) {
+        return Vec::new();
+    }
+    // A damper's two resonances are the square root of its mass apart.
+    let damping = system.mass_ratio() * system.damping();
+    let width = damping.min(system.mass_ratio().sqrt()).max(NARROWEST);
+    let mut found = Vec::new();
+    let mut distance = piece;
+    while distance > PART_OF_WIDTH * width {
+        distance *= CLOSER;
+        found.extend([1.0 - distance, 1.0 + distance]);
+    }
+    found.retain(|at| (from..=to).contains(at));
+    found
+}
+
 /// A band with its systems at even places, at which many amplitudes are asked for.
 struct Along<'a> {
     band: &'a Band,
@@ -182,7 +218,10 @@ struct Along<'a> {
 impl<'a> Along<'a> {
     fn of(band: &'a Band) -> Self {
         let system = |at: f64| Some((at, band.system(at).ok()?));
-        Self { band, systems: places(band.range, PIECES).filter_map(system).collect() }
+        let mut all: Vec<f64> = places(band.range, PIECES).collect();
+        all.extend(near_resonance(band));
+        all.sort_by(f64::total_cmp);
+        Self { band, systems: all.into_iter().filter_map(system).collect() }
     }
 
     /// Where an amplitude is largest, and that amplitude.
@@ -190,13 +229,31 @@ impl<'a> Along<'a> {
         let there = |at: f64| self.band.system(at).ok().map(|system| amplitude(&system));
         let [from, to] = self.band.range;
         let tried = self.systems.iter().map(|(at, system)| (*at, amplitude(system)));
-        let found = largest_of(tried, [from, to], PIECES, there).unwrap_or((from, f64::INFINITY));
-        // The peak of a hardly damped oscillator is narrower than a piece.
+        let tried: Vec<(f64, f64)> = tried.collect();
+        let all = tried.iter().copied();
+        let found = largest_of(all, [from, to], PIECES, there).unwrap_or((from, f64::INFINITY));
         let resonates = self.band.over == BandOver::Frequency && from <= 1.0 && 1.0 <= to;
-        match there(1.0).filter(|resonant| resonates && *resonant > found.1) {
+        let mut best = match there(1.0).filter(|resonant| resonates && *resonant > found.1) {
             Some(resonant) => (1.0, resonant),
             None => found,
+        };
+        // Of peaks that are almost as high, as the two of a damper, another may be the higher one in truth; and one among close
+        // places is narrower than a piece.
+        let highest = tried.iter().map(|(_, value)| *value).fold(0.0, f64::max);
+        for three in tried.windows(3).filter(|_| !self.band.is_point()) {
+            let [(before, left), (_, middle), (after, right)] = [three[0], three[1], three[2]];
+            if middle < left || middle < right || !middle.is_finite() || middle < ALMOST * highest {
+                continue;
+            }
+            narrow([before, after], |at| {
+                let value = there(at).unwrap_or(f64::NEG_INFINITY);
+                if value > best.1 * (1.0 + SAME) {
+                    best = (at, value);
+                }
+                Some(value)
+            });
         }
+        best
     }
 
     fn damped(&self, damper: TunedMassDamper) -> Damped {

@@ -5,16 +5,18 @@ use std::path::PathBuf;
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
 use vinesink::evidence::extremes::contact::tables;
+use vinesink::evidence::extremes::layers::rows;
 use vinesink::evidence::extremes::{entries, holds, page, unit_checks};
 
 use super::index;
 use super::progress::Progress;
 
-/// Simulate at the ends of every parameter's range and compare with 77 decimal digits
+/// Ask every layer at the ends of its ranges and compare with 77 decimal digits
 ///
 /// Writes OUT/extremes.md: what each run costs, how well it closes its energy balance, how far it is
-/// from a reference that shares no code with it, and what is flagged or refused and why. Exits with 1
-/// if a run that is trusted is wrong.
+/// from a reference that shares no code with it, and what is flagged or refused and why; the same of
+/// theory, decay, exact orbits, their limits and dampers. Exits with 1 if anything that is trusted is
+/// wrong.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {
@@ -30,17 +32,23 @@ Examples:
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let entries = entries().into_diagnostic()?;
-    let progress = Progress::new("extremes", entries.len() as u64 + 2);
+    let rows = rows().into_diagnostic()?;
+    let progress = Progress::new("extremes", (entries.len() + rows.len()) as u64 + 2);
     let mut outcomes = Vec::new();
     for entry in entries {
         outcomes.push(entry.outcome());
+        progress.advance(1);
+    }
+    let mut layers = Vec::new();
+    for row in rows {
+        layers.push(row.outcome().into_diagnostic()?);
         progress.advance(1);
     }
     let units = unit_checks().into_diagnostic()?;
     progress.advance(1);
     let contact = tables().into_diagnostic()?;
     progress.advance(1);
-    let text = page(&outcomes, &contact, &units).into_diagnostic()?;
+    let text = page(&outcomes, &layers, &contact, &units).into_diagnostic()?;
     index::write_page(&arguments.out, "extremes.md", &text)?;
-    Ok(holds(&outcomes, &units))
+    Ok(holds(&outcomes, &layers, &units))
 }

@@ -6,15 +6,20 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use super::branch::Branch;
-use super::pair::Point;
+use super::pair::{Point, scouted};
 use crate::analysis::Manifold;
 use crate::equations::dissipation::{REACTANCE, RESISTANCE};
 use crate::regimes::Regime;
 
 /// Distance of amplitudes at which motions are followed, over the clearance.
 const STEP: f64 = 0.02;
-/// Steps between places at which further starts look for motions that no other led to.
+/// Steps between places at which starts are followed to what they lead to, whatever that is.
 const SEED_STEPS: usize = 8;
+/// Starts at every step that are followed where they soon repeat and are on no motion that is known: a branch as wide as four
+/// steps that one start in twelve leads to is then missed with a probability of a twentieth.
+const SCOUTS: u32 = 8;
+/// Fastest of them, over the amplitude.
+const FASTEST: f64 = 3.0;
 /// Such starts: relative displacement, and velocity over the amplitude.
 const SEEDS: [[f64; 2]; 3] = [[0.3, 1.4], [-0.8, -0.6], [0.7, 2.5]];
 /// Largest change of `S` or `K` per amplitude of one motion; above, two points belong to two.
@@ -68,17 +73,18 @@ impl DissipationCurve {
             restitution,
             amplitudes: (0..=steps).map(|k| from + STEP * k as f64).collect(),
             known: vec![Vec::new(); steps + 1],
+            seen: vec![Vec::new(); steps + 1],
         };
         search.follow(0, true, [0.5, from], false);
         search.follow(steps, false, [0.5, to], false);
         for at in (0..=steps).step_by(SEED_STEPS) {
             for [w, speed] in SEEDS {
                 let start = [w, speed * search.amplitudes[at]];
-                let state = search.visit(at, start).filter(|(_, new)| *new).map(|(state, _)| state);
-                let Some(state) = state else { continue };
-                search.follow(at + 1, true, state, true);
-                search.follow(at.wrapping_sub(1), false, state, true);
+                search.begin(at, start);
             }
+        }
+        for at in 0..=steps {
+            search.scout(at);
         }
         // The closed form is the better answer where it holds.
         let better =
@@ -148,6 +154,8 @@ struct Search {
     restitution: f64,
     amplitudes: Vec<f64>,
     known: Vec<Vec<Point>>,
+    /// States that led to motions which were known by then, of mirror images for instance.
+    seen: Vec<Vec<[f64; 2]>>,
 }
 
 impl Search {
@@ -162,8 +170,35 @@ impl Search {
         let new = !known.iter().any(|other| other.is_same(&point));
         if new {
             known.push(point);
+        } else {
+            self.seen[at].push(point.state);
         }
         Some((point.state, new))
+    }
+
+    /// Follows what a start leads to both ways, if that is new.
+    fn begin(&mut self, at: usize, start: [f64; 2]) {
+        if let Some((state, true)) = self.visit(at, start) {
+            self.follow(at + 1, true, state, true);
+            self.follow(at.wrapping_sub(1), false, state, true);
+        }
+    }
+
+    /// Begins where starts repeat that are on no known motion.
+    fn scout(&mut self, at: usize) {
+        let amplitude = self.amplitudes[at];
+        for k in 0..SCOUTS {
+            // Multiples of roots of primes spread evenly, differently at each amplitude.
+            let number = f64::from(SCOUTS) * at as f64 + f64::from(k) + 0.5;
+            let [w, speed] =
+                [2.0, 3.0].map(|prime: f64| 2.0 * (number * prime.sqrt()).fract() - 1.0);
+            let start = [w, FASTEST * speed * amplitude];
+            let known = self.known[at].iter().map(|point| point.state);
+            let known: Vec<[f64; 2]> = known.chain(self.seen[at].iter().copied()).collect();
+            if let Some(state) = scouted(self.restitution, amplitude, start, &known) {
+                self.begin(at, state);
+            }
+        }
     }
 
     /// Follows a motion from step to step, to the end of the range or, if asked, to one that is known.

@@ -31,8 +31,11 @@ const GOLDEN: f64 = 0.618_033_988_749_895;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ModulatedCycle {
-    /// Smallest and largest amplitude of `v = x + eps y`, `C/b`.
+    /// Smallest and largest amplitude of `v = x + eps y`, `C/b`, with the forces that the absorber has on average.
     pub amplitudes: [f64; 2],
+    /// Two standard deviations of the largest amplitude from cycle to cycle, over the clearance: what the irregular motion
+    /// between captures makes of it, of the order of the root of the mass ratio.
+    pub largest_scatter: f64,
     /// Root mean square displacement of the oscillator over the clearance.
     pub rms: f64,
     /// Twice its standard error from averages between captures; the error of the theory, of first order in the mass
@@ -62,6 +65,7 @@ impl ModulatedCycle {
         let each = f64::from(count) * system.mass_ratio() * system.period();
         Some(Self {
             amplitudes: found.range,
+            largest_scatter: 2.0 * found.variance_at_largest.sqrt(),
             rms: found.rms(),
             rms_error: twice_standard_error(&rms),
             impacts_per_period: found.impacts / found.time,
@@ -84,6 +88,9 @@ struct Walk<'a> {
 #[derive(Clone, Copy)]
 struct Sums {
     range: [f64; 2],
+    /// Of the amplitude since the last capture, and where it was largest.
+    variance: f64,
+    variance_at_largest: f64,
     squares: f64,
     impacts: f64,
     captured: f64,
@@ -91,8 +98,15 @@ struct Sums {
 }
 
 impl Sums {
-    const NONE: Self =
-        Self { range: [f64::INFINITY, 0.0], squares: 0.0, impacts: 0.0, captured: 0.0, time: 0.0 };
+    const NONE: Self = Self {
+        range: [f64::INFINITY, 0.0],
+        variance: 0.0,
+        variance_at_largest: 0.0,
+        squares: 0.0,
+        impacts: 0.0,
+        captured: 0.0,
+        time: 0.0,
+    };
 
     fn rms(&self) -> f64 {
         (0.5 * self.squares / self.time).sqrt()
@@ -103,6 +117,11 @@ impl Sums {
         let [resistance, reactance] = place.forces;
         // The oscillator's displacement is v - eps y.
         let [sine, cosine] = [c + mass_ratio * reactance, mass_ratio * resistance];
+        // A period's force moves the amplitude by half of it times the slow time of a period.
+        self.variance += 0.5 * TAU * mass_ratio * 0.5 * step * place.scatter;
+        if c > self.range[1] {
+            self.variance_at_largest = self.variance;
+        }
         self.range = [self.range[0].min(c), self.range[1].max(c)];
         self.squares += step * (sine * sine + cosine * cosine);
         self.impacts += step * place.impacts;
@@ -119,6 +138,7 @@ impl Walk<'_> {
         let mut z = [fold, 0.0];
         for k in 0..=CAPTURES {
             let before = sums;
+            sums.variance = 0.0;
             let expected = libm::log1p(-(f64::from(k) + 0.5) * GOLDEN % 1.0);
             z = self.free(z, -expected, &mut sums)?;
             match self.captured(z, &mut sums)? {
@@ -184,7 +204,7 @@ impl Walk<'_> {
         let amplitude = amplitude.max(fold.oscillator_amplitude);
         let known = amplitude <= self.recapture.largest_captured;
         let forces = symmetric_forces(manifold, amplitude, ratio, ratio - 1.0);
-        known.then_some(Place { amplitude, forces, rate: 0.0, impacts: 2.0 })
+        known.then_some(Place { amplitude, forces, scatter: 0.0, rate: 0.0, impacts: 2.0 })
     }
 
     /// The step by the rates that are there.

@@ -33,6 +33,18 @@ const BLOCKS: usize = 10;
 /// Difference of `S` and of `K` up to which two motions are one: what is left of a transient near a bifurcation.
 const ALIKE: f64 = 2e-3;
 
+/// Part of a disturbance that is left of a start that is scouted, if it shrinks by `r` in a flight, and the fewest and most
+/// periods that are waited for it.
+const LEFT: f64 = 1e-4;
+const WAITED: [f64; 2] = [20.0, 120.0];
+/// Most periods after which it is seen to repeat, the distance between states at which it does, and that to a state which is
+/// known.
+const REPEATS: usize = 6;
+const RETURNS: f64 = 2e-3;
+const NEAR: f64 = 0.01;
+/// Periods after which it must repeat still: chaos comes back once by chance.
+const AGAIN: usize = 12;
+
 /// The pair's long-term motion at one amplitude.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -173,6 +185,38 @@ impl Point {
         repeat
             && (self.regime != other.regime || self.impacts_per_period != other.impacts_per_period)
     }
+}
+
+/// Where a start is after some tens of periods, if it repeats then and is near none of the states that are known; as
+/// [`Point::measured`], and a fraction of its cost.
+pub(super) fn scouted(
+    restitution: f64,
+    amplitude: f64,
+    start: [f64; 2],
+    known: &[[f64; 2]],
+) -> Option<[f64; 2]> {
+    let mut pair = simulation(restitution, amplitude, start)?;
+    let [least, most] = WAITED;
+    let needed = 0.5 * libm::log(LEFT) / libm::log(restitution.max(LEFT));
+    pair.run(needed.clamp(least, most) as u64, ROUND * MOST_IMPACTS, &mut ());
+    let mut states = vec![pair_state(&pair.state())];
+    let size = |at: [f64; 2]| at[0].abs().max(at[1].abs() / amplitude);
+    let apart = |a: &[f64; 2], b: &[f64; 2]| size([a[0] - b[0], a[1] - b[1]]);
+    let mut repeats = false;
+    while !repeats && states.len() <= REPEATS {
+        pair.run(1, MOST_IMPACTS, &mut ());
+        states.push(pair_state(&pair.state()));
+        repeats = apart(&states[0], &states[states.len() - 1]) < RETURNS;
+    }
+    let is_known = || states.iter().any(|a| known.iter().any(|b| apart(a, b) < NEAR));
+    let mut is_new = repeats && !is_known();
+    if is_new {
+        let each = states.len() - 1;
+        pair.run(AGAIN.next_multiple_of(each) as u64, ROUND * MOST_IMPACTS, &mut ());
+        is_new = apart(&states[0], &pair_state(&pair.state())) < NEAR;
+    }
+    operation_count::note(pair.operations());
+    is_new.then_some(states[0])
 }
 
 /// The pair at an amplitude, above 0, from a relative displacement and an absorber velocity at the oscillator's lowest

@@ -38,6 +38,8 @@ pub(super) struct Place {
     pub amplitude: f64,
     /// `S` and `K`.
     pub forces: [f64; 2],
+    /// Variance that a period adds to the sums of `S` and `K` over many, as starts differ.
+    pub scatter: f64,
     /// Captures per period of the oscillator.
     pub rate: f64,
     /// Impacts per period.
@@ -60,6 +62,9 @@ pub struct Recapture {
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     forces: [f64; 2],
+    /// Of the squares of each start's means, times its periods; and of starts.
+    squares: f64,
+    starts: f64,
     periods: f64,
     captures: f64,
     impacts: f64,
@@ -106,6 +111,7 @@ impl Recapture {
         Some(Place {
             amplitude,
             forces: [0, 1].map(|k| between(from.forces[k], to.forces[k])),
+            scatter: between(from.scatter, to.scatter),
             rate: between(from.rate, to.rate),
             impacts: between(from.impacts, to.impacts),
         })
@@ -134,6 +140,8 @@ impl Sums {
         };
         let (count, means) = (free.len() as f64, averages(free));
         (0..2).for_each(|k| self.forces[k] += count * means[k]);
+        self.squares += count * (means[0] * means[0] + means[1] * means[1]);
+        self.starts += f64::from(u8::from(count > 0.0));
         self.periods += count;
         self.impacts +=
             free.iter().map(|record| f64::from(record.impacts.iter().sum::<u32>())).sum::<f64>();
@@ -142,6 +150,8 @@ impl Sums {
     fn total(all: &[Self]) -> Self {
         all.iter().fold(Self::default(), |sum, one| Self {
             forces: [0, 1].map(|k| sum.forces[k] + one.forces[k]),
+            squares: sum.squares + one.squares,
+            starts: sum.starts + one.starts,
             periods: sum.periods + one.periods,
             captures: sum.captures + one.captures,
             impacts: sum.impacts + one.impacts,
@@ -151,7 +161,10 @@ impl Sums {
     fn place(&self, amplitude: f64) -> Place {
         // Where all are captured at once there is nothing to average.
         let periods = self.periods.max(1.0);
+        let [s, k] = self.forces;
+        let between = self.squares - (s * s + k * k) / periods;
         Place {
+            scatter: between.max(0.0) / (self.starts - 1.0).max(1.0),
             amplitude,
             forces: self.forces.map(|sum| sum / periods),
             rate: self.captures / periods,

@@ -172,6 +172,8 @@ struct Ground {
     left_out: u64,
     /// The number of its first start among those of the search.
     first: usize,
+    /// Whether starts creep along with the structure, so that each is measured where it is.
+    creeps: bool,
     /// Which known motion each start led to.
     led: Vec<Option<usize>>,
     /// Starts that led there late, by their known motion.
@@ -224,6 +226,7 @@ impl Ground {
             system,
             known,
             first,
+            creeps: settling::creeps(&system),
             led: vec![None; count],
             late: Vec::new(),
             open: vec![None; count],
@@ -339,7 +342,7 @@ impl Ground {
         let beside = self.known.iter().any(|one| one.motion.rest().is_none());
         let alone = self.alone * open.len() as f64;
         let windows = if beside { alone.max(BESIDE_ANOTHER) } else { alone };
-        let missing = self.patience * windows - self.quiet;
+        let missing = if self.creeps { 0.0 } else { self.patience * windows - self.quiet };
         let of =
             |flight: &Flight| Some((flight.index, self.open[flight.index - self.first].clone()?));
         let samples: Vec<(usize, Sample)> = open.iter().filter_map(of).collect();
@@ -348,10 +351,10 @@ impl Ground {
         let clusters = if measured { Cluster::all(samples.into_iter()) } else { Vec::new() };
         let young = self.measured < FEWEST;
         let settles = clusters.len() > 1 || clusters.iter().any(|one| one.settles(young));
-        let restless = settles && self.measured <= LONGEST;
+        let restless = settles && !self.creeps && self.measured <= LONGEST;
         let loose = |limits| clusters.iter().any(|one| !one.is_within(limits));
         let again = self.accuracy.is_some_and(loose) && self.window * count < MOST_PERIODS;
-        self.impatient = missing > 0.0;
+        self.impatient = missing > 0.0 || self.creeps;
         let rounds = (self.patience * ROUNDS as f64) as usize;
         let (left_out, window) = if self.rounds < rounds && (missing > 0.0 || restless) {
             let most = FURTHER[self.rounds.min(FURTHER.len() - 1)] * self.periods / 4;

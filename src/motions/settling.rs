@@ -71,6 +71,12 @@ impl SettlingTime {
     }
 }
 
+/// Whether an overdamped structure comes back so slowly that no run sees it: a start that is flown on shows nothing new.
+pub(super) fn creeps(system: &System) -> bool {
+    let overdamped = system.mass_ratio() * system.damping() > 2.0;
+    overdamped && !SettlingTime::beside(system, &[]).fades
+}
+
 /// Rate at which the slowest free vibration of the oscillator fades, per unit of fast time: `eps lambda/2`
 /// where it rings.
 fn decay_rate(system: &System) -> f64 {

@@ -241,14 +241,11 @@ impl Curve for Slip<'_> {
 
 impl Curve for Gap<'_> {
     fn sample(&self, s: f64) -> Sample {
-        let oscillator = self.leg.oscillator(s);
-        let relative = self.leg.relative_of(oscillator, s);
-        let bound = self.flight.force() + (1.0 + self.flight.damping()) * self.size(oscillator);
-        let curvature_bound = bound + self.leg.acceleration.abs();
+        let (relative, curvature_bound) = self.leg.bounded(s);
         Sample { value: relative.x, slope: relative.v, curvature_bound }
     }
     fn horizon(&self) -> f64 {
-        HORIZON
+        f64::INFINITY
     }
 }
 

@@ -15,6 +15,9 @@ use super::equations::{REPEATED_DISPLACEMENT, REPEATED_VELOCITY};
 use crate::operation_count::{self, ELEMENTARY};
 use crate::system::System;
 
+/// Frequency ratio from which on half an excitation period is less than a quarter of the oscillator's own.
+const FAR_ABOVE: f64 = 2.0;
+
 /// The oscillator of a system, ready to be propagated. Pairs are displacement and velocity, over the
 /// clearance, in fast time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,32 +129,33 @@ impl Flight {
         operation_count::note(3 * ELEMENTARY + 14);
         let d = self.decay;
         let discriminant = (1.0 - d) * (1.0 + d);
-        let (impulse, impulse_rate) = if discriminant > 0.0 {
+        if discriminant > 0.0 {
             let ringing = discriminant.sqrt();
             let envelope = libm::exp(-d * s);
             let (sin, cos) = libm::sincos(ringing * s);
             let impulse = envelope * if ringing * s == 0.0 { s } else { sin / ringing };
-            (impulse, envelope * cos - d * impulse)
+            let impulse_rate = envelope * cos - d * impulse;
+            return Matrix2::new(impulse_rate + 2.0 * d * impulse, impulse, -impulse, impulse_rate);
+        }
+        // The slow rate is the reciprocal of the fast one, and their sum is 2 d: no difference of large numbers.
+        let spread = (-discriminant).sqrt();
+        let (fast, slow) = (d + spread, 1.0 / (d + spread));
+        let (envelope, faded) = (libm::exp(-slow * s), libm::exp(-fast * s));
+        let impulse = if spread == 0.0 {
+            envelope * s
         } else {
-            let spread = (-discriminant).sqrt();
-            let envelope = libm::exp(-s / (d + spread));
-            let impulse = if spread == 0.0 {
-                envelope * s
-            } else {
-                -envelope * libm::expm1(-2.0 * spread * s) / (2.0 * spread)
-            };
-            (impulse, envelope - (d + spread) * impulse)
+            -envelope * libm::expm1(-2.0 * spread * s) / (2.0 * spread)
         };
-        Matrix2::new(impulse_rate + 2.0 * d * impulse, impulse, -impulse, impulse_rate)
+        Matrix2::new(faded + fast * impulse, impulse, -impulse, faded - slow * impulse)
     }
 
     /// `g` and `1 + g'` after half an excitation period. Near resonance both are small, and are formed
-    /// before anything is rounded.
+    /// before anything is rounded; far above it is `g`, as little has happened yet.
     pub fn half_period_response(&self) -> [f64; 2] {
         let d = self.decay;
         let s = std::f64::consts::PI / self.frequency;
         let discriminant = (1.0 - d) * (1.0 + d);
-        let (impulse, rate_plus_one) = if discriminant > 0.0 {
+        let (impulse, rate_plus_one) = if discriminant > 0.0 && self.frequency < FAR_ABOVE {
             let ringing = discriminant.sqrt();
             // Angle of the free oscillation beyond half a turn.
             let beyond = s * ((1.0 - self.frequency) - d * d / (1.0 + ringing));
@@ -194,6 +198,22 @@ impl Flight {
         let omega = self.frequency;
         let stiffness = (1.0 - omega) * (1.0 + omega);
         libm::hypot(s, c) * libm::hypot(stiffness, 2.0 * self.decay * omega)
+    }
+
+    /// Largest acceleration of the free motion that begins so.
+    fn largest_acceleration(&self, free: Vector2<f64>) -> f64 {
+        let d = self.decay;
+        // Displacement and velocity squared never grow together.
+        let of_energy = (1.0 + 2.0 * d) * libm::hypot(free.x, free.y);
+        if d <= 1.0 {
+            return of_energy;
+        }
+        let spread = ((d - 1.0) * (d + 1.0)).sqrt();
+        let (fast, slow) = (d + spread, 1.0 / (d + spread));
+        // Of the two parts, each of which only fades.
+        let slowly = (fast * free.x + free.y).abs() * slow * slow;
+        let fastly = (slow * free.x + free.y).abs() * fast * fast;
+        of_energy.min((slowly + fastly) / (2.0 * spread))
     }
 
     /// Derivative of the steady motion by `Omega` at a fixed phase.
@@ -250,6 +270,17 @@ impl Course {
     pub fn at(&self, s: f64) -> Motion {
         let steady = self.flight.steady_at(self.phase + self.flight.frequency * s);
         self.flight.motion(steady, self.flight.free(s) * self.deviation).shifted(self.push)
+    }
+
+    /// The motion after a time `s`, and a bound on its acceleration from then on: that of the steady motion, and of the free
+    /// motion, which only fades.
+    pub(super) fn bounded(&self, s: f64) -> (Motion, f64) {
+        let Self { flight, .. } = self;
+        let steady = flight.steady_at(self.phase + flight.frequency * s);
+        let free = flight.free(s) * self.deviation;
+        let driven =
+            flight.frequency * flight.frequency * libm::hypot(flight.steady[0], flight.steady[1]);
+        (flight.motion(steady, free).shifted(self.push), driven + flight.largest_acceleration(free))
     }
 
     /// The motion after each of `count` steps of equal length, with one sine, cosine and exponential for

@@ -126,6 +126,12 @@ impl Leg {
         self.relative_of(self.oscillator(s), s)
     }
 
+    /// The relative displacement, and a bound on its second derivative from then on.
+    pub(super) fn bounded(&self, s: f64) -> (Motion, f64) {
+        let (oscillator, bound) = self.course.bounded(s);
+        (self.relative_of(oscillator, s), bound + self.acceleration.abs())
+    }
+
     /// The oscillator after each of `count` steps of equal length; see [`Course::at_steps`].
     pub(super) fn oscillator_at_steps(
         &self,

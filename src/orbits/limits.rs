@@ -21,12 +21,12 @@
 
 use serde::Serialize;
 
-use super::OrbitError;
 use super::admissibility::{Admissibility, Departure};
 use super::impact_map::ImpactMap;
 use super::multipliers::{Multipliers, minus_one, unit_product};
 use super::orbit::Cycle;
 use super::symmetric::SymmetricCurve;
+use super::{MOST_HIDDEN, OrbitError};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
 use crate::numerics::polynomial::{real_roots, through};
@@ -102,6 +102,10 @@ impl Family {
         let unit = System::new(unit).map_err(|_| OrbitError::NoSteadyMotion)?;
         let map = ImpactMap::of(&unit)?;
         let curve = SymmetricCurve::with(&unit, &map.flight);
+        let times = libm::hypot(curve.displacement, curve.velocity);
+        if times > MOST_HIDDEN {
+            return Err(OrbitError::Hidden { times });
+        }
         let lossless = system.damping() == 0.0 && system.restitution() == 1.0;
         Ok(Self { map, curve, forcing: system.forcing_per_clearance(), lossless })
     }
@@ -208,7 +212,8 @@ impl SymmetricFamily {
     ///
     /// # Errors
     /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency,
-    /// [`OrbitError::RealCavity`] for a cavity that is not ideal.
+    /// [`OrbitError::Hidden`] so close to that that rounding hides the orbits, [`OrbitError::RealCavity`] for a cavity that is
+    /// not ideal.
     pub fn of(system: &System) -> Result<Self, OrbitError> {
         let family = Family::of(system)?;
         let found = family.bifurcations();

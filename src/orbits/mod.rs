@@ -45,6 +45,10 @@ pub use two_impact::{
     two_impact_orbits,
 };
 
+/// Largest amplitude of the steady motion between impacts over the size of an orbit: near resonance, with damping ratios below
+/// 1e-6, its multipliers would be known to less than 1e-9.
+const MOST_HIDDEN: f64 = 4e5;
+
 /// Why an orbit is not returned.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -55,6 +59,15 @@ pub enum OrbitError {
          between impacts; add damping or change the frequency"
     )]
     NoSteadyMotion,
+    /// The orbit is the small difference of a steady motion between impacts and a free one.
+    #[error(
+        "the steady motion between impacts is {times:.0e} times as large as the orbit, which rounding hides; add damping or \
+         change the frequency"
+    )]
+    Hidden {
+        /// Amplitude of the steady motion over the size of the orbit.
+        times: f64,
+    },
     /// What was asked for is known of an ideal cavity only.
     #[error(
         "the symmetric orbits of a cavity and their limits are known in closed form where it is level, does not rub, and \

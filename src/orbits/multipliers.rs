@@ -2,6 +2,7 @@
 //! evidence, and what they say of stability.
 
 use nalgebra::linalg::Schur;
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, Matrix4, SMatrix};
 use serde::Serialize;
 
@@ -13,6 +14,9 @@ pub(super) const LARGEST_SWEEPS: usize = 300;
 /// stalls on spectra symmetric about 0 (a biquadratic characteristic polynomial), which any shift
 /// makes unsymmetric.
 const SHIFTS: [f64; 3] = [0.0, 0.37, -0.61];
+
+/// Largest entry of a matrix up to which nothing is lost.
+const UNBALANCED: f64 = 16.0;
 
 /// Operations of a Schur decomposition, `25 n^3` (Golub and Van Loan, Matrix Computations, 7.5.6).
 const SCHUR: u64 = 25 * 4 * 4 * 4;
@@ -89,7 +93,11 @@ pub enum Leading {
 }
 
 fn eigenvalues(jacobian: &Matrix4<f64>, shift: f64) -> Option<[Complex<f64>; 4]> {
-    let shifted = jacobian + Matrix4::identity() * shift;
+    let mut shifted = jacobian + Matrix4::identity() * shift;
+    // A phase beside displacements of many clearances: without this the small entries are lost in the rounding of the large.
+    if jacobian.amax() > UNBALANCED {
+        balance_parlett_reinsch(&mut shifted);
+    }
     let schur = Schur::try_new(shifted, f64::EPSILON, LARGEST_SWEEPS)?;
     let found = schur.complex_eigenvalues();
     let values = [0, 1, 2, 3].map(|k| found[k] - shift);

@@ -17,7 +17,6 @@
 use nalgebra::Vector2;
 use serde::Serialize;
 
-use super::OrbitError;
 use super::admissibility::Admissibility;
 use super::equations as formulas;
 use super::flight::Flight;
@@ -25,12 +24,20 @@ use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
 use super::newton::{Convergence, Linearised};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
+use super::{MOST_HIDDEN, OrbitError};
+use crate::numerics::bracket::bisected;
 use crate::numerics::scan::sign_changes;
 use crate::system::{Excitation, System};
 
-/// Share of a flight next to either impact that is not searched for a grazing: there `k` is a difference of
-/// numbers near 1, and an orbit that grazes so soon rebounds with less than 1e-8 of its speed.
-const NEXT_TO_IMPACT: f64 = 1e-4;
+/// Share of a flight before its end that is not searched for a grazing: there `k` is a difference of numbers near 1.
+const BEFORE_IMPACT: f64 = 1e-4;
+/// After an impact it is a series while angles and decay are below this, of so many terms: the next is below rounding.
+const EARLY: f64 = 0.1;
+const TERMS: usize = 12;
+/// E-folds after which nothing is left of the free oscillation.
+const FADED: f64 = 40.0;
+/// Share of a flight within which a grazing is no other event than that the absorber stays on the wall.
+const AT_IMPACT: f64 = 1e-12;
 /// Pieces per radian of the faster of oscillator and excitation in which a grazing is looked for: too
 /// short for more than two turning points, and two are found.
 const PIECES_PER_RADIAN: f64 = 8.0;
@@ -48,6 +55,9 @@ pub struct SymmetricCurve {
     pub gain: f64,
     /// `T/2`, half the excitation period in fast time.
     pub half_period: f64,
+    /// `a - 1`, which for almost plastic impacts is almost nothing.
+    #[serde(skip)]
+    parting: f64,
     /// What friction adds to the steady motion at an impact, displacement and velocity over `Omega`.
     #[serde(skip)]
     shift: [f64; 2],
@@ -134,6 +144,7 @@ impl SymmetricCurve {
             displacement: formulas::DISPLACEMENT_LOSS.at([eps, period, q1]),
             velocity: formulas::VELOCITY_LOSS.at([eps, omega, period, q2, rebound]),
             rebound,
+            parting: -2.0 * r * (1.0 + eps) / (1.0 + r),
             gain: gain.at([eps, stiffness, loss]),
             half_period: 0.5 * period,
             shift,
@@ -210,12 +221,30 @@ impl SymmetricCurve {
         ]
     }
 
+    /// The same right after the impact, by its series: sums that do not cancel.
+    fn early_sway(&self, flight: &Flight, s: f64) -> [f64; 2] {
+        let (omega, damping) = (flight.frequency(), flight.damping());
+        let [mut free, mut free_rate] = self.deviation(omega);
+        let (mut steady, mut steady_rate) = (-self.displacement, -self.velocity * omega);
+        let first = self.parting * 2.0 / self.half_period;
+        let (mut k, mut rate) = (first * s, first);
+        let mut factor = s;
+        for order in 2..=TERMS {
+            (free, free_rate) = (free_rate, -damping * free_rate - free);
+            (steady, steady_rate) = (steady_rate, -omega * omega * steady);
+            let derivative = free_rate + steady_rate;
+            rate += derivative * factor;
+            factor *= s / order as f64;
+            k += derivative * factor;
+        }
+        [k, rate]
+    }
+
     /// `beta` above which the absorber passes a wall between impacts: the smallest at which
     /// `w = cos(Omega s) + beta k(s)` is 1 or -1 at some `s`, so that it turns there.
     pub(super) fn grazing(&self, flight: &Flight) -> Option<f64> {
         let omega = flight.frequency();
-        let range = [NEXT_TO_IMPACT, 1.0 - NEXT_TO_IMPACT].map(|part| part * self.half_period);
-        let pieces = (self.half_period * omega.max(1.0) * PIECES_PER_RADIAN).ceil();
+        let ranges = self.ranges(flight);
         let largest = |wall: f64| {
             // `1/beta` with `w = wall` at `s`, and the sign of its rate.
             let inverse = |s: f64| {
@@ -223,11 +252,57 @@ impl SymmetricCurve {
                 let room = 1.0 - wall * cos;
                 (wall * k / room, wall * rate * room - k * omega * sin)
             };
-            let turns = sign_changes(range, pieces as u32, |s| inverse(s).1);
-            turns.iter().map(|s| inverse(*s).0).fold(0.0, f64::max)
+            let turns = ranges
+                .iter()
+                .flat_map(|(range, pieces)| sign_changes(*range, *pieces, |s| inverse(s).1));
+            turns.map(|s| inverse(s).0).fold(0.0, f64::max)
         };
-        let largest = largest(1.0).max(largest(-1.0));
+        let largest = largest(1.0).max(largest(-1.0)).max(self.early_grazing(flight));
         (largest > 0.0).then(|| 1.0 / largest)
+    }
+
+    /// Until when the series holds.
+    fn early(&self, flight: &Flight) -> f64 {
+        EARLY * self.half_period.min(1.0 / flight.frequency().max(flight.damping()).max(1.0))
+    }
+
+    /// Where a grazing is looked for after that, in pieces too short for more than two turning points: longer and longer ones
+    /// while a fast decay ends, those of the oscillator until it has faded, then those of the excitation.
+    fn ranges(&self, flight: &Flight) -> Vec<([f64; 2], u32)> {
+        let (omega, half_damping) = (flight.frequency(), 0.5 * flight.damping());
+        let end = (1.0 - BEFORE_IMPACT) * self.half_period;
+        let step = 1.0 / (PIECES_PER_RADIAN * omega.max(1.0));
+        let mut from = self.early(flight);
+        let mut ranges = Vec::new();
+        while from < step.min(end) {
+            let to = (2.0 * from).min(end);
+            ranges.push(([from, to], 2));
+            from = to;
+        }
+        let slowest = if half_damping > 1.0 { 0.5 / half_damping } else { half_damping };
+        let rung = (FADED / slowest).clamp(from, end);
+        for (to, fastest) in [(rung, omega.max(1.0)), (end, omega)] {
+            let pieces = ((to - from) * fastest * PIECES_PER_RADIAN).ceil();
+            if to > from {
+                ranges.push(([from, to], (pieces as u32).max(2)));
+            }
+            from = to;
+        }
+        ranges
+    }
+
+    /// `1/beta` of a grazing right after the impact, on the wall that the absorber leaves; 0 where there is none.
+    fn early_grazing(&self, flight: &Flight) -> f64 {
+        let range = [AT_IMPACT * self.half_period, self.early(flight)];
+        let inverse = |s: f64| {
+            let ([k, rate], half) = (self.early_sway(flight, s), 0.5 * flight.frequency() * s);
+            let (sin, cos) = libm::sincos(half);
+            let room = 2.0 * sin * sin;
+            (k / room, rate * room - k * flight.frequency() * 2.0 * sin * cos)
+        };
+        // Where nothing parts the two this is the sticking.
+        let turns = bisected(range, |s| inverse(s).1).filter(|_| self.parting < 0.0);
+        turns.map_or(0.0, |s| inverse(s).0)
     }
 
     /// `beta` of the orbits at the squared linear amplitude `squared`, ascending, positive ones only.
@@ -296,7 +371,8 @@ impl SymmetricCurve {
 /// differ, has none: [`two_impact_orbits`](super::two_impact_orbits) are what becomes of them.
 ///
 /// # Errors
-/// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency.
+/// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency, [`OrbitError::Hidden`] so close
+/// to that that rounding hides the orbits.
 pub fn symmetric_orbits(system: &System) -> Result<Vec<SymmetricOrbit>, OrbitError> {
     let map = ImpactMap::of(system)?;
     if !system.cavity().is_symmetric() {
@@ -304,7 +380,14 @@ pub fn symmetric_orbits(system: &System) -> Result<Vec<SymmetricOrbit>, OrbitErr
     }
     let curve = SymmetricCurve::with(system, &map.flight);
     let [s, c] = map.flight.steady();
-    let found = curve.absorber_amplitudes(formulas::STEADY_SQUARE.at([1.0, s, c]));
+    let square = formulas::STEADY_SQUARE.at([1.0, s, c]);
+    let found = curve.absorber_amplitudes(square);
+    for beta in &found {
+        let times = square.sqrt() / curve.cycle(&map.flight, *beta).size();
+        if times > MOST_HIDDEN {
+            return Err(OrbitError::Hidden { times });
+        }
+    }
     Ok(found.iter().filter_map(|beta| symmetric_orbit(system, &map, &curve, *beta)).collect())
 }
 

@@ -2,8 +2,12 @@
 
 use crate::common;
 use assert_cmd::Command;
-use vinesink::evidence::extremes::{Verdict, entries, unit_checks};
+use vinesink::evidence::extremes::layers::rows;
+use vinesink::evidence::extremes::{Layer, Verdict, entries, unit_checks};
 use vinesink::evidence::reference::{Event, Reference};
+use vinesink::executor::Serial;
+use vinesink::motions::{Effort, Place, motions};
+use vinesink::operation_count::counted;
 use vinesink::simulation::trust::{self, Doubt};
 use vinesink::simulation::{Energy, Measurement, Simulation, Stop};
 use vinesink::system::{Parameters, State, System};
@@ -35,6 +39,39 @@ fn whatever_is_trusted_agrees_with_the_reference() {
         }
     }
     assert!(seen[0] > 30 && seen[1] > 2 && seen[2] == 1, "{seen:?}");
+}
+
+/// Theory, decay, exact orbits, their limits and dampers against a table of 80 digits, each row within its budget of
+/// operations.
+#[test]
+fn every_layer_holds_or_says_why() {
+    let mut held = Layer::ALL.map(|layer| (layer, 0));
+    let mut wrong = Vec::new();
+    for row in rows().expect("a table") {
+        let outcome = row.outcome().expect("a valid system");
+        match outcome.verdict {
+            Verdict::Wrong => wrong.push(format!("{row:?}: {:?}", outcome.wrong)),
+            Verdict::Holds if outcome.compared > 0 => {
+                held.iter_mut().filter(|(layer, _)| *layer == row.layer).for_each(|one| one.1 += 1);
+            }
+            _ => {}
+        }
+    }
+    assert!(wrong.is_empty(), "{}: {wrong:#?}", wrong.len());
+    assert!(held.iter().all(|(_, count)| *count >= 20), "{held:?}");
+}
+
+/// A structure damped a million times more than critically comes back so slowly that no start settles: it is
+/// measured where it is, and not flown on for millions of periods.
+#[test]
+fn an_overdamped_structure_is_not_waited_for() {
+    let base = common::table_1(8.0, 7.5).parameters();
+    let system = System::new(Parameters { damping: 3e8 * base.damping, ..base }).expect("valid");
+    let search = || motions(&[Place::new(&system, 4)], &Effort::over(100), &Serial);
+    let (found, operations) = counted(|| search().expect("inside").remove(0));
+    assert!(found.iter().any(|motion| motion.reached().starts > 0));
+    // 1.2e8, of some thousand periods of four starts, of which hundreds of times as many were flown.
+    assert!(operations < 300_000_000, "{operations:e}");
 }
 
 #[test]

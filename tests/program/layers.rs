@@ -57,6 +57,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "analysis",
             "answer",
+            "band",
             "bifurcation",
             "case",
             "evidence/reference",

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::system::{Cavity, Excitation, InvalidParameter, Parameters, State, System};
 
@@ -17,7 +17,7 @@ const LONGEST: f64 = 40_000.0;
 pub const IMPACT_LIMIT: u64 = 100_000;
 
 /// A number of Table 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Varied {
     /// Restitution `r`.

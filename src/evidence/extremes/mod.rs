@@ -1,13 +1,15 @@
 //! The simulation at the ends of its range: what is simulated there, measured, and compared with the
 //! reference in multiple precision. A run that the simulation trusts must agree with the reference;
-//! one that it does not trust must say so.
+//! one that it does not trust must say so. The same of the other layers, against a table.
 
 pub mod contact;
+pub mod layers;
 pub mod list;
 pub mod measure;
 pub mod units;
 
 pub use contact::{ContactTable, contact_costs};
+pub use layers::{Layer, LayerOutcome};
 pub use list::{Entry, Start, Varied, entries};
 pub use measure::{Comparison, Measured};
 pub use units::{UnitCheck, unit_checks};
@@ -36,6 +38,9 @@ pub enum ExtremesError {
     /// A system is none.
     #[error(transparent)]
     System(#[from] InvalidParameter),
+    /// The table of the layers cannot be read.
+    #[error("the table of the layers: {0}")]
+    Table(serde_json::Error),
     /// A start is impossible.
     #[error(transparent)]
     Start(#[from] StartError),
@@ -104,8 +109,9 @@ impl Comparison {
 }
 
 /// Whether nothing that is trusted is wrong.
-pub fn holds(outcomes: &[Outcome], units: &[UnitCheck]) -> bool {
+pub fn holds(outcomes: &[Outcome], layers: &[LayerOutcome], units: &[UnitCheck]) -> bool {
     outcomes.iter().all(|outcome| outcome.verdict != Verdict::Wrong)
+        && layers.iter().all(|outcome| outcome.verdict != Verdict::Wrong)
         && units.iter().all(|check| check.holds)
 }
 
@@ -115,11 +121,16 @@ pub fn holds(outcomes: &[Outcome], units: &[UnitCheck]) -> bool {
 /// [`RenderError::Template`] if template and page do not fit.
 pub fn page(
     outcomes: &[Outcome],
+    layers: &[LayerOutcome],
     contact: &[ContactTable],
     units: &[UnitCheck],
 ) -> Result<String, RenderError> {
     let context = json!({
         "outcomes": outcomes,
+        "layers": Layer::ALL.map(|layer| {
+            let rows: Vec<_> = layers.iter().filter(|one| one.layer == layer).collect();
+            json!({ "layer": layer, "rows": rows })
+        }),
         "contact": contact,
         "units": units,
         "table_1": list::table_1(&[]),
@@ -129,6 +140,9 @@ pub fn page(
             "impacts": list::IMPACT_LIMIT,
             "followed": measure::FOLLOWED,
             "roundings": ROUNDINGS,
+            "layer_roundings": layers::ROUNDINGS,
+            "residual": layers::RESIDUAL,
+            "operations": layers::MOST_OPERATIONS,
         },
     });
     template::render("extremes.md", &Units::reduced(), &context)
@@ -150,13 +164,18 @@ mod tests {
         let chosen = entries().expect("valid").into_iter().filter(wanted);
         let outcomes: Vec<Outcome> = chosen.map(Entry::outcome).collect();
         let contact = ContactTable { varied: vec![(Varied::Clearance, 0.3)], costs: Vec::new() };
-        let text = page(&outcomes, &[contact], &[]).expect("a page");
+        let rows = layers::rows().expect("a table");
+        let layers: Vec<LayerOutcome> =
+            rows.iter().take(3).map(|row| row.outcome().expect("valid")).collect();
+        let text = page(&outcomes, &layers, &[contact], &[]).expect("a page");
         for part in [
             "| damping $\\lambda$ | $100$ | 200 | ",
             "| several at once | $\\gamma = 10^{307}$, $\\varepsilon = 0.9$ | 0 of 200 | – | – | – | 0",
             "- start, outside by $10^{-9}\\,b$: refused: the start has",
             "Table 1 with $b = 0.3\\,\\mathrm{mm}$:",
             "Above $10^{-9}\\,b$",
+            "| theory | 3 | 3 | 0 | 0 | 0 |",
+            "| Table 1 | 14 | ",
         ] {
             assert!(text.contains(part), "{part} in\n{text}");
         }
