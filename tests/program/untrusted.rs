@@ -263,6 +263,8 @@ fn the_policy_lets_a_page_do_its_own_work_and_nothing_else() {
     assert_eq!(checks::noise(&mut page, &root), [""; 0]);
     let right = "getComputedStyle(document.querySelector('td.right')).textAlign";
     let report = root.join("reports/record/report.html");
+    drop(page);
+    let mut page = browser.page(DESKTOP);
     page.open(&report);
     assert_eq!(page.evaluate(right), "right");
     assert_eq!(checks::noise(&mut page, &root), [""; 0]);
