@@ -14,15 +14,10 @@ use sha2::{Digest as _, Sha256};
 /// assert_eq!(vinesink::digest::sha256(b"abc"), wanted);
 /// ```
 pub fn sha256(bytes: &[u8]) -> String {
-    sha256_bytes(bytes).iter().fold(String::with_capacity(64), |mut text, byte| {
+    Sha256::digest(bytes).iter().fold(String::with_capacity(64), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
         text
     })
-}
-
-/// The same as 32 bytes.
-pub fn sha256_bytes(bytes: &[u8]) -> [u8; 32] {
-    Sha256::digest(bytes).into()
 }
 
 #[cfg(test)]

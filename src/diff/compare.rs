@@ -154,7 +154,7 @@ impl Comparison<'_> {
                 pairs.for_each(|(k, (a, b))| self.fields(&format!("{path}[{}]", k + 1), a, b));
             }
             // What an input says beside its text.
-            _ if path.starts_with("inputs[") && old != new => {
+            _ if path.starts_with("inputs[") && !is_same(old, new) => {
                 self.given.push(change(path, old, new));
             }
             _ => {}
@@ -308,13 +308,10 @@ impl Comparison<'_> {
         };
         let found = change(path, &told(old), &told(new));
         let texts = old.as_str().zip(new.as_str());
-        let numbers = old.as_f64().zip(new.as_f64());
-        if let Some((old, new)) = numbers.filter(|_| path.starts_with("derived")) {
-            if (old - new).abs() <= ROUNDING * old.abs().max(new.abs()) {
-                self.found.folded.within += 1;
-            } else {
-                self.found.states.push(found);
-            }
+        if path.starts_with("derived") && is_same(old, new) {
+            self.found.folded.within += 1;
+        } else if path.starts_with("derived") {
+            self.found.states.push(found);
         } else if either(&unknown) || either(&Value::is_number) && !judged {
             self.found.folded.unjudged += 1;
         } else if without_elements(path) == "claims/verdict" {
@@ -349,6 +346,12 @@ fn named<'v>(list: &str, items: &'v [Value]) -> BTreeMap<String, &'v Value> {
 /// The words of a text that have no number in them.
 fn words(text: &str) -> impl Iterator<Item = &str> {
     text.split_whitespace().filter(|word| !word.contains(|c: char| c.is_ascii_digit()))
+}
+
+/// Whether two values are the same but for rounding.
+fn is_same(old: &Value, new: &Value) -> bool {
+    let rounds = |(a, b): (f64, f64)| (a - b).abs() <= ROUNDING * a.abs().max(b.abs());
+    old == new || old.as_f64().zip(new.as_f64()).is_some_and(rounds)
 }
 
 /// Whether two values differ in numbers alone, and in lists, which grow and shrink by chance.

@@ -36,12 +36,12 @@ use std::sync::LazyLock;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
+use sha2::{Digest as _, Sha256};
 use tera::{Context, ErrorKind, Kwargs, Map, State, StringInput, Tera, TeraResult, Value};
 
 use super::escape;
 use super::figure::Figure;
 use super::render::{RenderError, without_repeated_blank_lines};
-use crate::digest::sha256_bytes;
 use crate::quantity::catalogue::{self, Digits, Kind};
 use crate::quantity::{Units, numbers};
 
@@ -216,7 +216,7 @@ fn register(tera: &mut Tera, units: Units) {
 
 /// The hash by which a content security policy allows a style or a script.
 pub(super) fn policy_hash(text: &str) -> String {
-    format!("sha256-{}", STANDARD.encode(sha256_bytes(text.as_bytes())))
+    format!("sha256-{}", STANDARD.encode(Sha256::digest(text)))
 }
 
 /// The kind of a quantity, or of an id.

@@ -114,13 +114,12 @@ fn active(markdown: &str) -> Vec<String> {
                     found.push(format!("element: {html}"));
                 }
             }
-            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
-                if dest_url.contains("evil") || dest_url.starts_with("javascript") {
-                    found.push(format!("link: {dest_url}"));
-                }
+            Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. })
+                if dest_url.contains("evil") || dest_url.starts_with("javascript") =>
+            {
+                found.push(format!("link: {dest_url}"));
             }
             Event::Start(Tag::Strikethrough) => found.push("struck out".to_owned()),
-            Event::Code(_) => {}
             _ => {}
         }
         plain.push('\n');
@@ -133,11 +132,11 @@ fn active(markdown: &str) -> Vec<String> {
 /// In an attribute Markdown needs an escape of its own: filters make what has any.
 #[test]
 fn no_template_of_markdown_prints_into_an_attribute() {
+    let markup = Regex::new(r#"<[a-z]+ [a-z]+="[^">]*\{\{"#).expect("valid");
     for entry in fs::read_dir("templates").expect("a folder") {
         let path = entry.expect("an entry").path();
         if path.to_str().is_some_and(|path| path.ends_with(".md.tera")) {
             let template = fs::read_to_string(&path).expect("readable");
-            let markup = Regex::new(r#"<[a-z]+ [a-z]+="[^">]*\{\{"#).expect("valid");
             assert!(!markup.is_match(&template), "{}", path.display());
         }
     }
@@ -264,6 +263,8 @@ fn the_policy_lets_a_page_do_its_own_work_and_nothing_else() {
     assert_eq!(checks::noise(&mut page, &root), [""; 0]);
     let right = "getComputedStyle(document.querySelector('td.right')).textAlign";
     let report = root.join("reports/record/report.html");
+    drop(page);
+    let mut page = browser.page(DESKTOP);
     page.open(&report);
     assert_eq!(page.evaluate(right), "right");
     assert_eq!(checks::noise(&mut page, &root), [""; 0]);
@@ -386,9 +387,12 @@ fn difference(old: &Value, new: &Value, at: &str) -> Option<String> {
 /// What a comparison passes over: other texts are inputs or stand in a list that grows and shrinks by chance or along a
 /// band, and are summed up.
 fn is_passed_over(at: &str) -> bool {
-    ["/name", "/provenance/program"].contains(&at)
+    // The hash is held to the case file, which is not there.
+    ["/name", "/provenance/case_sha256", "/provenance/program"].contains(&at)
         || at.starts_with("/band/")
         || at.contains("/outcome/shares")
+        // A motion that one start of many found may be missed by the next ones.
+        || (at.starts_with("/motions/") && at.ends_with("/regime"))
 }
 
 /// Whether a quantity moved by far more than it is known to.
