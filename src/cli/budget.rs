@@ -11,7 +11,9 @@ use vinesink::optimize::Task;
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::sweep::{Plan, Point};
 use vinesink::system::System;
-use vinesink::transient::{RecordStudy, SweepStudy, looked_at, with_closer};
+use vinesink::transient::{
+    DecayStudy, RELEASES, RecordStudy, Scene, SweepStudy, looked_at, with_closer,
+};
 
 use super::progress::duration;
 
@@ -140,33 +142,31 @@ impl Work {
         Self::alone(case, vec![(1, "trajectory")], periods)
     }
 
-    /// What a case needs that is swept or that records drive; none for another. A sweep is flown the other way as well, and
-    /// at a quarter to four times the rate, eight times as long as one; some records for other structures.
+    /// What a case needs that is not driven steadily; none for another. A sweep is flown the other way as well, and at a
+    /// quarter to four times the rate, eight times as long as one; some records for other structures.
     pub fn transient(case: &Case) -> Option<Self> {
-        let (records, periods) = flown(case)?;
-        let given = case.simulation.starts;
-        let flights = match records {
-            0 => {
-                let even = given.unwrap_or(SweepStudy::STARTS.into());
-                with_closer(even) + 8 * even.min(SweepStudy::STARTS_BESIDE.into())
-            }
-            1 => {
-                let even = given.unwrap_or(RecordStudy::usual_places(1).into());
-                with_closer(even) + RecordStudy::FLIGHTS_OF_SPECTRUM
-            }
-            _ => {
-                let even = given.unwrap_or(RecordStudy::usual_places(records).into());
-                even + RecordStudy::FLIGHTS_OF_SPECTRUM / records as u64
-            }
+        let Flown { records, periods } = Flown::of(case)?;
+        let usual = case.design.transient()?.places(case.recording.as_ref()).into();
+        let even = case.simulation.starts.unwrap_or(usual);
+        let flights = match case.design.scene() {
+            Scene::Sweep => with_closer(even) + 8 * even.min(SweepStudy::STARTS_BESIDE.into()),
+            Scene::Record if records == 1 => with_closer(even) + RecordStudy::FLIGHTS_OF_SPECTRUM,
+            Scene::Record => even + RecordStudy::FLIGHTS_OF_SPECTRUM / records as u64,
+            _ => with_closer(even),
         };
         Some(Self::alone(case, vec![(flights, "flights")], periods))
     }
 
     /// The search for the best clearance of such a case, and the study of the one that is found.
     pub fn clearances(case: &Case) -> Vec<Self> {
-        let Some((records, periods)) = flown(case) else { return Vec::new() };
+        let Some(Flown { records, periods }) = Flown::of(case) else { return Vec::new() };
+        let releases = case.optimize.releases.map_or(1, |_| RELEASES.into());
         let each = looked_at(records).map(|[clearances, starts]| {
-            let factors = vec![(clearances.into(), "clearances"), (starts.into(), "starts")];
+            let factors = vec![
+                (clearances.into(), "clearances"),
+                (starts.into(), "starts"),
+                (releases, "releases"),
+            ];
             Self::alone(case, factors, periods)
         });
         each.into_iter().chain(Self::transient(case)).collect()
@@ -297,15 +297,26 @@ impl Work {
     }
 }
 
-/// Records that drive a case, none where it is swept, and what is flown from one place of the absorber: periods of the
-/// sweep, pieces of all records.
-fn flown(case: &Case) -> Option<(usize, u64)> {
-    if let Some(sweep) = case.design.sine_sweep() {
-        return Some((0, sweep.count()));
+/// What is flown from one place of the absorber.
+struct Flown {
+    /// Records that drive a case; 0 where none does.
+    records: usize,
+    /// Periods of a sweep, pieces of all records, oscillations on the way to rest.
+    periods: u64,
+}
+
+impl Flown {
+    fn of(case: &Case) -> Option<Self> {
+        if let Some(periods) = DecayStudy::oscillations(case) {
+            return Some(Self { records: 0, periods });
+        }
+        if let Some(sweep) = case.design.sine_sweep() {
+            return Some(Self { records: 0, periods: sweep.count() });
+        }
+        let records = case.recording.as_ref()?.records();
+        let periods = records.iter().map(|record| record.count(&case.scales())).sum();
+        Some(Self { records: records.len().max(1), periods })
     }
-    let records = case.recording.as_ref()?.records();
-    let pieces = records.iter().map(|record| record.count(&case.scales())).sum();
-    Some((records.len().max(1), pieces))
 }
 
 /// Oscillations of the structure in an excitation period, or 1 where it has less.

@@ -1,5 +1,5 @@
 //! Progress of long work on standard error, with an estimate of the time left: a bar on a terminal, elsewhere
-//! a line every ten seconds.
+//! a line every four seconds.
 
 use std::io::{self, IsTerminal as _};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -18,7 +18,7 @@ const SHORT: Duration = Duration::from_secs(2);
 const FRAME: Duration = Duration::from_millis(200);
 /// Seconds between two lines, and a variable of the environment that sets another number for tests; with 0
 /// every step has its line.
-const BETWEEN_LINES: f64 = 10.0;
+const BETWEEN_LINES: f64 = 4.0;
 const INTERVAL: &str = "VINESINK_PROGRESS_SECONDS";
 
 /// When this process began its first long work, and when it is to tell of any: several short ones in a row are

@@ -1,6 +1,7 @@
 //! Columns as Parquet and back: one row group a chunk, zstd, the same bytes for the same columns.
 
 use std::io::Write;
+use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
@@ -127,6 +128,19 @@ fn put<T: DataType>(
 /// # Errors
 /// [`ParquetError`] of the library, if it is no such file or has other columns.
 pub fn read<R: ChunkReader + 'static>(
+    file: R,
+    columns: &mut [Column],
+    most: usize,
+) -> Result<(), ParquetError> {
+    // The library asserts what a damaged file need not hold, and says so on standard error.
+    let told = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let read = panic::catch_unwind(AssertUnwindSafe(|| read_group(file, columns, most)));
+    panic::set_hook(told);
+    read.unwrap_or_else(|_| Err(ParquetError::General("the file is damaged".into())))
+}
+
+fn read_group<R: ChunkReader + 'static>(
     file: R,
     columns: &mut [Column],
     most: usize,

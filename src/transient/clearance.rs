@@ -15,10 +15,10 @@ use crate::case::{Case, Design, Recording, Rounding};
 use crate::executor::{Executor, Serial, map};
 use crate::system::Parameter;
 
-/// Clearances that are looked at between the bounds, and then beside the best, and the releases where there is a range of
-/// them.
+/// Clearances that are looked at between the bounds, and then beside the best.
 const CLEARANCES_OF_ROUND: [u32; 2] = [64, 32];
-const RELEASES: u32 = 5;
+/// Releases that a clearance is looked at for where a case asks for a range of them.
+pub const RELEASES: u32 = 5;
 /// Places of the absorber by which all clearances are looked at. They are none of those by which a study looks at one:
 /// multiplied by the counts, which have different powers of two, places are odd.
 const SCREENED: u32 = 32;

@@ -20,7 +20,7 @@ mod study;
 mod sweep;
 mod theory;
 
-pub use clearance::{Best, best_clearance, looked_at};
+pub use clearance::{Best, RELEASES, best_clearance, looked_at};
 pub use driven::{DrivenError, Response, follow};
 pub use flight::Flight;
 #[cfg(feature = "sweep")]

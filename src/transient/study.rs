@@ -125,6 +125,13 @@ impl DecayStudy {
         Self::of_case_from(case, starts.unwrap_or(Self::STARTS), executor)
     }
 
+    /// About how many oscillations a start of a case is followed for; none for a case that is not released.
+    pub fn oscillations(case: &Case) -> Option<u64> {
+        case.design.release()?;
+        let alone = bare(&case.system(), case.decay_level);
+        Some(longest(alone).min(alone.min(LONGEST) as u64 + 1))
+    }
+
     /// The same by theory alone: nothing is simulated.
     pub fn by_theory(case: &Case) -> Option<Self> {
         Self::of_case_from(case, 0, &Serial)?.ok()

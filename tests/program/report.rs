@@ -14,6 +14,7 @@ fn case(name: &str) -> PathBuf {
 fn report(name: &str, out: &Path) -> PathBuf {
     let mut command = Command::cargo_bin("vinesink").expect("built");
     command.arg("report").arg(case(name)).arg("--out").arg(out);
+    command.env("VINESINK_PROGRESS_SECONDS", "1000000");
     let output = command.assert().success().get_output().clone();
     assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
     out.join(name)

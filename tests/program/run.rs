@@ -6,7 +6,9 @@ use assert_cmd::Command;
 
 pub fn vinesink(arguments: &[&str]) -> Output {
     let mut command = Command::cargo_bin("vinesink").expect("the program");
-    command.args(arguments).output().expect("it runs")
+    // Without progress, which a busy machine would add.
+    command.args(arguments).env("VINESINK_PROGRESS_SECONDS", "1000000");
+    command.output().expect("it runs")
 }
 
 /// What it says when it could not be done, without the frame and the line breaks of a message.
