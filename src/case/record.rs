@@ -129,12 +129,10 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 fn is_record(text: &str, quantity: RecordQuantity, physical: bool) -> bool {
     let Some(head) = lines(text).next() else { return false };
     let has_unit = |(of, cell): (Dimension, &str)| unit_in_brackets(of, cell).is_ok();
-    match (cells(head), physical) {
-        (Some((time, value)), true) => {
-            [(Dimension::Time, time), (quantity.dimension(), value)].into_iter().any(has_unit)
-        }
-        _ => head.replace(' ', "") == quantity.head(false),
-    }
+    let units = cells(head).map(|(time, value)| {
+        [(Dimension::Time, time), (quantity.dimension(), value)].into_iter().any(has_unit)
+    });
+    units == Some(true) || !physical && head.replace(' ', "") == quantity.head(false)
 }
 
 /// Largest value, dimensionless: beyond it rounding hides the walls whatever the structure.

@@ -15,6 +15,8 @@ use crate::numerics::extremes::Cubic;
 use crate::simulation::{Detail, Impact, Observer, Simulation, StartError, Stop};
 use crate::system::{InvalidParameter, State, System};
 
+/// Share of the largest displacement from which on rounding of a piece's frame is not passed over.
+const HIDDEN: f64 = 1e-6;
 /// Impacts in a piece after which a run is given up: chattering ends in contact long before.
 const MOST_IMPACTS: u64 = 100_000;
 
@@ -31,6 +33,11 @@ pub enum DrivenError {
     /// A case names a file, and nobody has handed in what it holds.
     #[error("the samples of the record are missing: hand them in by `Case::with_record`")]
     NoRecord,
+    /// The damping is so large against the motion that rounding of what it holds off hides it.
+    #[error(
+        "the structure is damped so much that rounding hides its motion under the record; lower its damping"
+    )]
+    Damped,
     /// A piece is too short or too long for a number.
     #[error(transparent)]
     Piece(#[from] InvalidParameter),
@@ -244,11 +251,12 @@ pub(super) fn follow_from(
 ) -> Result<Response, DrivenError> {
     let damping = system.mass_ratio() * system.damping();
     let mut meter = Meter::new(system.mass_ratio(), damping);
-    let mut state = start;
+    let (mut state, mut farthest) = (start, 0.0_f64);
     for piece in pieces {
         meter.jump(piece, &mut state);
         let free = unforced(system, piece.duration)?;
         let frame = Frame::of(piece, damping);
+        farthest = farthest.max(frame.shift.abs());
         let mut simulation = Simulation::new(&free, frame.enter(&state), 0.0)?;
         let last = (0.0, state);
         let mut log = Log { meter: &mut meter, piece: *piece, frame, last, told: &mut *told };
@@ -259,5 +267,9 @@ pub(super) fn follow_from(
         }
         meter.passed(piece, &state);
     }
-    Ok(meter.finished())
+    let found = meter.finished();
+    match farthest * f64::EPSILON > HIDDEN * found.peak {
+        true => Err(DrivenError::Damped),
+        false => Ok(found),
+    }
 }

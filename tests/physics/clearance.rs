@@ -34,7 +34,7 @@ fn no_other_clearance_leaves_less_of_a_sweep() {
     let [checked, error] = best.checked;
     assert!(checked < best.own[0], "{best:?}");
     let [found, alone] = peaks_of_sweep(&text, best.design.clearance());
-    assert!(found <= checked + error && found > 0.9 * checked, "{found} {best:?}");
+    assert!(found <= 1.03 * checked + error && found > 0.9 * checked, "{found} {best:?}");
     let [of_own, alone_with_own] = peaks_of_sweep(&text, own);
     assert!((alone / alone_with_own - 1.0).abs() < 1e-12, "{alone} {alone_with_own}");
     assert!((of_own / best.own[0] - 1.0).abs() < 0.03, "{of_own} {best:?}");

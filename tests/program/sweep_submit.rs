@@ -342,7 +342,7 @@ fn tasks_find_the_record_of_the_case() {
     let copy = &place.submitted()[0];
     assert_eq!(read(&copy.join("tower-record.csv")), record);
     let planned = place.done(&["plan", copy.join("map.toml").to_str().expect("UTF-8")]);
-    assert_eq!(planned, "1 = 1 points, 32 starts each, in 1 chunk (0)\n");
+    assert_eq!(planned, "1 = 1 points, 64 starts each, in 1 chunk (0)\n");
 }
 
 /// A task that fails waits and begins again, and says so; after as many times as it may it fails.
