@@ -1,4 +1,4 @@
-"""Theory, exact orbits, limits, decay and dampers at the ends of every parameter's range, in 80 digits.
+"""Theory, exact orbits, limits, decay and dampers at the ends of every parameter's range, in 80 digits (sweeps in 22).
 
     python3 layers.py >../../src/evidence/extremes/layers.json
 

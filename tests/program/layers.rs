@@ -72,6 +72,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "simulation",
             "study",
             "system",
+            "transient",
             "validation",
         ],
     ),

@@ -387,8 +387,8 @@ fn difference(old: &Value, new: &Value, at: &str) -> Option<String> {
 /// What a comparison passes over: other texts are inputs or stand in a list that grows and shrinks by chance or along a
 /// band, and are summed up.
 fn is_passed_over(at: &str) -> bool {
-    // The hash is held to the case file, which is not there.
-    ["/name", "/provenance/case_sha256", "/provenance/program"].contains(&at)
+    // The hash is held to the case file, which is not there; the badge is what the verdict says.
+    ["/criteria/badge", "/name", "/provenance/case_sha256", "/provenance/program"].contains(&at)
         || at.starts_with("/band/")
         || at.contains("/outcome/shares")
         // A motion that one start of many found may be missed by the next ones.
