@@ -37,7 +37,7 @@ pub(super) struct Subject {
 
 /// What is found at a point.
 enum Found {
-    Release(DecayStudy),
+    Release(Box<DecayStudy>),
     /// Largest displacement without absorber and with the damper.
     Sweep {
         starts: Vec<SweepStart>,
@@ -83,7 +83,7 @@ impl Subject {
             Transient::Release(release) => {
                 let share = self.decay_level;
                 let study = DecayStudy::without_theory(&system, scales, &release, share, places);
-                Found::Release(DecayStudy { count_inactive: inactive, ..study.ok()? })
+                Found::Release(Box::new(DecayStudy { count_inactive: inactive, ..study.ok()? }))
             }
             Transient::Sweep(sweep) => {
                 let starts = SweepStudy::starts(&system, scales, &sweep, places, inactive).ok()?;
