@@ -1,5 +1,5 @@
 //! Text from outside on a page, in a message of a build server and on a terminal: nothing in it means anything
-//! there. A template escapes all that it prints by the kind of its page, which [`of_page`] knows; what is to stay as
+//! there. A template escapes all that it prints by the kind of its page, which `of_page` knows; what is to stay as
 //! it is says so with a filter.
 
 use std::io::{self, Write};

@@ -50,7 +50,7 @@ pub struct SweepStudy {
     pub sweep: SineSweep,
     /// Every start, in the order in which they were flown, and how many of the first are at even places.
     pub starts: Vec<SweepStart>,
-    /// See [`Self::starts`].
+    /// Even places among them.
     pub even: u64,
     /// The worst of the starts in the other direction.
     pub back: Passage,

@@ -42,7 +42,7 @@ pub struct DecayStudy {
     pub level: f64,
     /// Every start, in the order in which they were flown, and how many of the first are at even places.
     pub starts: Vec<Decay>,
-    /// See [`Self::starts`].
+    /// Even places among them.
     pub even: u64,
     /// What happened from the slowest of them.
     pub slowest_start: Option<Ringdown>,
