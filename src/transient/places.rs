@@ -54,7 +54,8 @@ pub(super) fn survey<T: Send + Sync, E: Send + Sync>(
     let count = if places.closer { with_closer(places.even) } else { places.even } as usize;
     let mut next: Vec<f64> = even(places.even).collect();
     while !next.is_empty() {
-        let flown = map(places.executor, "", next.len(), |k| outcome(next[k]));
+        let what = if found.is_empty() { "places" } else { "" };
+        let flown = map(places.executor, what, next.len(), |k| outcome(next[k]));
         for (place, one) in next.iter().zip(flown) {
             found.push((*place, one?));
         }
