@@ -26,8 +26,29 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 8] =
-    ["diff", "evidence", "extremes", "index", "jobs", "optimize", "paper", "tradeoff"];
+const NOT_IN_A_BROWSER: [&str; 21] = [
+    "analyze",
+    "captions/record",
+    "captions/release",
+    "captions/sine-sweep",
+    "captions/sweep",
+    "check",
+    "clearance",
+    "diff",
+    "evidence",
+    "extremes",
+    "flight",
+    "index",
+    "jobs",
+    "optimize",
+    "paper",
+    "record",
+    "release",
+    "simulate",
+    "sine-sweep",
+    "sweep",
+    "tradeoff",
+];
 
 /// Writes a list of every file of `templates/`: its path there without `.tera`, and its text.
 fn templates() -> Result<(), Box<dyn Error>> {

@@ -261,6 +261,7 @@ impl System {
     }
 
     /// The same system whose excitation is ahead by a phase in radians: `sin(Omega tau + lead)`.
+    #[cfg(feature = "case")]
     pub(crate) fn with_lead(&self, lead: f64) -> Self {
         Self { lead, ..*self }
     }

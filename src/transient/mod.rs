@@ -26,6 +26,7 @@ pub use flight::Flight;
 #[cfg(feature = "sweep")]
 pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
+#[cfg(feature = "sweep")]
 pub(crate) use places::Places;
 pub use places::{share_above, with_closer, worst_of_places};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
