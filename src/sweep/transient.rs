@@ -12,7 +12,7 @@ use crate::executor::Serial;
 use crate::transient::linear::swept;
 use crate::transient::{
     DecayStudy, Places, Predicted, Record, RecordStudy, SweepStart, SweepStudy, Transient, bare,
-    longest, with_closer, worst,
+    followed, with_closer, worst,
 };
 
 /// Seconds for an oscillation on the way to rest, a period of a sweep and a piece of a record from one place of the
@@ -108,8 +108,7 @@ impl Subject {
         let (places, scales) = (with_closer(places(plan).into()) as f64, &point.scales);
         match of {
             Transient::Release(release) => {
-                let alone = bare(system, self.decay_level);
-                let flown = places * alone.min(longest(alone) as f64) * OSCILLATION;
+                let flown = places * followed(bare(system, self.decay_level)) * OSCILLATION;
                 let from = release.amplitude(scales);
                 let asked = plan.settings.record.contains(&Recorded::TheoryDecayTime);
                 match asked && from <= Predicted::LARGEST {

@@ -34,7 +34,7 @@ pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
 pub use study::{Decay, DecayStudy, DecayTime, Inactive};
 #[cfg(feature = "sweep")]
-pub(crate) use study::{bare, longest};
+pub(crate) use study::{bare, followed};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;
 

@@ -128,8 +128,7 @@ impl DecayStudy {
     /// About how many oscillations a start of a case is followed for; none for a case that is not released.
     pub fn oscillations(case: &Case) -> Option<u64> {
         case.design.release()?;
-        let alone = bare(&case.system(), case.decay_level);
-        Some(longest(alone).min(alone.min(LONGEST) as u64 + 1))
+        Some(libm::ceil(followed(bare(&case.system(), case.decay_level))) as u64)
     }
 
     /// The same by theory alone: nothing is simulated.
@@ -310,7 +309,12 @@ pub(crate) fn bare(system: &System, share: f64) -> f64 {
     -2.0 * libm::log(share) / (system.mass_ratio() * system.damping() * TAU)
 }
 
-/// Oscillations that a decay is followed for.
+/// About how many oscillations a decay is followed for, by those of the structure alone.
+pub(crate) fn followed(bare: f64) -> f64 {
+    bare.min(longest(bare) as f64)
+}
+
+/// Oscillations that a decay is followed for at the most.
 pub(crate) fn longest(bare: f64) -> u64 {
     libm::ceil((1.5 * bare).min(LONGEST)) as u64 + 20
 }

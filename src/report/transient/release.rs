@@ -46,7 +46,7 @@ fn row(scale: &Scale, decay: &Decay) -> Value {
 
 /// A time in oscillations of the structure.
 fn time(scale: &Scale, kind: &'static Kind, oscillations: f64, method: Method) -> Quantity {
-    Quantity::new(kind, scale.time(TAU * oscillations), method)
+    time_with(scale, kind, [oscillations, 0.0], method)
 }
 
 fn time_with(scale: &Scale, kind: &'static Kind, time: Measured, method: Method) -> Quantity {
