@@ -175,6 +175,51 @@ def theory(parameters):
     return found
 
 
+BANDS = (mp.mpf(3), (mp.mpf("0.2"), mp.mpf(3)))  # detunings to both sides of resonance, factors of the forcing
+SCANNED = 600
+
+
+def bands(parameters):
+    """The share of a band in area Z3: where a fixed point is on the stable branch of the manifold, or on its left branch while
+    the forcing is below the Hopf boundary. Scanned, and each change bisected."""
+    eps, damping, restitution, omega, forcing = parameters
+
+    def in_z3(slow):
+        fold = slow.fold()
+        points = slow.points()
+        below = slow.sides(fold)[2] and slow.gamma < mp.sqrt(slow.force(fold))
+        return any(fold <= one <= BREAKING for one in points) or bool(below) and any(one < fold for one in points)
+
+    def share(low, high, at):
+        places = [low + (high - low) * (k + mp.mpf("0.37")) / SCANNED for k in range(SCANNED)]
+        edges, known = [low], [in_z3(at(one)) for one in places]
+        for left, right, before, after in zip(places, places[1:], known, known[1:]):
+            if before != after:
+                for _ in range(70):
+                    middle = (left + right) / 2
+                    if in_z3(at(middle)) == before:
+                        left = middle
+                    else:
+                        right = middle
+                edges.append((left + right) / 2)
+        edges.append(high)
+        parts, state = mp.mpf(0), known[0]
+        for left, right in zip(edges, edges[1:]):
+            parts += (right - left) * state
+            state = not state
+        return parts / (high - low)
+
+    with mp.workdps(40):
+        width, (least, most) = BANDS
+        # The program is given frequency ratios in doubles.
+        low, high = (mp.mpf(max(float(1 + sign * width * eps), 1e-3)) for sign in (-1, 1))
+        # An end of a stretch is known to a rounding of the frequency ratio.
+        known = 8 * ULP / (high - low)
+        of_frequency = share(low, high, lambda one: Slow(eps, damping, restitution, one, forcing))
+        of_amplitude = share(least, most, lambda one: Slow(eps, damping, restitution, omega, one * forcing))
+        return {"z3-frequency": (of_frequency, known), "z3-amplitude": (of_amplitude, 8 * ULP)}
+
+
 # --- Free decay: an integral over the amplitude ----------------------------------------------------------------------
 
 
@@ -691,6 +736,7 @@ def own_checks():
 
 LAYERS = {
     "theory": lambda p, base: theory(p),
+    "band": lambda p, base: bands(p),
     "decay": lambda p, base: decay(p),
     "orbits": orbits,
     "limits": limits,

@@ -10,7 +10,6 @@ use vinesink::study::fidelity::Plan;
 use super::budget::{self, ANALYSIS, Work};
 use super::case_file::{self, OneCase};
 use super::parallel::Parallel;
-use super::progress::Progress;
 use super::transient;
 
 /// Print what the theory and the exact orbits say of a case
@@ -51,7 +50,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         work.extend(Work::motions(&case, &effort));
     }
     long.allows(path, &case, &work)?;
-    let progress = Progress::estimated("analysis", budget::seconds(&work));
+    let progress = budget::progress("analysis", &case, &work, 0.0);
     let answer = Answer::of(&case, Asked::Analysis, plan.as_ref(), &Parallel)
         .into_diagnostic()
         .wrap_err_with(|| format!("{} cannot be analysed", path.display()))?;

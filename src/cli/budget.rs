@@ -2,20 +2,22 @@
 
 use std::fmt;
 use std::path::Path;
+use std::time::Instant;
 
 use clap::Args;
 use miette::{Result, miette};
 use vinesink::case::{Case, Objective};
 use vinesink::motions::{Effort, SettlingTime, longest_window};
 use vinesink::optimize::Task;
+use vinesink::simulation::{Measurement, Simulation, Stop};
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::sweep::{Plan, Point};
-use vinesink::system::System;
+use vinesink::system::{State, System};
 use vinesink::transient::{
     DecayStudy, RELEASES, RecordStudy, Scene, SweepStudy, looked_at, with_closer,
 };
 
-use super::progress::duration;
+use super::progress::{Progress, duration};
 
 /// Seconds that are ordinary: every shipped case takes a few.
 const ORDINARY: f64 = 60.0;
@@ -110,6 +112,38 @@ pub fn seconds(work: &[Work]) -> f64 {
     work.iter().map(Work::seconds).sum()
 }
 
+/// Progress of work on a case that cannot be counted, with so many seconds besides. How long it will be is estimated when it
+/// is told: the constants above are of ordinary motions, and chattering, or a transient that is stiff, takes ten times as
+/// long.
+pub fn progress(name: &str, case: &Case, work: &[Work], besides: f64) -> Progress {
+    let (expected, system) = (seconds(work), case.system());
+    Progress::estimated(name, move || besides + expected * slowness(&system))
+}
+
+/// Seconds in which a trajectory is flown to see how long it takes, and impacts after which it is looked at again.
+const LOOK: f64 = 0.05;
+const IMPACTS: u64 = 1000;
+/// Where it starts: it meets both walls, whatever drives it.
+const ACROSS: State = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 };
+
+/// How much longer a period takes than [`ALONE`] says, with its measurement; 1 at least.
+fn slowness(system: &System) -> f64 {
+    let Ok(mut simulation) = Simulation::new(system, ACROSS, 0.0) else { return 1.0 };
+    let mut measurement = Measurement::begin(system, simulation.state());
+    let begin = Instant::now();
+    let seconds = || begin.elapsed().as_secs_f64();
+    while seconds() < LOOK {
+        if !matches!(
+            simulation.run(1, IMPACTS, &mut measurement),
+            Stop::EndTime | Stop::ImpactLimit
+        ) {
+            break;
+        }
+    }
+    let periods = simulation.periods().max(1) as f64;
+    (seconds() / (periods * oscillations(system) * ALONE)).max(1.0)
+}
+
 /// Trajectories of one kind that a command simulates, as far as they are known before.
 #[derive(Debug)]
 pub struct Work {
@@ -154,7 +188,7 @@ impl Work {
             Scene::Record => even + RecordStudy::FLIGHTS_OF_SPECTRUM / records as u64,
             _ => with_closer(even),
         };
-        Some(Self::alone(case, vec![(flights, "flights")], periods))
+        Some(Self::flights(case, vec![(flights, "flights")], periods))
     }
 
     /// The search for the best clearance of such a case, and the study of the one that is found.
@@ -167,7 +201,7 @@ impl Work {
                 (starts.into(), "starts"),
                 (releases, "releases"),
             ];
-            Self::alone(case, factors, periods)
+            Self::flights(case, factors, periods)
         });
         each.into_iter().chain(Self::transient(case)).collect()
     }
@@ -243,6 +277,12 @@ impl Work {
         }
         let systems: Vec<System> = points.iter().filter_map(|point| point.system).collect();
         Self::side_by_side(&systems, counts, plan.settings.periods)
+    }
+
+    /// Of a structure that is not driven steadily.
+    fn flights(case: &Case, trajectories: Vec<(u64, &'static str)>, periods: u64) -> Self {
+        let each = case.design.scene().seconds();
+        Self { trajectories, periods: periods as f64, of: PERIODS, oscillations: 1.0, each }
     }
 
     fn alone(case: &Case, trajectories: Vec<(u64, &'static str)>, periods: u64) -> Self {

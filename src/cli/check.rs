@@ -14,7 +14,6 @@ use vinesink::report::render::RenderError;
 use super::budget::{self, Long, Work};
 use super::case_file::{self, Reading};
 use super::parallel::Parallel;
-use super::progress::Progress;
 use super::{output, transient};
 
 /// Hold each case against its criteria
@@ -117,7 +116,7 @@ fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
         work.extend(Work::criteria(&case));
     }
     long.allows(path, &case, &work)?;
-    let _progress = Progress::estimated("check", budget::seconds(&work));
+    let _progress = budget::progress("check", &case, &work, 0.0);
     let answer = Answer::of(&case, Asked::Criteria, None, &Parallel).into_diagnostic()?;
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));

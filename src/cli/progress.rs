@@ -48,9 +48,11 @@ struct Work {
 enum Size {
     /// So many steps.
     Steps(u64),
-    /// About so many seconds, where steps cannot be counted.
-    Seconds(f64),
+    /// About so many seconds, where steps cannot be counted; estimated when it is first told.
+    Seconds(Estimate),
 }
+
+type Estimate = LazyLock<f64, Box<dyn FnOnce() -> f64 + Send>>;
 
 impl Progress {
     /// Of a number of steps, which [`Progress::advance`] counts.
@@ -59,8 +61,9 @@ impl Progress {
     }
 
     /// Of work that cannot be counted and takes about so many seconds.
-    pub fn estimated(name: &str, seconds: f64) -> Self {
-        Self::begin(Work { name: name.to_owned(), size: Size::Seconds(seconds) })
+    pub fn estimated(name: &str, seconds: impl FnOnce() -> f64 + Send + 'static) -> Self {
+        let estimate = Estimate::new(Box::new(seconds));
+        Self::begin(Work { name: name.to_owned(), size: Size::Seconds(estimate) })
     }
 
     fn begin(work: Work) -> Self {
@@ -183,26 +186,29 @@ impl Work {
     /// How far it is after so many steps and seconds, in a line.
     fn line(&self, done: u64, elapsed: f64) -> String {
         let name = &self.name;
-        match self.size {
+        match &self.size {
             // The number of steps is known about: a little more may be done than was announced.
-            Size::Steps(steps) if done >= steps => format!("{name}: {steps} of {steps}, ending"),
+            Size::Steps(steps) if done >= *steps => format!("{name}: {steps} of {steps}, ending"),
             Size::Steps(steps) if done == 0 => format!("{name}: 0 of {steps}"),
             Size::Steps(steps) => {
                 let left = elapsed * (steps - done) as f64 / done as f64;
                 format!("{name}: {done} of {steps}, about {} left", duration(left))
             }
-            Size::Seconds(seconds) if elapsed < seconds => {
-                format!("{name}: about {} left", duration(seconds - elapsed))
+            Size::Seconds(seconds) if elapsed < **seconds => {
+                format!("{name}: about {} left", duration(**seconds - elapsed))
             }
-            Size::Seconds(_) => format!("{name}: {} so far", duration(elapsed)),
+            Size::Seconds(seconds) => {
+                let (elapsed, expected) = (duration(elapsed), duration(**seconds));
+                format!("{name}: {elapsed} so far, {expected} were expected")
+            }
         }
     }
 
     /// The same as a part of [`BAR`].
     fn part(&self, done: u64, elapsed: f64) -> u64 {
-        let part = match self.size {
-            Size::Steps(steps) => done as f64 / steps.max(1) as f64,
-            Size::Seconds(seconds) => elapsed / seconds,
+        let part = match &self.size {
+            Size::Steps(steps) => done as f64 / (*steps).max(1) as f64,
+            Size::Seconds(seconds) => elapsed / **seconds,
         };
         (BAR as f64 * part.min(1.0)) as u64
     }
@@ -248,9 +254,10 @@ mod tests {
         assert_eq!(counted(401).line(0, 10.0), "objective: 0 of 401");
         assert_eq!(counted(401).line(403, 30.0), "objective: 401 of 401, ending");
         assert_eq!(counted(1001).line(1, 60.0), "objective: 1 of 1001, about 16.7 h left");
-        let estimated = Work { name: "band".into(), size: Size::Seconds(300.0) };
+        let seconds = Estimate::new(Box::new(|| 300.0));
+        let estimated = Work { name: "band".into(), size: Size::Seconds(seconds) };
         assert_eq!(estimated.line(0, 60.0), "band: about 4 min left");
-        assert_eq!(estimated.line(0, 310.0), "band: 5 min so far");
+        assert_eq!(estimated.line(0, 310.0), "band: 5 min so far, 5 min were expected");
         assert_eq!([estimated.part(0, 60.0), estimated.part(0, 400.0)], [200, 1000]);
         assert_eq!([counted(8).part(2, 1.0), counted(0).part(3, 1.0)], [250, 1000]);
     }

@@ -17,7 +17,6 @@ use vinesink::transient::Scene;
 use super::budget::{self, Long, Work};
 use super::case_file::{self, Reading};
 use super::parallel::Parallel;
-use super::progress::Progress;
 use super::{index, output, transient};
 
 /// Write the design report of each case
@@ -186,7 +185,7 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
         work.extend(Work::criteria(case));
     }
     arguments.long.allows(path, case, &work)?;
-    let _progress = Progress::estimated(name, ORDINARY + budget::seconds(&work));
+    let _progress = budget::progress(name, case, &work, ORDINARY);
     let report = Report::of(name, case, plan.as_ref(), &Parallel).into_diagnostic()?;
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
     let trusted = report.answer.trusted();

@@ -16,7 +16,6 @@ use vinesink::system::State;
 use super::budget::Work;
 use super::case_file::{self, OneCase};
 use super::parallel::Parallel;
-use super::progress::Progress;
 use super::{budget, output, transient};
 
 /// Simulate a case directly, impact by impact
@@ -83,7 +82,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         None => Vec::from(Work::motions(&case, &effort)),
     };
     long.allows(path, &case, &work)?;
-    let progress = Progress::estimated("simulating", budget::seconds(&work));
+    let progress = budget::progress("simulating", &case, &work, 0.0);
     let mut log = match arguments.impacts {
         Some(_) => ImpactLog::default(),
         None => Measured::log(),

@@ -8,7 +8,7 @@ use super::identity::{Known, Proof, state_of};
 use super::rest::{AtRest, Rest};
 use super::watch::Watch;
 use super::{Facts, Kind, Motion, Reached};
-use crate::orbits::{Orbit, attracting_orbit, two_impact_orbits};
+use crate::orbits::{Orbit, attracting_orbit, attracting_orbits, two_impact_orbits};
 use crate::regimes::Regime;
 use crate::simulation::{Simulation, Stop};
 use crate::system::{State, System};
@@ -51,8 +51,13 @@ pub(super) fn steady_of(motions: &[Motion]) -> Option<&Motion> {
 /// The same with where they stand at phase 0.
 pub(super) fn known(system: &System) -> Vec<Known> {
     let mut found: Vec<Known> = Vec::new();
+    let may_reverse = system.cavity().friction_acceleration > 0.0;
+    let orbits = match may_reverse {
+        true => two_impact_orbits(system).map(|all| all.orbits),
+        false => attracting_orbits(system),
+    };
     // Without excitation, or at an undamped resonance, there are none.
-    for orbit in two_impact_orbits(system).map(|all| all.orbits).unwrap_or_default() {
+    for orbit in orbits.unwrap_or_default() {
         let (kind, sample) = match (orbit.attracts(), orbit.admissibility.reverses()) {
             (true, _) => (Kind::Orbit(Box::new(orbit)), None),
             (false, true) => match repeated(system, &orbit) {

@@ -101,17 +101,15 @@ pub(super) struct Distances {
 impl Distances {
     /// With the proof for the cycle that was measured, if there is one.
     pub fn proven(self, map: &ImpactMap, cycle: &Cycle) -> Admissibility {
-        let rubs = map.cavity().friction_acceleration > 0.0;
-        let proven = |leg: &Leg| {
-            let departure = Departure::of(leg);
-            approach(leg) > 0.0
-                && free_of_contact(map, leg, &departure)
-                && (!rubs || free_of_reversal(map, leg, &departure))
-        };
+        self.with(is_motion(map, cycle))
+    }
+
+    /// With what was proven.
+    pub fn with(self, admissible: bool) -> Admissibility {
         let Self { min_wall_distance, narrowest, slowest_impact, slowest_departure, slowest_slip } =
             self;
         Admissibility {
-            admissible: cycle.flights(map).iter().all(proven),
+            admissible,
             min_wall_distance,
             narrowest,
             slowest_impact,
@@ -153,6 +151,18 @@ impl Distances {
         }
         found
     }
+}
+
+/// Whether a cycle is proven to be a motion. One that is none is told by its first contact, long before its distances are
+/// known.
+pub(super) fn is_motion(map: &ImpactMap, cycle: &Cycle) -> bool {
+    let rubs = map.cavity().friction_acceleration > 0.0;
+    cycle.flights(map).iter().all(|leg| {
+        let departure = Departure::of(leg);
+        approach(leg) > 0.0
+            && free_of_contact(map, leg, &departure)
+            && (!rubs || free_of_reversal(map, leg, &departure))
+    })
 }
 
 /// Speed at which a flight meets its wall.

@@ -9,8 +9,9 @@ use nalgebra::{Matrix4, Matrix5, Vector4, Vector5};
 use serde::Serialize;
 
 use super::OrbitError;
-use super::admissibility::Admissibility;
+use super::admissibility::{Admissibility, Distances, is_motion};
 use super::impact_map::{ImpactMap, Step};
+use super::multipliers::Multipliers;
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use crate::system::System;
 
@@ -181,6 +182,17 @@ impl Converged {
         let admissibility = Admissibility::of(&self.map, &self.cycle);
         let jacobian = &self.linear.jacobian;
         Orbit::measured(self.cycle, jacobian, self.convergence, admissibility, origin)
+    }
+
+    /// The same if it attracts. Most of the thousands of cycles of a slow excitation do not, and are not measured.
+    pub fn attracting_orbit(self, origin: Origin) -> Option<Orbit> {
+        let multipliers = Multipliers::of(&self.linear.jacobian)?;
+        if !multipliers.stable() || !is_motion(&self.map, &self.cycle) {
+            return None;
+        }
+        let admissibility = Distances::of(&self.map, &self.cycle).with(true);
+        let Self { cycle, convergence, .. } = self;
+        Some(Orbit { cycle, convergence, multipliers, admissibility, origin })
     }
 }
 

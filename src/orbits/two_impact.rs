@@ -32,7 +32,7 @@ use serde::Serialize;
 use super::OrbitError;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
-use super::newton::converge;
+use super::newton::{Converged, converge};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 use crate::numerics::bracket::narrowed;
@@ -92,17 +92,13 @@ pub struct TwoImpactOrbits {
 /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency,
 /// [`OrbitError::Singular`] for one driven at a whole part of it.
 pub fn two_impact_orbits(system: &System) -> Result<TwoImpactOrbits, OrbitError> {
+    let (mut orbits, mut undecided) = (Vec::new(), Vec::new());
     let pair = Pair::of(system)?;
-    let symmetric = system.cavity().is_symmetric();
-    let mut orbits: Vec<Orbit> =
-        symmetric_orbits(system)?.into_iter().map(|found| found.orbit).collect();
-    let (mut roots, mut undecided) = pair.roots(symmetric);
-    if symmetric {
-        roots.extend(roots.clone().iter().map(|s| -s));
-        undecided.extend(undecided.clone().iter().map(|[from, to]| [-to, -from]));
-    }
-    for s in roots.into_iter().filter(|s| pair.impacts(*s).meets_from_inside()) {
-        let orbit = pair.orbit(s);
+    orbits.extend(symmetric_orbits(system)?.into_iter().map(|found| found.orbit));
+    let (roots, open) = pair.cycles(system.cavity().is_symmetric());
+    undecided.extend(open);
+    for s in roots {
+        let orbit = pair.converged(s).and_then(|found| found.orbit(Origin::ClosedForm).ok());
         undecided.extend(orbit.is_none().then_some([s, s]));
         orbits.extend(orbit);
     }
@@ -152,8 +148,15 @@ pub const ONE_ORBIT: f64 = 1e-6;
 /// # Errors
 /// As [`two_impact_orbits`].
 pub fn attracting_orbits(system: &System) -> Result<Vec<Orbit>, OrbitError> {
+    let pair = Pair::of(system)?;
+    let symmetric = symmetric_orbits(system)?.into_iter().map(|found| found.orbit);
+    let mut orbits: Vec<Orbit> = symmetric.filter(Orbit::attracts).collect();
+    let (roots, _) = pair.cycles(system.cavity().is_symmetric());
+    let converged = roots.into_iter().filter_map(|s| pair.converged(s));
+    orbits.extend(converged.filter_map(|found| found.attracting_orbit(Origin::ClosedForm)));
+    orbits.sort_by(|a, b| a.cycle.durations[0].total_cmp(&b.cycle.durations[0]));
     let mut found: Vec<Orbit> = Vec::new();
-    for orbit in two_impact_orbits(system)?.orbits.into_iter().filter(Orbit::attracts) {
+    for orbit in orbits {
         if !found.iter().any(|known| known.cycle.is_one_with(&orbit.cycle, ONE_ORBIT)) {
             found.push(orbit);
         }
@@ -285,6 +288,17 @@ impl Pair {
         way * way + difference * difference - steady * steady * self.squared
     }
 
+    /// Roots of `F` at which both walls are met from inside, those of mirror images included, and what is undecided.
+    fn cycles(&self, symmetric: bool) -> (Vec<f64>, Vec<[f64; 2]>) {
+        let (mut roots, mut undecided) = self.roots(symmetric);
+        if symmetric {
+            roots.extend(roots.clone().iter().map(|s| -s));
+            undecided.extend(undecided.clone().iter().map(|[from, to]| [-to, -from]));
+        }
+        roots.retain(|s| self.impacts(*s).meets_from_inside());
+        (roots, undecided)
+    }
+
     /// Roots of `F`, and what is undecided; of a symmetric cavity those of asymmetric orbits above 0.
     fn roots(&self, symmetric: bool) -> (Vec<f64>, Vec<[f64; 2]>) {
         let half = (0.5 - SHORTEST) * self.period;
@@ -325,8 +339,8 @@ impl Pair {
         (roots, undecided)
     }
 
-    /// The orbit with the root `s`, by Newton's method from its closed form; `None` where that fails or leads elsewhere.
-    fn orbit(&self, s: f64) -> Option<Orbit> {
+    /// The cycle with the root `s`, by Newton's method from its closed form; `None` where that fails or leads elsewhere.
+    fn converged(&self, s: f64) -> Option<Converged> {
         let at = self.impacts(s);
         let flight = &self.map.flight;
         let omega = flight.frequency();
@@ -350,6 +364,6 @@ impl Pair {
         };
         let found = converge(&self.map, &cycle).ok()?;
         let moved = found.cycle.durations[0] - at.durations[0];
-        (moved.abs() <= SAME * self.period).then(|| found.orbit(Origin::ClosedForm).ok())?
+        (moved.abs() <= SAME * self.period).then_some(found)
     }
 }

@@ -15,11 +15,6 @@ use crate::transient::{
     followed, with_closer, worst,
 };
 
-/// Seconds for an oscillation on the way to rest, a period of a sweep and a piece of a record from one place of the
-/// absorber, measured in the release profile on one core of an ARM server: 2.8, 1.6 and 0.3 us with some impacts each.
-const OSCILLATION: f64 = 3e-6;
-const PERIOD: f64 = 1.6e-6;
-const PIECE: f64 = 0.4e-6;
 /// Places of the absorber that take as long as the structure alone and with a damper.
 const ALTERNATIVES: f64 = 4.0;
 /// Seconds for theory, and those that grow with the cube of the amplitude over the clearance: 0.03, 0.3 and 2.5 s
@@ -106,9 +101,10 @@ impl Subject {
             return 0.0;
         };
         let (places, scales) = (with_closer(places(plan).into()) as f64, &point.scales);
+        let each = point.design.scene().seconds();
         match of {
             Transient::Release(release) => {
-                let flown = places * followed(bare(system, self.decay_level)) * OSCILLATION;
+                let flown = places * followed(bare(system, self.decay_level)) * each;
                 let from = release.amplitude(scales);
                 let asked = plan.settings.record.contains(&Recorded::TheoryDecayTime);
                 match asked && from <= Predicted::LARGEST {
@@ -116,10 +112,10 @@ impl Subject {
                     false => flown,
                 }
             }
-            Transient::Sweep(sweep) => (places + ALTERNATIVES) * sweep.count() as f64 * PERIOD,
+            Transient::Sweep(sweep) => (places + ALTERNATIVES) * sweep.count() as f64 * each,
             Transient::Record(_) => {
                 let pieces = self.records().iter().map(|record| record.count(scales)).sum::<u64>();
-                (places + ALTERNATIVES) * pieces as f64 * PIECE
+                (places + ALTERNATIVES) * pieces as f64 * each
             }
         }
     }

@@ -9,7 +9,8 @@ use crate::orbit_support::real_cavity::{apart, cavities, defect, fly, orbits, sy
 use vinesink::cavity::{CavityTheory, Forcing};
 use vinesink::orbits::newton::solve;
 use vinesink::orbits::{
-    AfterImpact, Closure, Cycle, ImpactMap, Measures, Orbit, Origin, Wall, two_impact_orbits,
+    AfterImpact, Closure, Cycle, ImpactMap, Measures, Orbit, Origin, Wall, attracting_orbits,
+    two_impact_orbits,
 };
 use vinesink::simulation::{Impact, ImpactLog, Side, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameter, Parameters, System};
@@ -31,6 +32,26 @@ fn orbits_close_under_the_equation_of_motion() {
         }
     }
     assert!(seen > 40 && admissible > 20 && reversed > 2, "{seen} {admissible} {reversed}");
+}
+
+/// Those that attract are found without measuring the others, of two mirror images one; where the excitation is 300 times
+/// slower than the structure there are some hundred others.
+#[test]
+fn attracting_orbits_are_those_of_all_that_attract() {
+    let slow =
+        System::new(Parameters { frequency_ratio: 1.0 / 300.3, ..table_1(8.0, 0.3).parameters() });
+    let mut attracting = 0;
+    for system in systems().into_iter().chain([table_1(8.0, 4.0), slow.expect("a system")]) {
+        let mut all: Vec<Orbit> = Vec::new();
+        for orbit in orbits(&system).into_iter().filter(Orbit::attracts) {
+            if !all.iter().any(|known| known.cycle.is_one_with(&orbit.cycle, 1e-6)) {
+                all.push(orbit);
+            }
+        }
+        assert_eq!(attracting_orbits(&system).expect("orbits"), all, "{system:?}");
+        attracting += all.len();
+    }
+    assert!(attracting > 10, "{attracting}");
 }
 
 /// Every cycle with two impacts from inside that Newton's method comes to from anywhere is one of those that were counted.

@@ -13,6 +13,7 @@ use super::{ExtremesError, Verdict};
 use crate::analysis::{Analysis, FreeDecay};
 use crate::band::Band;
 use crate::band::rivals::{TunedMassDamper, bare_along};
+use crate::band::theory::z3_share;
 use crate::bifurcation::Bifurcation;
 use crate::case::Scales;
 use crate::operation_count::counted;
@@ -40,6 +41,8 @@ const DECAY_FROM: f64 = 0.5;
 pub enum Layer {
     /// Fixed points of the slow flow with trace and determinant, boundaries, P1.
     Theory,
+    /// Shares of a band of frequencies, and of one of amplitudes, in area Z3.
+    Band,
     /// Time, share of the impacts and amplitude at the end of a free decay.
     Decay,
     /// Exact symmetric orbits with their largest multipliers.
@@ -58,8 +61,9 @@ pub enum Layer {
 
 impl Layer {
     /// All of them, in the order of the page.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Theory,
+        Self::Band,
         Self::Decay,
         Self::Orbits,
         Self::Limits,
@@ -207,6 +211,7 @@ impl Layer {
     fn answer(self, system: &System) -> Result<Answer, String> {
         match self {
             Self::Theory => theory(system),
+            Self::Band => Ok(band(system)),
             Self::Decay => Ok(decay(system)),
             Self::Orbits => orbits(system),
             Self::Limits => limits(system),
@@ -251,6 +256,22 @@ fn theory(system: &System) -> Result<Answer, String> {
         found.insert("node-B".to_owned(), node.absorber_amplitude);
     }
     Ok((found, doubts))
+}
+
+/// Detunings to both sides of resonance, the lowest frequency ratio, and factors of the forcing.
+const DETUNING: f64 = 3.0;
+const LOWEST: f64 = 1e-3;
+const AMPLITUDES: [f64; 2] = [0.2, 3.0];
+
+fn band(system: &System) -> Answer {
+    let width = DETUNING * system.mass_ratio();
+    let frequencies = [-width, width].map(|by| (1.0 + by).max(LOWEST));
+    let of = |over, range| z3_share(&Band { base: *system, over, range, spectrum: Vec::new() });
+    let values = [
+        ("z3-frequency", of(BandOver::Frequency, frequencies)),
+        ("z3-amplitude", of(BandOver::Amplitude, AMPLITUDES)),
+    ];
+    (values.map(|(name, value)| (name.to_owned(), value)).into(), Vec::new())
 }
 
 fn decay(system: &System) -> Answer {
