@@ -1,7 +1,6 @@
 //! Names the sources that a program is built from, so that it can tell its results from those of another
-//! build: a SHA-256 over every file of `src/` and the locked versions of its dependencies. Lists the templates.
+//! build: a SHA-256 over every file of `core/src/` and `src/`, and the locked versions of its dependencies. Lists the templates.
 
-#[cfg(feature = "case")]
 #[path = "src/digest.rs"]
 mod digest;
 
@@ -9,15 +8,13 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    #[cfg(feature = "case")]
-    sources()?;
+        sources()?;
     templates()
 }
 
-#[cfg(feature = "case")]
 fn sources() -> Result<(), Box<dyn Error>> {
     let mut list = String::new();
-    for file in files(&["src", "Cargo.lock"])? {
+    for file in files(&["core/src", "src", "Cargo.lock"])? {
         let named = digest::sha256(&std::fs::read(&file)?);
         list += &format!("{named} {}\n", file.display());
     }

@@ -1,140 +1,44 @@
 //! Analysis, event-driven simulation and design reports for vibro-impact nonlinear energy sinks.
 //!
-//! # Model
+//! The physics is a crate of its own, [`vinesink_core`], whose modules are here as well: its page has the model, its
+//! symbols and an example. This crate reads cases with units, answers what is asked of them, and writes reports.
 //!
-//! ```text
-//!    base             ┌─────────────────────────────────┐
-//!  F sin ωt    k1     │          oscillator m1          │
-//!     ┃──────/\/\/\───┤    ┌───────────────────────┐    │
-//!     ┃               │    │ ←─ b ─→ (m2) ←─ b ─→  │    │   the absorber m2 is free between
-//!     ┃───────┤ ├─────┤    └───────────────────────┘    │   two walls, which it hits
-//!              c1     └─────────────────────────────────┘
-//!                         ├─→ x           ├─→ y
-//! ```
-//!
-//! Everything is dimensionless: lengths are over the clearance `b`, time is `τ = ω0 t` with the natural
-//! frequency `ω0 = √(k1/m1)` (rad/s), a prime is a derivative by `τ`, and `w = x - y` is the relative displacement.
-//!
-//! | motion | equation |
-//! | --- | --- |
-//! | oscillator, `abs(w) < 1` | `x'' + ε λ x' + x = ε γ sin Ωτ + ε² λ Ω γ cos Ωτ` (a force on the mass has no second term) |
-//! | absorber, `abs(w) < 1` | `y'' = 0` |
-//! | impact, `abs(w) = 1` | `w'` becomes `-r w'`; `x' + ε y'` does not change |
-//!
-//! | symbol | definition | in [`Parameters`](system::Parameters) |
+//! | module | answers | begin with |
 //! | --- | --- | --- |
-//! | `ε` | mass ratio `m2 / m1` | `mass_ratio` |
-//! | `λ` | damping `c1 / (m2 ω0)`; the damping ratio is `ε λ / 2` | `damping` |
-//! | `r` | restitution, 0 to 1 | `restitution` |
-//! | `Ω` | excitation frequency `ω / ω0` | `frequency_ratio` |
-//! | `γ` | forcing per clearance: `F / (ε b)` for a base that moves by `F`, `P / (k1 ε b)` for a force `P` | `forcing_per_clearance` |
+//! | [`case`] | a case file, read or refused with what to do | [`Case::parse`](case::Case::parse) |
+//! | [`answer`] | what all commands know of a case | [`Answer::of`](answer::Answer::of) |
+//! | [`criteria`], [`optimize`] | whether a design holds, and which is best | [`optimize::Task::of`] |
+//! | [`sweep`] | grids of designs in Parquet files | [`sweep::Plan::of`] |
+//! | [`case_report`], [`report`], [`diff`] | reports, and what changed between two | [`case_report::Report::of`] |
 //!
-//! The equations are those of T. Li, S. Seguy, A. Berlioz, "On the dynamics around targeted energy transfer for
-//! vibro-impact nonlinear energy sink", Nonlinear Dynamics (2016). A length in metres is the number here times
-//! `b`, a velocity in m/s times `b ω0`, a time in seconds is `τ / ω0`, an energy in joules times `m1 (b ω0)²`.
+//! The feature `cli` (default) adds the program; without it nothing here starts a thread.
 //!
-//! # Example
-//!
-//! Table 1 of the paper at 8 Hz by theory, by an exact orbit and by simulation (the base's amplitude is inferred):
-//!
-//! ```
-#![doc = include_str!("../examples/ten_lines.rs")]
-//! ```
-//!
-//! # Layers
-//!
-//! | layer | answers | begin with |
-//! | --- | --- | --- |
-//! | [`system`] | what moves: parameters that are proven valid once | [`System::new`](system::System::new) |
-//! | [`analysis`] | what the theory of first order in `ε` says, in closed form | [`Analysis::of`](analysis::Analysis::of) |
-//! | [`orbits`] | exact periodic orbits at any `ε`, their bifurcations and branches | [`symmetric_orbits`](orbits::symmetric_orbits), [`branch::follow`](orbits::branch::follow) |
-//! | [`simulation`] | one trajectory, or many side by side, from event to event | [`Simulation::new`](simulation::Simulation::new) |
-//! | [`regimes`] | what a trajectory does, and what to call it | [`classify`](regimes::classify) |
-//! | [`motions`] | every long-term motion of a system, found and identified once | [`motions`](motions::motions) |
-//! | [`cavity`] | the theory where the cavity is tilted, rubs, or has unequal ends | [`CavityTheory::new`](cavity::CavityTheory::new) |
-//! | [`dissipation`] | what the absorber takes in every regime, and the slow flow with it | [`DissipationCurve::of`](dissipation::DissipationCurve::of) |
-//!
-//! `analysis`, `orbits` and `simulation` do not use one another: that they agree is evidence.
-//!
-//! # Features
-//!
-//! | feature | adds | crates |
-//! | --- | --- | --- |
-//! | none | the layers above: no files, threads or C code | `fearless_simd`, `libm`, `nalgebra`, `roots`, `serde`, `thiserror` |
-//! | `case` | case files with units, bands, criteria, optimisation, studies | `argmin`, `miette`, `rand_xoshiro`, `schemars`, `serde_json`, `sha2`, `strsim`, `toml` |
-//! | `report` | reports with figures, comparisons of reports, the evidence | `astro-float`, `base64`, `plotters`, `png`, `pulldown-cmark`, `pulldown-latex`, `tempfile`, `tera` |
-//! | `sweep` | grids of systems in Parquet files | `csv`, `parquet` |
-//! | `cli` (default) | the program | `clap`, `clap_complete`, `indicatif`, `rayon` |
-//!
-//! ```toml
-//! vinesink = { path = "vinesink", default-features = false }
-//! ```
-//!
-//! Without features the crate compiles for `wasm32-unknown-unknown` as well; build it with
-//! `-C target-feature=+simd128`, as the engine for many runs at once works with vectors.
-//!
-//! # Further
-//!
-//! Programs to start from are in `examples/`. The book is in `docs/src/`: `model.md` has every equation with
-//! its source, `theory.md` and `orbits.md` what is derived from them, `regimes.md` what motions are called,
-//! `accuracy.md` how exact each layer is, `limits.md` where the model ends.
-//!
-//! Modules whose page says that they are for the program itself may change at any time.
+//! Programs to start from are in `examples/`. The book is in `docs/src/`: `accuracy.md` says how exact each layer is,
+//! `limits.md` where the model ends. Modules may change at any time.
 #![warn(missing_docs)]
 #![forbid(unsafe_code)]
 
-pub mod analysis;
-#[cfg(feature = "case")]
 pub mod answer;
-#[cfg(feature = "case")]
 pub mod band;
-pub mod bifurcation;
-#[cfg(feature = "case")]
 pub mod case;
-#[cfg(feature = "report")]
 pub mod case_input;
-#[cfg(feature = "report")]
 pub mod case_report;
-pub mod cavity;
-#[cfg(feature = "case")]
 pub mod criteria;
-#[cfg(feature = "report")]
 pub mod diff;
-#[cfg(feature = "case")]
 pub mod digest;
-pub mod dissipation;
-pub mod equations;
-#[cfg(feature = "report")]
 pub mod evidence;
-pub mod executor;
-#[cfg(feature = "case")]
 pub mod method;
-pub mod motions;
-mod names;
-#[cfg_attr(
-    not(feature = "case"),
-    allow(dead_code, reason = "some methods serve studies of cases alone")
-)]
-mod numerics;
-pub mod operation_count;
-#[cfg(feature = "case")]
 pub mod optimize;
-pub mod orbits;
-#[cfg(feature = "case")]
 pub mod quantity;
-pub mod regimes;
-#[cfg(feature = "report")]
 pub mod report;
-pub mod simulation;
-#[cfg(feature = "report")]
 pub mod store;
-#[cfg(feature = "case")]
 pub mod study;
-#[cfg(feature = "sweep")]
 pub mod sweep;
-pub mod symbolic;
-pub mod system;
-#[cfg(feature = "case")]
 pub mod transient;
-#[cfg(feature = "case")]
 pub mod validation;
+
+pub use vinesink_core::{
+    analysis, bifurcation, cavity, dissipation, equations, executor, motions, operation_count,
+    orbits, regimes, simulation, symbolic, system,
+};
+pub(crate) use vinesink_core::numerics;

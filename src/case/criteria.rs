@@ -10,13 +10,14 @@ use super::number::{Bound, Form, sign_of};
 use super::reader::{Reader, Table, kind};
 use super::schema::add_names;
 use super::value::Place;
-use crate::names::names;
+use vinesink_core::names;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, ErrorKind, Kind};
 use crate::transient::Scene;
 
 names! { key:
     /// What a criterion is about. Over a band the worst place of it counts.
+    #[derive(schemars::JsonSchema)]
     pub enum Subject {
         /// Share of the band in area Z3 of the theory, strips included.
         Z3Share = "z3_share",

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::reader::{Reader, Table};
 use super::record;
 use super::schema::one_of;
-use crate::names::names;
+use vinesink_core::names;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
 use crate::transient::{RecordQuantity, Release, SineSweep, SweepRate, Transient};
@@ -15,6 +15,7 @@ use crate::transient::{RecordQuantity, Release, SineSweep, SweepRate, Transient}
 names! { name:
     /// How the oscillator is set in motion.
     #[derive(Default, Serialize)]
+    #[derive(schemars::JsonSchema)]
     pub(super) enum ExcitationKind {
         /// The base moves by F sin(omega t).
         #[default]

@@ -8,12 +8,13 @@ use super::Design;
 use super::criteria::{AREAS_ARE_IDEAL, EXACT_INSTEAD};
 use super::reader::{Reader, Table};
 use super::schema::in_design;
-use crate::names::names;
+use vinesink_core::names;
 use crate::transient::Scene;
 
 names! { name:
     /// What a design is chosen for, over the case's band if it has one.
     #[derive(Default)]
+    #[derive(schemars::JsonSchema)]
     pub enum Objective {
         /// The largest share of the band in area Z3 of the theory.
         #[default]

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::names::names;
+use vinesink_core::names;
 
 /// How the case is simulated. Each key may be left out.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -46,6 +46,7 @@ names! { name:
     /// A further figure, which a report holds only where its case asks for it; the usual figures are in
     /// every report without being named. These take a family of parameters, or a long look at one motion;
     /// figures in brackets are those of Li, Seguy, Berlioz 2016 that it repeats.
+    #[derive(schemars::JsonSchema)]
     pub enum ExtraFigure {
         /// The areas along the manifold, and how the fixed points move as the clearance grows (Fig. 5).
         Areas = "areas",

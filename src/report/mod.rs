@@ -14,7 +14,6 @@ pub mod mathml;
 pub mod optimize;
 pub mod render;
 pub mod stored;
-#[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
 pub mod transient;

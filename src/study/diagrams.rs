@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use crate::motions::{DiagramPoint, Effort, Motion, SweepDirection, sweep};
-use crate::orbits::measures::Peaks;
+use crate::orbits::Peaks;
 use crate::orbits::newton::solve;
 use crate::orbits::{
     Bifurcation, Closure, FullSystem, ImpactMap, Origin, StableStretch, symmetric_orbits,

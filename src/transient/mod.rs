@@ -23,17 +23,14 @@ mod theory;
 pub use clearance::{Best, RELEASES, best_clearance, looked_at};
 pub use driven::{DrivenError, Response, follow};
 pub use flight::Flight;
-#[cfg(feature = "sweep")]
 pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
-#[cfg(feature = "sweep")]
 pub(crate) use places::Places;
 pub use places::{share_above, with_closer, worst_of_places};
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
 pub use ringdown::{Ringdown, STEPS};
 pub use study::{Decay, DecayStudy, DecayTime, Inactive};
-#[cfg(feature = "sweep")]
 pub(crate) use study::{bare, followed};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;

@@ -7,10 +7,11 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
 use crate::case::Scales;
-use crate::names::names;
+use vinesink_core::names;
 
 names! { name:
     /// What a record, or a spectrum, is of.
+    #[derive(schemars::JsonSchema)]
     pub enum RecordQuantity {
         /// The acceleration of the base.
         BaseAcceleration = "base-acceleration",

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::super::Design;
 use super::super::reader::{Reader, Table};
-use crate::names::names;
+use vinesink_core::names;
 use crate::system::Parameter;
 use crate::transient::Scene;
 
@@ -23,6 +23,7 @@ pub struct SweepAxis {
 
 names! { name:
     /// How values are spread between the ends of an axis.
+    #[derive(schemars::JsonSchema)]
     pub(super) enum Scale {
         /// Evenly.
         Linear = "linear",

@@ -1,10 +1,11 @@
 //! What a sweep records of each point.
 
-use crate::names::names;
+use vinesink_core::names;
 use crate::transient::Scene;
 
 names! { key:
     /// Something that is recorded of each point.
+    #[derive(schemars::JsonSchema)]
     pub enum Recorded {
         /// Time in which a structure that is released or struck comes to rest without absorber.
         BareDecayTime = "bare_decay_time",

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde_json::{Value, json};
 
 use crate::quantity::{Kind, catalogue as of};
-use crate::regimes::modulation::Amplitudes;
+use crate::regimes::Amplitudes;
 use crate::report::figure::{
     Color, Dash, Figure, Fill, Hatch, Layer, Layout, MarkedPoint, Marker, Panel, Role, Style,
 };
