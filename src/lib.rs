@@ -37,8 +37,8 @@ pub mod sweep;
 pub mod transient;
 pub mod validation;
 
+pub(crate) use vinesink_core::numerics;
 pub use vinesink_core::{
     analysis, bifurcation, cavity, dissipation, equations, executor, motions, operation_count,
     orbits, regimes, simulation, symbolic, system,
 };
-pub(crate) use vinesink_core::numerics;

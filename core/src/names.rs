@@ -2,6 +2,7 @@
 
 /// Declares such an enum: the names, spelled once, are those of the parser, the schema and the function
 /// that is given first; the comments are what the schema says about them.
+#[doc(hidden)]
 #[macro_export]
 macro_rules! names {
     ($name:ident: $(#[$meta:meta])* $vis:vis enum $type:ident {

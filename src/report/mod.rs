@@ -4,8 +4,8 @@
 pub mod console;
 pub mod criteria;
 pub mod document;
+pub mod equations;
 pub mod escape;
-pub mod figure;
 pub mod figures;
 pub mod html;
 pub mod index;
@@ -18,4 +18,4 @@ pub mod sweep;
 pub mod template;
 pub mod transient;
 
-pub mod equations;
+pub use vinesink_figure as figure;

@@ -135,7 +135,7 @@ pub fn closed_form(system: &System) -> Result<Estimate, StudyError> {
         return Ok(closed_form_of_cavity(system));
     }
     let manifold = Manifold::of(system.restitution());
-    let points = fixed_points::solve(system, &manifold)?;
+    let points = fixed_points(system, &manifold)?;
     let stable = points.iter().rfind(|point| point.stable && point.admissible);
     let rms = |point: &FixedPoint| {
         let [c, b] = [point.oscillator_amplitude, point.absorber_amplitude];

@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
-use crate::orbits::branch::{Direction, Settings, follow};
 use crate::orbits::Peaks;
+use crate::orbits::branch::{Direction, Settings, follow};
 use crate::orbits::switching::{branch_off, continue_beyond};
 use crate::orbits::{
     Bifurcation, Branch, BranchEnd, Cycle, ImpactMap, Orbit, SpecialPoint, symmetric_orbits,

@@ -47,7 +47,7 @@ impl<'a> Facts<'a> {
     /// Smallest amplitude of a stable fixed point.
     pub fn theory_peak(&self) -> Option<f64> {
         let (system, manifold) = self.theory()?;
-        let points = fixed_points::solve(system, &manifold).ok()?;
+        let points = fixed_points(system, &manifold).ok()?;
         let stable = points.iter().filter(|point| point.stable && point.admissible);
         stable.map(|point| point.oscillator_amplitude).min_by(f64::total_cmp)
     }

@@ -1,10 +1,10 @@
-//! Columns as Parquet and back: one row group a chunk, zstd, the same bytes for the same columns.
+//! Columns as Parquet and back: one row group a chunk, gzip, the same bytes for the same columns.
 
 use std::io::Write;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
 
-use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical, ZstdLevel};
+use parquet::basic::{Compression, GzipLevel, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
@@ -86,7 +86,7 @@ fn properties(columns: &[Column], notes: &Notes) -> Result<Arc<WriterProperties>
     let notes = notes.iter().map(|(key, value)| KeyValue::new(key.clone(), Some(value.clone())));
     Ok(Arc::new(
         WriterProperties::builder()
-            .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
+            .set_compression(Compression::GZIP(GzipLevel::default()))
             .set_writer_version(WriterVersion::PARQUET_1_0)
             .set_statistics_enabled(EnabledStatistics::Chunk)
             .set_offset_index_disabled(true)

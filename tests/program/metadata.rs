@@ -18,7 +18,9 @@ impl Manifest {
     }
 
     fn get(&self, key: &str) -> &str {
-        self.0["package"][key].as_str().unwrap_or_else(|| panic!("{key}"))
+        let common = &self.0["workspace"]["package"];
+        let text = self.0["package"][key].as_str().or_else(|| common.get(key)?.as_str());
+        text.unwrap_or_else(|| panic!("{key}"))
     }
 
     fn keywords(&self) -> Vec<&str> {

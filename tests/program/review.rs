@@ -458,7 +458,9 @@ fn the_action_comments_once_and_fails_where_a_criterion_does() {
         read.lines().last().expect("a line").to_owned()
     };
     let copy = TempDir::new().expect("a folder");
-    for file in ["Cargo.toml", "Cargo.lock", "build.rs", "src/lib.rs", "templates/report.md.tera"] {
+    let sources = ["build.rs", "core/src/lib.rs", "figure/src/lib.rs", "src/lib.rs"];
+    for file in ["Cargo.toml", "Cargo.lock", "templates/report.md.tera"].into_iter().chain(sources)
+    {
         let to = copy.path().join(file);
         fs::create_dir_all(to.parent().expect("a folder")).expect("made");
         fs::copy(root().join(file), to).expect("copied");

@@ -9,7 +9,7 @@ mod areas;
 pub mod boundaries;
 mod curve;
 mod decay;
-pub mod fixed_points;
+mod fixed_points;
 pub mod frequency_response;
 mod manifold;
 pub mod motion;
@@ -25,7 +25,7 @@ pub use areas::{Area, Strip, Zone};
 pub use boundaries::{Boundaries, CodimensionTwo, SaddleNode};
 pub use curve::{Amplitude, FixedPointCurve};
 pub use decay::{EnergyShares, FreeDecay};
-pub use fixed_points::{FixedPoint, Kind};
+pub use fixed_points::{FixedPoint, Kind, solve as fixed_points};
 pub use manifold::{Branch, Manifold};
 
 /// The quadratic of the fixed points has a coefficient that is not finite.

@@ -1,7 +1,7 @@
 //! What a sweep records of each point.
 
-use vinesink_core::names;
 use crate::transient::Scene;
+use vinesink_core::names;
 
 names! { key:
     /// Something that is recorded of each point.

@@ -62,7 +62,7 @@ impl Areas {
             [0.75 * breaking, (breaking * hopf).sqrt(), 0.93 * hopf, between(0.5), between(0.97)]
         {
             let Ok(there) = system.with_clearance_scaled(clearance) else { continue };
-            chosen.push((clearance, fixed_points::solve(&there, manifold)?));
+            chosen.push((clearance, fixed_points(&there, manifold)?));
         }
         Ok(Some(Self { levels: Levels::of(manifold), lines: lines(system, manifold), chosen }))
     }

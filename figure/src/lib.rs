@@ -11,6 +11,8 @@
 //! ```
 //!
 //! For the program itself: this module may change at any time.
+#![warn(missing_docs)]
+#![forbid(unsafe_code)]
 
 mod candidates;
 mod colors;
