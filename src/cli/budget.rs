@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use clap::Args;
 use miette::{Result, miette};
+use vinesink::answer::trajectory::flown_while;
 use vinesink::case::{Case, Objective};
 use vinesink::motions::{Effort, SettlingTime, longest_window};
 use vinesink::optimize::Task;
-use vinesink::simulation::{Measurement, Simulation, Stop};
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::sweep::{Plan, Point};
 use vinesink::system::{State, System};
@@ -128,19 +128,9 @@ const ACROSS: State = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 1.0 }
 
 /// How much longer a period takes than [`ALONE`] says, with its measurement; 1 at least.
 fn slowness(system: &System) -> f64 {
-    let Ok(mut simulation) = Simulation::new(system, ACROSS, 0.0) else { return 1.0 };
-    let mut measurement = Measurement::begin(system, simulation.state());
     let begin = Instant::now();
     let seconds = || begin.elapsed().as_secs_f64();
-    while seconds() < LOOK {
-        if !matches!(
-            simulation.run(1, IMPACTS, &mut measurement),
-            Stop::EndTime | Stop::ImpactLimit
-        ) {
-            break;
-        }
-    }
-    let periods = simulation.periods().max(1) as f64;
+    let periods = flown_while(system, ACROSS, IMPACTS, || seconds() < LOOK).max(1) as f64;
     (seconds() / (periods * oscillations(system) * ALONE)).max(1.0)
 }
 

@@ -3,6 +3,9 @@
 use std::io::Write;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Arc;
+use std::sync::mpsc::channel;
+use std::thread;
+use std::time::Duration;
 
 use parquet::basic::{Compression, GzipLevel, LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -123,39 +126,55 @@ fn put<T: DataType>(
     Ok(())
 }
 
+/// The longest that reading a chunk may take; it takes milliseconds.
+const LONGEST: Duration = Duration::from_secs(5);
+
 /// Adds what is in a file with one row group to columns, which are those of its sweep; it has at most so many rows.
 ///
 /// # Errors
-/// [`ParquetError`] of the library, if it is no such file or has other columns.
-pub fn read<R: ChunkReader + 'static>(
+/// [`ParquetError`] of the library, if it is no such file or has other columns, or cannot be read in five seconds.
+pub fn read<R: ChunkReader + Send + 'static>(
     file: R,
     columns: &mut [Column],
     most: usize,
 ) -> Result<(), ParquetError> {
-    // The library asserts what a damaged file need not hold, and says so on standard error.
+    let damaged = || ParquetError::General("the file is damaged".into());
+    let storages: Vec<Storage> = columns.iter().map(|column| column.storage).collect();
+    // The library asserts what a damaged file need not hold, and says so on standard error; and what it does not know in
+    // the head of a page it passes over element by element, billions if the head says so. Such a thread ends with the
+    // process.
     let told = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
-    let read = panic::catch_unwind(AssertUnwindSafe(|| read_group(file, columns, most)));
+    let (done, read) = channel();
+    thread::spawn(move || {
+        let read = panic::catch_unwind(AssertUnwindSafe(|| read_group(file, &storages, most)));
+        // Nobody may wait any more.
+        let _ = done.send(read);
+    });
+    let read = read.recv_timeout(LONGEST);
     panic::set_hook(told);
-    read.unwrap_or_else(|_| Err(ParquetError::General("the file is damaged".into())))
+    let cells = read.map_err(|_| damaged())?.map_err(|_| damaged())??;
+    for (column, more) in columns.iter_mut().zip(cells) {
+        column.cells.extend(more);
+    }
+    Ok(())
 }
 
 fn read_group<R: ChunkReader + 'static>(
     file: R,
-    columns: &mut [Column],
+    storages: &[Storage],
     most: usize,
-) -> Result<(), ParquetError> {
+) -> Result<Vec<Vec<Option<Cell>>>, ParquetError> {
     let file = SerializedFileReader::new(file)?;
     let group = file.get_row_group(0)?;
     let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-    if group.num_columns() != columns.len() || rows > most {
+    if group.num_columns() != storages.len() || rows > most {
         return Err(ParquetError::General("the file has other columns or too many rows".into()));
     }
-    for (index, column) in columns.iter_mut().enumerate() {
-        let cells = cells(group.get_column_reader(index)?, column.storage, rows);
-        column.cells.extend(cells?);
-    }
-    Ok(())
+    let column = |(index, storage): (usize, &Storage)| {
+        cells(group.get_column_reader(index)?, *storage, rows)
+    };
+    storages.iter().enumerate().map(column).collect()
 }
 
 fn cells(

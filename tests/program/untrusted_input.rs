@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
 use tempfile::TempDir;
+use vinesink::case::Case;
+use vinesink::sweep::{Plan, columns, parquet};
 
 use crate::common;
 
@@ -436,4 +438,38 @@ fn a_case_without_a_name_is_refused() {
     }
     let names = |folder: &Path| fs::read_dir(folder).expect("a folder").count();
     assert_eq!((names(folder.path()), names(&folder.path().join("reports"))), (3, 1));
+}
+
+/// The head of a page with billions of elements that the library passes over one by one: given up after five seconds. In a
+/// process of its own, with which the thread ends that goes on.
+#[test]
+fn a_chunk_of_a_sweep_that_takes_for_ever_is_given_up() {
+    const CHILD: &str = "VINESINK_TEST_CHILD";
+    const NAME: &str = "untrusted_input::a_chunk_of_a_sweep_that_takes_for_ever_is_given_up";
+    let begin = Instant::now();
+    if std::env::var_os(CHILD).is_none() {
+        let program = std::env::current_exe().expect("this program");
+        let arguments = ["--exact", NAME, "--test-threads", "1"];
+        let ended = Command::new(program).args(arguments).env(CHILD, "1").output().expect("run");
+        assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stdout));
+        assert!(begin.elapsed() < Duration::from_secs(60), "{:?}", begin.elapsed());
+        return;
+    }
+    let case = fs::read_to_string("fuzz/corpus/results.toml").expect("a case");
+    let plan = Plan::of(&Case::parse("case.toml", &case).expect("a case")).expect("a sweep");
+    let most = usize::try_from(plan.points_per_chunk()).expect("few");
+    let mut read = columns::empty(&plan);
+    let mut file = fs::read("fuzz/corpus/results/000000000.parquet").expect("a chunk");
+    let folder = folder();
+    let path = folder.path().join("chunk.parquet");
+    let mut read = |bytes: &[u8]| {
+        fs::write(&path, bytes).expect("written");
+        parquet::read(fs::File::open(&path).expect("a file"), &mut read, most)
+    };
+    read(&file).expect("what the program wrote");
+    // After the magic number: fields that nobody knows, each a list of two billion flags that have no bytes of their own.
+    let endless = [0xf9, 0xf1, 0xff, 0xff, 0xff, 0xff, 0x07].repeat(100);
+    file.splice(4..4, endless);
+    let error = read(&file).expect_err("damaged");
+    assert!(error.to_string().contains("damaged"), "{error}");
 }
