@@ -106,7 +106,13 @@ pub mod dissipation;
 pub mod equations;
 #[cfg(feature = "report")]
 pub mod evidence;
+#[cfg(feature = "case")]
+pub mod excitation;
 pub mod executor;
+#[cfg(feature = "case")]
+pub mod flights;
+#[cfg(feature = "case")]
+pub mod linear;
 #[cfg(feature = "case")]
 pub mod method;
 pub mod motions;

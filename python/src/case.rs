@@ -18,7 +18,8 @@ use vinesink::report::transient as page;
 use vinesink::store::Reach;
 use vinesink::study::fidelity::Plan;
 use vinesink::system::State;
-use vinesink::transient::{DecayStudy, Scene, Study};
+use vinesink::excitation::Scene;
+use vinesink::transient::{DecayStudy, Study};
 
 use crate::simulate::{self, Impacts, Wanted};
 use crate::work::{self, Work, refused};

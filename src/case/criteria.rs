@@ -10,10 +10,10 @@ use super::number::{Bound, Form, sign_of};
 use super::reader::{Reader, Table, kind};
 use super::schema::add_names;
 use super::value::Place;
+use crate::excitation::Scene;
 use crate::names::names;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, ErrorKind, Kind};
-use crate::transient::Scene;
 
 names! { key:
     /// What a criterion is about. Over a band the worst place of it counts.

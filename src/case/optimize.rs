@@ -8,8 +8,8 @@ use super::Design;
 use super::criteria::{AREAS_ARE_IDEAL, EXACT_INSTEAD};
 use super::reader::{Reader, Table};
 use super::schema::in_design;
+use crate::excitation::Scene;
 use crate::names::names;
-use crate::transient::Scene;
 
 names! { name:
     /// What a design is chosen for, over the case's band if it has one.

@@ -13,7 +13,7 @@ use vinesink::report::{figures, template};
 use vinesink::study::CaseStudy;
 use vinesink::study::plots::{Map, Plot};
 use vinesink::system::Parameter;
-use vinesink::transient::Scene;
+use vinesink::excitation::Scene;
 
 use crate::controls;
 use crate::running::{self, From};

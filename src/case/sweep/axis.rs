@@ -6,9 +6,9 @@ use serde_json::Value;
 
 use super::super::Design;
 use super::super::reader::{Reader, Table};
+use crate::excitation::Scene;
 use crate::names::names;
 use crate::system::Parameter;
-use crate::transient::Scene;
 
 /// A parameter and its values, ascending, in SI units or as plain numbers.
 #[derive(Debug, Clone, PartialEq)]

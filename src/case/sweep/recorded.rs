@@ -1,7 +1,7 @@
 //! What a sweep records of each point.
 
+use crate::excitation::Scene;
 use crate::names::names;
-use crate::transient::Scene;
 
 names! { key:
     /// Something that is recorded of each point.

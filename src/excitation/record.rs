@@ -6,8 +6,8 @@ use std::f64::consts::{PI, TAU};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
-use crate::case::Scales;
 use crate::names::names;
+use crate::system::Scales;
 
 names! { name:
     /// What a record, or a spectrum, is of.
