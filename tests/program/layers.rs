@@ -439,8 +439,8 @@ fn sources() -> Vec<(String, String)> {
     files.iter().map(|path| (name(path), fs::read_to_string(path).expect("a source"))).collect()
 }
 
-/// Rooms of a list that use one another in a circle: those that are left when every room is taken away which uses none
-/// of the others.
+/// Rooms of a list that use one another in a circle, with those above that use them: what is left when every room is
+/// taken away which uses none of the others.
 fn in_circles<'a>(rooms: &[(&'a str, &[&str])]) -> Vec<&'a str> {
     let mut left = rooms.to_vec();
     loop {
