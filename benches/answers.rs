@@ -11,7 +11,7 @@ use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
 use vinesink::executor::Serial;
 use vinesink::motions::Measured;
-use vinesink::transient::Scene;
+use vinesink::excitation::Scene;
 
 fn timed(mut work: impl FnMut()) -> Duration {
     let mut best = Duration::MAX;

@@ -3,7 +3,7 @@
 //!
 //! `cargo run --example synthetic_quake > cases/tower-record.csv`
 
-use vinesink::transient::{RecordQuantity, Spectrum};
+use vinesink::excitation::{RecordQuantity, Spectrum};
 
 /// Seconds until the envelope is highest.
 const RISE: f64 = 4.0;

@@ -7,11 +7,13 @@
 
 mod band;
 mod parameter;
+mod scales;
 
 use serde::{Deserialize, Serialize};
 
 pub use band::{Band, BandOver, Stretch};
 pub use parameter::Parameter;
+pub use scales::Scales;
 
 /// How the linear oscillator is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -12,13 +12,14 @@ use serde::Serialize;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case;
 use vinesink::case_input::{self, CaseInputError};
+use vinesink::excitation::Scene;
 use vinesink::motions::Effort;
 use vinesink::report::console::Analysed;
 use vinesink::report::transient as page;
 use vinesink::store::Reach;
 use vinesink::study::fidelity::Plan;
 use vinesink::system::State;
-use vinesink::transient::{DecayStudy, Scene, Study};
+use vinesink::transient::{DecayStudy, Study};
 
 use crate::simulate::{self, Impacts, Wanted};
 use crate::work::{self, Work, refused};

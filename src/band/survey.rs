@@ -3,10 +3,11 @@
 
 use std::sync::OnceLock;
 
-use super::rivals::{self, DETUNED, Rivals};
+use super::rivals::{DETUNED, Rivals};
 use super::{Band, Stretch, margin, theory};
 use crate::analysis::{Strip, Zone};
 use crate::executor::Executor;
+use crate::linear::bare_along;
 use crate::motions::{Along, Effort, Extreme, Motion, Motions, Value, along};
 use crate::simulation::StartError;
 
@@ -116,7 +117,7 @@ impl Survey {
 
     /// Where the structure alone moves farthest, and how far; infinite where nothing limits it.
     pub fn bare(&self) -> (f64, f64) {
-        *self.bare.get_or_init(|| rivals::bare_along(self.band()))
+        *self.bare.get_or_init(|| bare_along(self.band()))
     }
 
     /// The structure alone, and the tuned mass damper of the absorber's mass.

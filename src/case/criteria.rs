@@ -10,9 +10,9 @@ use super::number::{Bound, Form, sign_of};
 use super::reader::{Reader, Table, kind};
 use super::schema::add_names;
 use super::value::Place;
+use crate::excitation::Scene;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, ErrorKind, Kind};
-use crate::transient::Scene;
 use vinesink_core::names;
 
 names! { key:

@@ -7,9 +7,9 @@ use serde_json::{Value, json};
 use super::reader::{Reader, Table};
 use super::record;
 use super::schema::one_of;
+use crate::excitation::{RecordQuantity, Release, SineSweep, SweepRate, Transient};
 use crate::quantity::Dimension;
 use crate::system::Excitation;
-use crate::transient::{RecordQuantity, Release, SineSweep, SweepRate, Transient};
 use vinesink_core::names;
 
 names! { name:

@@ -1,5 +1,5 @@
-//! The case file: what a person writes about a design, proven valid, and the only place where
-//! physical units and dimensionless numbers meet.
+//! The case file: what a person writes about a design, proven valid, and the dimensionless
+//! system that follows from it.
 //!
 //! A case is TOML. It gives a design either in physical units (`[oscillator]`, `[absorber]`,
 //! `[excitation]`) or dimensionless (`[reduced]`), and may carry settings in optional tables. To
@@ -48,16 +48,17 @@ pub use quantity::QuantityError;
 pub use record::{RecordSource, Recording};
 pub use reduced::Reduced;
 pub use rewrite::{RewriteError, Rewritten, Rounding};
-pub use scales::Scales;
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use settings::{AccuracySettings, ExtraFigure, ReportSettings, SimulationSettings};
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
+pub use crate::system::Scales;
+
 use crate::digest::sha256;
+use crate::excitation::Scene;
 use crate::motions::{BandEffort, Effort};
 use crate::system::{Band, System};
-use crate::transient::Scene;
 use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.

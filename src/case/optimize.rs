@@ -8,7 +8,7 @@ use super::Design;
 use super::criteria::{AREAS_ARE_IDEAL, EXACT_INSTEAD};
 use super::reader::{Reader, Table};
 use super::schema::in_design;
-use crate::transient::Scene;
+use crate::excitation::Scene;
 use vinesink_core::names;
 
 names! { name:

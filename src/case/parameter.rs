@@ -10,10 +10,10 @@ use super::number::Form;
 use super::physical::{AbsorberTable, OscillatorTable};
 use super::reduced::ReducedTable;
 use super::schema::of_table;
+use crate::excitation::{Scene, SweepRate, Transient};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
 use crate::system::{Excitation, Parameter, System};
-use crate::transient::{Scene, SweepRate, Transient};
 
 impl Design {
     /// The value of a parameter in SI, or a plain number of a reduced design; `None` for a part of the start,

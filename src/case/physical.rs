@@ -11,9 +11,9 @@ use super::excitation::ExcitationTable;
 use super::reader::{Reader, Table};
 use super::restitution::{Restitution, one_or_each};
 use super::schema::one_of;
+use crate::excitation::Transient;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
-use crate::transient::Transient;
 
 /// The linear oscillator whose vibration is to be reduced.
 #[derive(Deserialize, JsonSchema)]

@@ -6,9 +6,9 @@ use super::excitation::ExcitationTable;
 use super::quantity::{number_in, unit_in_brackets};
 use super::reader::{Reader, Table};
 use crate::digest::sha256;
+use crate::excitation::{Record, RecordQuantity, Spectrum};
 use crate::quantity::Dimension;
 use crate::quantity::units::Unit;
-use crate::transient::{Record, RecordQuantity, Spectrum};
 
 /// What drives the oscillator, where that is a record or noise.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,7 +88,7 @@ impl Case {
                         "a record",
                         &format!(
                             "begin it with the line {}; its own is not shown, for it may be another file",
-                            quantity.head(physical)
+                            head(*quantity, physical)
                         ),
                     ),
                 }
@@ -99,23 +99,21 @@ impl Case {
     }
 }
 
-impl RecordQuantity {
-    fn dimension(self) -> Dimension {
-        match self {
-            Self::BaseAcceleration => Dimension::Acceleration,
-            Self::BaseDisplacement => Dimension::Length,
-            Self::Force => Dimension::Force,
-        }
+fn dimension(of: RecordQuantity) -> Dimension {
+    match of {
+        RecordQuantity::BaseAcceleration => Dimension::Acceleration,
+        RecordQuantity::BaseDisplacement => Dimension::Length,
+        RecordQuantity::Force => Dimension::Force,
     }
+}
 
-    /// A head of a file.
-    fn head(self, physical: bool) -> &'static str {
-        match self {
-            _ if !physical => "time,value",
-            Self::BaseAcceleration => "time (s),acceleration (m/s²)",
-            Self::BaseDisplacement => "time (s),displacement (mm)",
-            Self::Force => "time (s),force (N)",
-        }
+/// A head of a file.
+fn head(of: RecordQuantity, physical: bool) -> &'static str {
+    match of {
+        _ if !physical => "time,value",
+        RecordQuantity::BaseAcceleration => "time (s),acceleration (m/s²)",
+        RecordQuantity::BaseDisplacement => "time (s),displacement (mm)",
+        RecordQuantity::Force => "time (s),force (N)",
     }
 }
 
@@ -130,9 +128,9 @@ fn is_record(text: &str, quantity: RecordQuantity, physical: bool) -> bool {
     let Some(head) = lines(text).next() else { return false };
     let has_unit = |(of, cell): (Dimension, &str)| unit_in_brackets(of, cell).is_ok();
     let units = cells(head).map(|(time, value)| {
-        [(Dimension::Time, time), (quantity.dimension(), value)].into_iter().any(has_unit)
+        [(Dimension::Time, time), (dimension(quantity), value)].into_iter().any(has_unit)
     });
-    units == Some(true) || !physical && head.replace(' ', "") == quantity.head(false)
+    units == Some(true) || !physical && head.replace(' ', "") == self::head(quantity, false)
 }
 
 /// Largest value, dimensionless: beyond it rounding hides the walls whatever the structure.
@@ -160,7 +158,7 @@ fn samples(
     let mut lines = lines(text);
     // An empty text has no line: its beginning.
     let head = lines.next().unwrap_or(&text[..0]);
-    let help = format!("begin the file with {}", quantity.head(physical));
+    let help = format!("begin the file with {}", self::head(quantity, physical));
     let Some((time, value)) = cells(head) else {
         let message = "the head of the record does not name two columns".to_owned();
         return Err(vec![*problem(text, head, message, "expected time and value", &help)]);
@@ -177,13 +175,15 @@ fn samples(
         let dimension = if physical { dimension } else { Dimension::Number };
         unit_in_brackets(dimension, cell).map_err(wrong)
     };
-    let units =
-        match (unit(Dimension::Time, "time", time), unit(quantity.dimension(), "value", value)) {
-            (Ok(time), Ok(value)) => [time, value],
-            (time, value) => {
-                return Err(time.err().into_iter().chain(value.err()).map(|one| *one).collect());
-            }
-        };
+    let units = match (
+        unit(Dimension::Time, "time", time),
+        unit(self::dimension(quantity), "value", value),
+    ) {
+        (Ok(time), Ok(value)) => [time, value],
+        (time, value) => {
+            return Err(time.err().into_iter().chain(value.err()).map(|one| *one).collect());
+        }
+    };
     let (mut samples, mut problems): (Vec<[f64; 2]>, Vec<Problem>) = (Vec::new(), Vec::new());
     for line in lines {
         match sample(text, line, units, most, samples.last()) {

@@ -9,8 +9,8 @@ use serde_json::Value;
 use super::excitation::{ExcitationKind, ExcitationTable, keys_by_kind};
 use super::reader::{Reader, Table};
 use super::restitution::{Restitution, one_or_each};
+use crate::excitation::{RecordQuantity, Transient};
 use crate::system::{Cavity, Excitation};
-use crate::transient::{RecordQuantity, Transient};
 
 /// A dimensionless design, lengths in a unit of its own.
 #[derive(Deserialize, JsonSchema)]

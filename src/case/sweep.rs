@@ -8,10 +8,11 @@ use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 
 use super::reader::{Reader, Table};
+use super::record::Recording;
 use super::schema::{add_names, in_design, schema_of};
 use super::value::or;
+use crate::excitation::Scene;
 use crate::system::Parameter;
-use crate::transient::Scene;
 
 pub use axis::SweepAxis;
 pub use recorded::Recorded;
@@ -134,7 +135,10 @@ pub(super) fn read(
     }
     let of_case = of_case.and_then(|starts| u32::try_from(starts).ok());
     let usual = match reader.design?.transient() {
-        Some(transient) => of_case.unwrap_or(transient.places(reader.recording.as_ref())),
+        Some(transient) => {
+            let records = reader.recording.as_ref().map_or(1, Recording::count);
+            of_case.unwrap_or(transient.places(records))
+        }
         None => DEFAULT_STARTS,
     };
     let starts = if alone.is_some() { 1 } else { read.starts.unwrap_or(usual) };

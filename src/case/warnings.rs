@@ -5,8 +5,8 @@
 use super::error::Problem;
 use super::inputs::Input;
 use super::{BandOver, BandSettings, Case, Design, physical, reduced};
+use crate::excitation::Scene;
 use crate::quantity::numbers::rounded_to;
-use crate::transient::Scene;
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
 const FAR_APART: f64 = 30.0;

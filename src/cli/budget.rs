@@ -7,15 +7,15 @@ use std::time::Instant;
 use clap::Args;
 use miette::{Result, miette};
 use vinesink::answer::trajectory::flown_while;
-use vinesink::case::{Case, Objective};
+use vinesink::case::{Case, Objective, Recording};
+use vinesink::excitation::Scene;
+use vinesink::flights::with_closer;
 use vinesink::motions::{Effort, SettlingTime, longest_window};
 use vinesink::optimize::Task;
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::sweep::{Plan, Point};
 use vinesink::system::{State, System};
-use vinesink::transient::{
-    DecayStudy, RELEASES, RecordStudy, Scene, SweepStudy, looked_at, with_closer,
-};
+use vinesink::transient::{DecayStudy, RELEASES, RecordStudy, SweepStudy, looked_at};
 
 use super::progress::{Progress, duration};
 
@@ -170,7 +170,10 @@ impl Work {
     /// quarter to four times the rate, eight times as long as one; some records for other structures.
     pub fn transient(case: &Case) -> Option<Self> {
         let Flown { records, periods } = Flown::of(case)?;
-        let usual = case.design.transient()?.places(case.recording.as_ref()).into();
+        let usual = {
+            let count = case.recording.as_ref().map_or(1, Recording::count);
+            case.design.transient()?.places(count).into()
+        };
         let even = case.simulation.starts.unwrap_or(usual);
         let flights = match case.design.scene() {
             Scene::Sweep => with_closer(even) + 8 * even.min(SweepStudy::STARTS_BESIDE.into()),

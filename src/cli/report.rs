@@ -7,12 +7,12 @@ use clap::Args;
 use miette::{Context as _, IntoDiagnostic, Result, miette};
 use vinesink::case::Case;
 use vinesink::case_report::Report;
+use vinesink::excitation::Scene;
 use vinesink::method::Method;
 use vinesink::report::live;
 use vinesink::report::render::{self, Files};
 use vinesink::store::{self, Output};
 use vinesink::study::fidelity::Plan;
-use vinesink::transient::Scene;
 
 use super::budget::{self, Long, Work};
 use super::case_file::{self, Reading};

@@ -11,9 +11,9 @@ use clap::{Args, Subcommand};
 use miette::{IntoDiagnostic, Result, miette};
 use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::case::Case;
+use vinesink::excitation::Scene;
 use vinesink::store::Shards;
 use vinesink::sweep::{Plan, parquet, work};
-use vinesink::transient::Scene;
 
 use super::budget::{Long, Work};
 use super::case_file::{self, Reading};

@@ -5,12 +5,13 @@ use std::path::Path;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::case::{Case, Rounding};
 use vinesink::criteria::{self, Judged};
+use vinesink::excitation::Scene;
 use vinesink::report::render::Files;
 use vinesink::report::transient as page;
 use vinesink::simulation::Impact;
 use vinesink::store;
 use vinesink::system::State;
-use vinesink::transient::{DecayStudy, Flight, Scene, Study, best_clearance};
+use vinesink::transient::{DecayStudy, Flight, Study, best_clearance};
 
 use super::budget::{Long, Work};
 use super::case_file::{self, Format, OneCase};

@@ -9,9 +9,9 @@
 mod scope;
 mod transient;
 
-use crate::band::rivals::reduction_db;
 use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation, Scales, Subject};
+use crate::linear::reduction_db;
 use crate::method::Method;
 use crate::motions::{Along, Extreme, Fact, Kind, Motion, RestKind, Value};
 

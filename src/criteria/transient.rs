@@ -4,8 +4,8 @@
 use std::f64::consts::TAU;
 
 use super::Judged;
-use crate::band::rivals::reduction_db;
 use crate::case::{Case, Criterion, Scales, Subject};
+use crate::linear::reduction_db;
 use crate::method::Method;
 use crate::transient::{DecayStudy, Measured, RecordStudy, Study, SweepStudy};
 

@@ -3,11 +3,10 @@
 
 use super::facts::Found;
 use super::{Plan, Point};
-use crate::case::Scales;
 use crate::motions::starts::FROM_REST;
 use crate::motions::{Effort, Motions, carried_over, follow};
 use crate::simulation::StartError;
-use crate::system::{Parameter, State};
+use crate::system::{Parameter, Scales, State};
 
 /// The start that axes say, over the clearance; none where they say nothing. What no axis says is at
 /// rest, the absorber halfway between the middle of its cavity and a wall.

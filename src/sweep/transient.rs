@@ -6,14 +6,12 @@ use std::sync::OnceLock;
 
 use super::columns::Cell;
 use super::{Plan, Point};
-use crate::band::rivals::{TunedMassDamper, reduction_db};
 use crate::case::{Case, RecordSource, Recorded, Recording, Scales};
+use crate::excitation::{Record, Transient};
 use crate::executor::Serial;
-use crate::transient::linear::swept;
-use crate::transient::{
-    DecayStudy, Places, Predicted, Record, RecordStudy, SweepStart, SweepStudy, Transient, bare,
-    followed, with_closer, worst,
-};
+use crate::flights::{Places, Predicted, with_closer};
+use crate::linear::{TunedMassDamper, bare_decay, reduction_db, swept};
+use crate::transient::{DecayStudy, RecordStudy, SweepStart, SweepStudy, followed, worst};
 
 /// Places of the absorber that take as long as the structure alone and with a damper.
 const ALTERNATIVES: f64 = 4.0;
@@ -104,7 +102,7 @@ impl Subject {
         let each = point.design.scene().seconds();
         match of {
             Transient::Release(release) => {
-                let flown = places * followed(bare(system, self.decay_level)) * each;
+                let flown = places * followed(bare_decay(system, self.decay_level)) * each;
                 let from = release.amplitude(scales);
                 let asked = plan.settings.record.contains(&Recorded::TheoryDecayTime);
                 match asked && from <= Predicted::LARGEST {

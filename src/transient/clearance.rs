@@ -4,15 +4,13 @@
 
 use std::f64::consts::TAU;
 
-use super::places::{Places, with_closer, worst_of_places};
 use super::record_study::{flown, over_records};
-use super::study::bare;
-use super::{
-    DecayStudy, DecayTime, Measured, Record, RecordStudy, Release, SineSweep, SweepStudy,
-    Transient, counted,
-};
+use super::{DecayStudy, DecayTime, Measured, RecordStudy, SweepStudy, counted};
 use crate::case::{Case, Design, Recording, Rounding};
+use crate::excitation::{Record, Release, SineSweep, Transient};
 use crate::executor::{Executor, Serial, map};
+use crate::flights::{Places, inactive, with_closer, worst_of_places};
+use crate::linear::bare_decay;
 use crate::system::Parameter;
 
 /// Clearances that are looked at between the bounds, and then beside the best.
@@ -70,7 +68,8 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<Best> {
     let records = case.recording.as_ref().map_or_else(Vec::new, Recording::records);
     let own = case.design.clearance();
     let bounds = case.optimize.clearance.unwrap_or(CLEARANCES.map(|factor| factor * own));
-    let usual = u64::from(transient.places(case.recording.as_ref()));
+    let count = case.recording.as_ref().map_or(1, Recording::count);
+    let usual = u64::from(transient.places(count));
     let judged_by = case.simulation.starts.unwrap_or(usual);
     let value = |clearance: f64, places: Places<'_>| {
         let design = case.design.with(Parameter::Clearance, clearance);
@@ -157,10 +156,10 @@ fn slowest(
             (0..RELEASES).map(|k| from * libm::pow(to / from, part(k))).collect()
         }
     };
-    let alone = bare(&system, case.decay_level);
+    let alone = bare_decay(&system, case.decay_level);
     let time = |factor: &f64| {
         let release = release.scaled(*factor);
-        let inactive = release.inactive(&system, &scales);
+        let inactive = inactive(&system, &release.state(&scales, 0.0));
         if case.count_inactive && inactive.share > 0.0 && alone.is_infinite() {
             return Some([alone, 0.0]);
         }

@@ -2,10 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::driven::follow_from;
-use super::study::{bare, longest};
-use super::{DrivenError, Passage, Record, Ringdown, Study, Transient};
+use super::Study;
+use super::study::longest;
 use crate::case::{Case, Recording};
+use crate::excitation::{Record, Transient};
+use crate::flights::{DrivenError, Passage, Ringdown, STEPS, follow_from};
+use crate::linear::bare_decay;
 use crate::simulation::Impact;
 use crate::system::State;
 
@@ -52,11 +54,11 @@ impl Flight {
         let flown = match case.design.transient()? {
             Transient::Release(release) => {
                 let level = case.decay_level * release.amplitude(&scales);
-                let most = periods.unwrap_or_else(|| longest(bare(&system, case.decay_level)));
+                let most =
+                    periods.unwrap_or_else(|| longest(bare_decay(&system, case.decay_level)));
                 Ringdown::follow_telling(&system, start, level, most, told)
                     .map(|found| Self {
-                        duration: TAU * (found.amplitudes.len() - 1) as f64
-                            / f64::from(super::STEPS),
+                        duration: TAU * (found.amplitudes.len() - 1) as f64 / f64::from(STEPS),
                         peak: found.peak,
                         impacts: found.impacts.last().copied().unwrap_or(0),
                         impact_speed: found.impact_speeds.last().copied().unwrap_or(0.0),

@@ -3,16 +3,15 @@
 
 use std::f64::consts::TAU;
 
-use super::linear::swept;
-use super::places::{Places, even, survey, worst_of_places};
-use super::sweep::{Passage, SineSweep};
 use super::{Measured, counted};
-use crate::band::rivals::{TunedMassDamper, bare_amplitude};
-use crate::case::{Case, Scales};
+use crate::case::Case;
+use crate::excitation::{SineSweep, Transient};
 use crate::executor::{Executor, map};
+use crate::flights::{Passage, Places, even, survey, worst_of_places};
+use crate::linear::{TunedMassDamper, bare_amplitude, swept};
 use crate::orbits::steady_orbit;
 use crate::simulation::StartError;
-use crate::system::{State, System};
+use crate::system::{Scales, State, System};
 
 /// Rates over the case's own.
 pub const RATES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
@@ -71,7 +70,7 @@ pub struct SweepStudy {
 
 impl SweepStudy {
     /// Places of the absorber unless the case says how many.
-    pub const STARTS: u32 = 64;
+    pub const STARTS: u32 = Transient::PLACES;
     /// At most so many for each other rate, and for the other direction.
     pub const STARTS_BESIDE: u32 = 16;
 
@@ -82,7 +81,9 @@ impl SweepStudy {
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
         let sweep = case.design.sine_sweep()?;
         let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-        Some(Self::of(case, &sweep, starts.unwrap_or(Self::STARTS), executor))
+        let places = starts.unwrap_or(Self::STARTS);
+        let (system, scales) = (case.system(), case.scales());
+        Some(Self::of(&system, &scales, &sweep, places, case.count_inactive, executor))
     }
 
     /// From rest, the absorber at a relative displacement `w`.
@@ -118,15 +119,15 @@ impl SweepStudy {
     }
 
     fn of(
-        case: &Case,
+        system: &System,
+        scales: &Scales,
         sweep: &SineSweep,
         even_places: u32,
+        inactive: bool,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
-        let (system, scales) = (case.system(), case.scales());
-        let inactive = case.count_inactive;
         let places = Places { even: even_places.into(), closer: true, executor };
-        let starts = Self::starts(&system, &scales, sweep, places, inactive)?;
+        let starts = Self::starts(system, scales, sweep, places, inactive)?;
         let rates: Vec<SineSweep> = RATES
             .into_iter()
             .map(|factor| sweep.faster(factor))
@@ -136,8 +137,7 @@ impl SweepStudy {
         let others = rates.iter().copied().filter(|other| other != sweep);
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(others).collect();
         let at: Vec<f64> = even(even_places.min(Self::STARTS_BESIDE).into()).collect();
-        let passage =
-            |k: usize| Self::start(&system, &scales, &all[k / at.len()], at[k % at.len()]);
+        let passage = |k: usize| Self::start(system, scales, &all[k / at.len()], at[k % at.len()]);
         let flown = map(executor, "passages", all.len() * at.len(), passage);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
         let worst_of = |sweep: &SineSweep| -> Option<Passage> {
@@ -149,7 +149,7 @@ impl SweepStudy {
         let there = worst(starts.iter()).map(|(_, found)| found.clone());
         let damper = TunedMassDamper::den_hartog(system.mass_ratio());
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
-            swept(&system, damper, &scales, sweep)
+            swept(system, damper, scales, sweep)
         };
         let by_rate = rates.iter().map(|other| {
             let found = if other == sweep { there.clone() } else { worst_of(other) };
@@ -166,13 +166,13 @@ impl SweepStudy {
         let none = || Passage::new(0, 0.0);
         let back = worst_of(&sweep.reversed()).unwrap_or_else(none);
         let there = there.unwrap_or_else(none);
-        let window = window(&system);
+        let window = window(system);
         Ok(Self {
-            system,
+            system: *system,
             sweep: *sweep,
             alone: linear(None, sweep),
             damped: (damper, linear(Some(&damper), sweep)),
-            steady: steady(&system, &scales, sweep),
+            steady: steady(system, scales, sweep),
             jumps: [&there, &back].map(|passage| jumps(&passage.envelope, window)),
             differ: differ(&there.envelope, &back.envelope, window),
             by_rate,

@@ -1,15 +1,16 @@
 //! A structure that is driven by a record, or by several records of one spectrum: from all places of the absorber,
 //! beside its alternatives, and for other natural frequencies.
 
-use super::linear::driven;
-use super::places::{Measure, Places, even, survey, worst_of_places};
-use super::record::{Piece, Record};
-use super::{DrivenError, Response, counted, follow};
-use crate::band::rivals::{TunedMassDamper, reduction_db};
-use crate::case::{Case, Scales};
+use super::counted;
+use crate::case::Case;
+use crate::excitation::{Piece, Record, Transient};
 use crate::executor::{Executor, map};
+use crate::flights::{
+    DrivenError, Measure, Places, Response, even, follow, survey, worst_of_places,
+};
+use crate::linear::{TunedMassDamper, driven, reduction_db};
 use crate::numerics::scatter::twice_standard_error;
-use crate::system::System;
+use crate::system::{Scales, System};
 
 /// A value and its error: of one record how much worse other places of the absorber may be, of several twice the
 /// standard error of the mean over records.
@@ -62,9 +63,6 @@ pub struct RecordStudy {
     pub count_inactive: bool,
 }
 
-/// Places of the absorber under one record, and under each of several.
-const PLACES: u32 = 64;
-const PLACES_OF_MANY: u32 = 8;
 /// The response spectrum: frequencies, the furthest over the structure's own, places times records, and the most
 /// records.
 const FREQUENCIES: u32 = 31;
@@ -78,7 +76,7 @@ impl RecordStudy {
 
     /// Places of the absorber under each of so many records, unless the case says how many.
     pub const fn usual_places(records: usize) -> u32 {
-        if records > 1 { PLACES_OF_MANY } else { PLACES }
+        Transient::places_under(records)
     }
 
     /// Studies a case that is driven by a record; none for another.

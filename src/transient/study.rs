@@ -1,16 +1,14 @@
 //! A released structure with everything that is known of it: from all places of the absorber, beside its
 //! alternatives and theory.
 
-use std::f64::consts::{PI, TAU};
-
-use super::linear::{Linear, released};
-use super::places::{Places, even, survey, worst_of_places};
-use super::{Measured, Predicted, Release, Ringdown, STEPS, amplitude, unforced};
-use crate::band::rivals::TunedMassDamper;
-use crate::case::{Case, Scales};
+use super::Measured;
+use crate::case::Case;
+use crate::excitation::{Release, Transient, amplitude};
 use crate::executor::{Executor, Serial};
-use crate::simulation::{Simulation, StartError, Stop};
-use crate::system::{State, System};
+use crate::flights::{Inactive, Places, Predicted, Ringdown, inactive, survey, worst_of_places};
+use crate::linear::{Linear, STEPS, TunedMassDamper, bare_decay, released};
+use crate::simulation::StartError;
+use crate::system::{Scales, System};
 
 /// How fast a structure comes to a level from one place of the absorber.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +61,7 @@ const LONGEST: f64 = 20_000.0;
 
 impl DecayStudy {
     /// Places of the absorber unless the case says how many.
-    pub const STARTS: u32 = 64;
+    pub const STARTS: u32 = Transient::PLACES;
 
     /// Studies a release down to a share of its amplitude, the absorber at so many even places of its cavity.
     ///
@@ -93,7 +91,7 @@ impl DecayStudy {
         let middle = release.state(scales, 0.0);
         let from = amplitude(&middle);
         let level = share * from;
-        let bare = bare(system, share);
+        let bare = bare_decay(system, share);
         let damper = TunedMassDamper::for_free_decay(system.mass_ratio());
         let linear = released(system, Some(&damper), middle, level, longest(bare));
         let inactive = inactive(system, &middle);
@@ -128,7 +126,7 @@ impl DecayStudy {
     /// About how many oscillations a start of a case is followed for; none for a case that is not released.
     pub fn oscillations(case: &Case) -> Option<u64> {
         case.design.release()?;
-        Some(libm::ceil(followed(bare(&case.system(), case.decay_level))) as u64)
+        Some(libm::ceil(followed(bare_decay(&case.system(), case.decay_level))) as u64)
     }
 
     /// The same by theory alone: nothing is simulated.
@@ -156,7 +154,7 @@ impl DecayStudy {
         places: Places<'_>,
     ) -> Result<Vec<Decay>, StartError> {
         let level = share * amplitude(&release.state(scales, 0.0));
-        let longest = longest(bare(system, share));
+        let longest = longest(bare_decay(system, share));
         let awake = |of: fn(&Decay) -> f64| {
             move |start: &Decay| if start.wakes { of(start) } else { f64::NAN }
         };
@@ -227,16 +225,6 @@ impl DecayTime {
     }
 }
 
-/// Places of a resting absorber that no wall reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Inactive {
-    /// Their share of all; 0 for an absorber that does not rest.
-    pub share: f64,
-    /// The lowest and the highest of them, relative displacements over the clearance; none where gravity or friction moves
-    /// the absorber, so that they need not lie together.
-    pub places: Option<[f64; 2]>,
-}
-
 fn worst(starts: &[Decay]) -> Option<&Decay> {
     let later = |a: &&Decay, b: &&Decay| a.oscillations.total_cmp(&b.oscillations);
     awake(starts).max_by(later).or(starts.first())
@@ -257,56 +245,6 @@ impl Decay {
             wakes: found.impacts[last] > 0,
         }
     }
-}
-
-/// Largest damping ratio of a structure that swings.
-const SWINGS: f64 = 0.9999;
-/// Swings in which an absorber that gravity or friction moves hits a wall, if it ever does: gravity of 1e-5 of the
-/// structure's acceleration over a clearance takes it across.
-const SWINGS_WATCHED: u64 = 100;
-/// Places from which that is watched.
-const PLACES_WATCHED: u64 = 32;
-
-/// Places of a resting absorber that no wall reaches while the structure swings alone: what its first swing to either side
-/// leaves. Where gravity or friction moves it, a share of [`PLACES_WATCHED`] places, by simulation.
-pub(super) fn inactive(system: &System, start: &State) -> Inactive {
-    if start.y_velocity != 0.0 {
-        return Inactive::default();
-    }
-    if system.cavity().moves_absorber() {
-        let stays = |w: &f64| {
-            let from = State { y: start.x - w, ..*start };
-            let alone = unforced(system, TAU).ok();
-            let simulation = alone.and_then(|alone| Simulation::new(&alone, from, 0.0).ok());
-            simulation.is_some_and(|mut at| at.run(SWINGS_WATCHED, 1, &mut ()) == Stop::EndTime)
-        };
-        let places = even(PLACES_WATCHED);
-        let share = places.clone().filter(stays).count() as f64 / places.len() as f64;
-        return Inactive { share, places: None };
-    }
-    // x = exp(-zeta tau) (x0 cos(nu tau) + (v0 + zeta x0)/nu sin(nu tau)) has its extremes half an oscillation apart.
-    let (x, v) = (start.x, start.x_velocity);
-    let zeta = (0.5 * system.mass_ratio() * system.damping()).min(SWINGS);
-    let frequency = (1.0 - zeta * zeta).sqrt();
-    let at = |tau: f64| {
-        let (sine, cosine) = libm::sincos(frequency * tau);
-        libm::exp(-zeta * tau) * (x * cosine + (v + zeta * x) / frequency * sine)
-    };
-    let first = libm::atan2(v * frequency, x + zeta * v).rem_euclid(PI) / frequency;
-    let seen = [x, at(first), at(first + PI / frequency)];
-    let [most, least] = [seen.into_iter().fold(x, f64::max), seen.into_iter().fold(x, f64::min)];
-    // The structure moves by most - x to one side against an absorber that stays, by x - least to the other.
-    let (lowest, highest) = (x - least - 1.0, 1.0 - (most - x));
-    match highest > lowest {
-        true => Inactive { share: 0.5 * (highest - lowest), places: Some([lowest, highest]) },
-        false => Inactive::default(),
-    }
-}
-
-/// Oscillations in which the structure alone comes to a share of its amplitude; infinite without damping.
-pub(crate) fn bare(system: &System, share: f64) -> f64 {
-    // C = C0 exp(-eps lambda tau/2).
-    -2.0 * libm::log(share) / (system.mass_ratio() * system.damping() * TAU)
 }
 
 /// About how many oscillations a decay is followed for, by those of the structure alone.

@@ -3,15 +3,14 @@
 
 use std::f64::consts::{PI, TAU};
 
-use vinesink::band::rivals::TunedMassDamper;
 use vinesink::case::Scales;
+use vinesink::excitation::{Record, RecordQuantity, Spectrum};
 use vinesink::executor::Serial;
+use vinesink::flights::{Response, follow, worst_of_places};
+use vinesink::linear::{TunedMassDamper, driven};
 use vinesink::simulation::Simulation;
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
-use vinesink::transient::linear::driven;
-use vinesink::transient::{
-    Record, RecordQuantity, RecordStudy, Response, Spectrum, follow, worst_of_places,
-};
+use vinesink::transient::RecordStudy;
 
 use crate::common::unforced as system;
 

@@ -7,10 +7,12 @@ use std::f64::consts::TAU;
 
 use vinesink::case::Case;
 use vinesink::criteria::judge_release;
+use vinesink::excitation::Record;
 use vinesink::executor::Serial;
+use vinesink::flights::{Passage, follow};
+use vinesink::linear::swept;
 use vinesink::system::State;
-use vinesink::transient::linear::swept;
-use vinesink::transient::{DecayStudy, Passage, Record, follow};
+use vinesink::transient::DecayStudy;
 
 /// Roundings of the numbers themselves, which a few hundred impacts of a motion that attracts do not enlarge.
 const ROUNDING: f64 = 1e-12;

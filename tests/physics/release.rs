@@ -1,15 +1,14 @@
 //! A structure that is released or struck, against energy, closed form and what a person would do by hand.
 
-use vinesink::band::rivals::TunedMassDamper;
 use vinesink::case::{Case, Subject};
 use vinesink::criteria::judge_release;
+use vinesink::excitation::Release;
 use vinesink::executor::Serial;
+use vinesink::flights::{Predicted, Ringdown, STEPS};
+use vinesink::linear::{TunedMassDamper, released};
 use vinesink::method::Method;
 use vinesink::system::State;
-use vinesink::transient::linear::released;
-use vinesink::transient::{
-    DecayStudy, Flight, Predicted, Release, Ringdown, STEPS, best_clearance,
-};
+use vinesink::transient::{DecayStudy, Flight, best_clearance};
 
 use crate::common::unforced as system;
 

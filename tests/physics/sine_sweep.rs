@@ -7,12 +7,14 @@ use std::f64::consts::TAU;
 
 use vinesink::case::{Case, Subject};
 use vinesink::criteria::judge_sweep;
+use vinesink::excitation::{SineSweep, SweepRate};
 use vinesink::executor::Serial;
+use vinesink::flights::Passage;
+use vinesink::linear::swept;
 use vinesink::orbits::attracting_orbit;
 use vinesink::simulation::Simulation;
 use vinesink::system::{Excitation, State, System};
-use vinesink::transient::linear::swept;
-use vinesink::transient::{Passage, SineSweep, SweepRate, SweepStudy};
+use vinesink::transient::SweepStudy;
 
 const FAST: &str = include_str!("../../cases/sweep-fast.toml");
 

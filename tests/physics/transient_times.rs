@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use crate::common::{table_1, unforced};
 use crate::reference::{Moment, Real, Reference};
 use vinesink::case::Scales;
+use vinesink::excitation::{Record, RecordQuantity, SineSweep, SweepRate};
+use vinesink::flights::{Ringdown, STEPS, follow};
 use vinesink::simulation::{ImpactLog, Measurement, Simulation};
 use vinesink::system::State;
-use vinesink::transient::{Record, RecordQuantity, Ringdown, STEPS, SineSweep, SweepRate, follow};
 
 /// Steps in which the reference looks for impacts.
 const STEP: f64 = 0.06;

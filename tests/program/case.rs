@@ -4,12 +4,12 @@ use vinesink::case::{
     BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding, STARTING_KINDS,
     Subject,
 };
+use vinesink::excitation::Scene;
 use vinesink::quantity::catalogue::{
     ABSORBER_MASS, DAMPING, EXCITATION_FREQUENCY, IMPACT_SPEED, PEAK, STIFFNESS,
 };
 use vinesink::quantity::{Dimension, Units};
 use vinesink::system::{Excitation, Parameter};
-use vinesink::transient::Scene;
 
 const PHYSICAL: &str = r#"title = "Li 2016, 8 Hz, b = 7.5 mm"
 source = "Li, Seguy, Berlioz 2016, Table 1"

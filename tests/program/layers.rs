@@ -31,6 +31,24 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("orbits", &["bifurcation", "numerics", "symbolic", "system", "operation_count"]),
     ("simulation", &["numerics", "system", "operation_count"]),
     ("evidence/reference", &["system"]),
+    // What a structure is subjected to, what it does without the absorber, and flights with it: no case in them.
+    ("excitation", &["names", "numerics", "system"]),
+    ("linear", &["excitation", "numerics", "operation_count", "system"]),
+    (
+        "flights",
+        &[
+            "analysis",
+            "dissipation",
+            "excitation",
+            "executor",
+            "linear",
+            "method",
+            "numerics",
+            "operation_count",
+            "simulation",
+            "system",
+        ],
+    ),
     // One search, one rule of identity: every command reads what this room has found.
     (
         "motions",
@@ -52,7 +70,10 @@ const ROOMS: &[(&str, &[&str])] = &[
             "system",
         ],
     ),
-    ("criteria", &["band", "case", "method", "motions", "system", "transient", "validation"]),
+    (
+        "criteria",
+        &["band", "case", "linear", "method", "motions", "system", "transient", "validation"],
+    ),
     (
         "evidence",
         &[
@@ -62,7 +83,10 @@ const ROOMS: &[(&str, &[&str])] = &[
             "bifurcation",
             "case",
             "evidence/reference",
+            "excitation",
             "executor",
+            "flights",
+            "linear",
             "method",
             "motions",
             "operation_count",
@@ -121,6 +145,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "dissipation",
             "equations",
             "executor",
+            "linear",
             "method",
             "motions",
             "numerics",
@@ -132,18 +157,17 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
-    ("case", &["digest", "motions", "names", "numerics", "quantity", "system", "transient"]),
+    ("case", &["digest", "excitation", "motions", "names", "numerics", "quantity", "system"]),
     (
         "transient",
         &[
-            "analysis",
-            "band",
             "case",
-            "dissipation",
+            "excitation",
             "executor",
+            "flights",
+            "linear",
             "method",
             "motions",
-            "names",
             "numerics",
             "orbits",
             "simulation",
@@ -171,9 +195,9 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "analysis",
             "bifurcation",
-            "case",
             "cavity",
             "executor",
+            "linear",
             "motions",
             "numerics",
             "orbits",
@@ -194,8 +218,11 @@ const ROOMS: &[(&str, &[&str])] = &[
             "criteria",
             "dissipation",
             "equations",
+            "excitation",
             "executor",
             "figure",
+            "flights",
+            "linear",
             "method",
             "motions",
             "numerics",
@@ -221,7 +248,10 @@ const ROOMS: &[(&str, &[&str])] = &[
             "band",
             "case",
             "digest",
+            "excitation",
             "executor",
+            "flights",
+            "linear",
             "motions",
             "orbits",
             "quantity",
@@ -236,7 +266,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 26] = [
+const PURE: [&str; 29] = [
     "analysis",
     "answer",
     "band",
@@ -248,7 +278,10 @@ const PURE: [&str; 26] = [
     "equations",
     "evidence",
     "evidence/reference",
+    "excitation",
     "figure",
+    "flights",
+    "linear",
     "method",
     "motions",
     "numerics",
@@ -417,6 +450,26 @@ fn sources() -> Vec<(String, String)> {
     found
 }
 
+/// Rooms of a list that use one another in a circle, with those above that use them: what is left when every room is
+/// taken away which uses none of the others.
+fn in_circles<'a>(rooms: &[(&'a str, &[&str])]) -> Vec<&'a str> {
+    let mut left = rooms.to_vec();
+    loop {
+        let names: Vec<&str> = left.iter().map(|(room, _)| *room).collect();
+        left.retain(|(_, uses)| uses.iter().any(|used| names.contains(used)));
+        if left.len() == names.len() {
+            return left.iter().map(|(room, _)| *room).collect();
+        }
+    }
+}
+
+#[test]
+fn no_rooms_use_one_another_in_a_circle() {
+    assert_eq!(in_circles(ROOMS), [""; 0]);
+    let circle: [(&str, &[&str]); 3] = [("a", &["b"]), ("b", &["c", "a"]), ("c", &[])];
+    assert_eq!(in_circles(&circle), ["a", "b"]);
+}
+
 #[test]
 fn every_source_keeps_to_its_room() {
     let sources = sources();
@@ -503,6 +556,13 @@ fn made_up_sources_are_refused() {
         ("dissipation/flow.rs", "use crate::orbits::Orbit;"),
         ("analysis/mod.rs", "use crate::dissipation::DissipationCurve;"),
         ("case/mod.rs", "use crate::report::numbers;"),
+        ("case/scales.rs", "use crate::transient::Study;"),
+        ("case/sweep.rs", "use crate::flights::Ringdown;"),
+        ("band/rivals.rs", "use crate::transient::SweepStudy;"),
+        ("transient/passage.rs", "use crate::band::Rivals;"),
+        ("excitation/record.rs", "use crate::case::Case;"),
+        ("linear/motion.rs", "use crate::simulation::Simulation;"),
+        ("flights/driven.rs", "use crate::case::Case;"),
         ("study/mod.rs", "use crate::store;"),
         ("report/mod.rs", "let x = crate::store::read_text(path);"),
         ("simulation/run.rs", "use std::time::Instant;"),

@@ -12,6 +12,7 @@ use tempfile::TempDir;
 
 use vinesink::analysis::Analysis;
 use vinesink::case::{Case, Recorded};
+use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
 use vinesink::motions::{Effort, Motion, Motions, Place};
 use vinesink::operation_count;
@@ -19,7 +20,6 @@ use vinesink::orbits::{Measures, Orbit, steady_orbit, two_impact_orbits};
 use vinesink::simulation::Simulation;
 use vinesink::sweep::{Plan, work};
 use vinesink::system::{Parameter, System};
-use vinesink::transient::Scene;
 
 fn motions(place: &Place, periods: u64) -> Motions {
     let places = std::slice::from_ref(place);

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, CaseError, Problem, RewriteError, Rounding};
+use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{self, Figure, PlacedPanel};
@@ -13,7 +14,6 @@ use vinesink::report::{figures, template};
 use vinesink::study::CaseStudy;
 use vinesink::study::plots::{Map, Plot};
 use vinesink::system::Parameter;
-use vinesink::transient::Scene;
 
 use crate::controls;
 use crate::running::{self, From};

@@ -6,8 +6,8 @@ use serde_json::Value;
 
 use super::super::Design;
 use super::super::reader::{Reader, Table};
+use crate::excitation::Scene;
 use crate::system::Parameter;
-use crate::transient::Scene;
 use vinesink_core::names;
 
 /// A parameter and its values, ascending, in SI units or as plain numbers.

@@ -1,6 +1,6 @@
 //! What a sweep records of each point.
 
-use crate::transient::Scene;
+use crate::excitation::Scene;
 use vinesink_core::names;
 
 names! { key:

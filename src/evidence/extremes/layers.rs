@@ -12,16 +12,15 @@ use super::list::Varied;
 use super::{ExtremesError, Verdict};
 use crate::analysis::{Analysis, FreeDecay};
 use crate::band::Band;
-use crate::band::rivals::{TunedMassDamper, bare_along};
 use crate::band::theory::z3_share;
 use crate::bifurcation::Bifurcation;
-use crate::case::Scales;
+use crate::excitation::{Record, RecordQuantity, SineSweep, SweepRate};
+use crate::flights::{Passage, follow};
+use crate::linear::{TunedMassDamper, bare_along, driven, swept};
 use crate::operation_count::counted;
 use crate::orbits::{SymmetricFamily, symmetric_orbits};
 use crate::simulation::{ImpactLog, Simulation};
-use crate::system::{BandOver, Cavity, Excitation, Parameters, State, System};
-use crate::transient::linear::{driven, swept};
-use crate::transient::{Passage, Record, RecordQuantity, SineSweep, SweepRate, follow};
+use crate::system::{BandOver, Cavity, Excitation, Parameters, Scales, State, System};
 
 const TABLE: &str = include_str!("layers.json");
 

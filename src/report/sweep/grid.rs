@@ -3,13 +3,13 @@
 use super::Swept;
 use super::axis::{At, AxisShown};
 use crate::case::Recorded;
+use crate::excitation::Scene;
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
 use crate::report::document;
 use crate::sweep::columns::{Cell, Column, Direction};
 use crate::sweep::indices;
 use crate::system::Parameter;
-use crate::transient::Scene;
 
 /// What a panel or a mark of a direction is called.
 pub(super) const fn words(direction: Direction) -> &'static str {

@@ -21,11 +21,12 @@ use super::render::{Files, RenderError, in_lines, page_files};
 use super::template::{render, worded};
 use crate::case::Case;
 use crate::criteria::Judged;
+use crate::flights::share_above;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::system::Parameter;
-use crate::transient::{Study, share_above};
+use crate::transient::Study;
 
 /// The line of a tuned mass damper.
 pub(super) const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed);

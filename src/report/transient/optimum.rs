@@ -3,13 +3,14 @@
 use serde_json::{Value, json};
 
 use crate::case::Case;
+use crate::excitation::Scene;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::report::document::{NOTICEABLE, units};
 use crate::report::render::RenderError;
 use crate::report::template::render;
-use crate::transient::{Best, Measured, Scene};
+use crate::transient::{Best, Measured};
 
 /// What was found: `vinesink/optimization@3`, in SI. `written` is the document of the case with the best clearance.
 pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {

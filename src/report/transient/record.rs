@@ -7,11 +7,13 @@ use serde_json::{Value, json};
 use super::{sample, word_of, worst_rows};
 use crate::case::{Case, RecordSource, Subject};
 use crate::criteria::of_records;
+use crate::excitation::RecordQuantity;
+use crate::flights::Response;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 use crate::report::document::{Scale, Word};
-use crate::transient::{Measured, RecordQuantity, RecordStudy, Response, SpectrumPoint};
+use crate::transient::{Measured, RecordStudy, SpectrumPoint};
 
 pub(super) use figure::figures;
 

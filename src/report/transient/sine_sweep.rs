@@ -5,13 +5,15 @@ mod figure;
 use serde_json::{Value, json};
 
 use super::{sample, word_of, worst_rows};
-use crate::band::rivals::reduction_db;
 use crate::case::Case;
+use crate::excitation::SweepRate;
+use crate::flights::Passage;
+use crate::linear::reduction_db;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 use crate::report::document::{Scale, Word};
-use crate::transient::{ByRate, Jump, Passage, SweepRate, SweepStart, SweepStudy};
+use crate::transient::{ByRate, Jump, SweepStart, SweepStudy};
 
 pub(super) use figure::figures;
 

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 use crate::analysis::Manifold;
 use crate::analysis::frequency_response::ResponsePoint;
-use crate::band::rivals::bare_amplitude;
+use crate::linear::bare_amplitude;
 use crate::motions::Motion;
 use crate::orbits::SteadyOrbit;
 use crate::simulation::Stop;

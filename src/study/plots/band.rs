@@ -1,7 +1,7 @@
 //! The response over a case's band, and what else could be done.
 
 use crate::band::Band;
-use crate::band::rivals::bare_amplitude;
+use crate::linear::bare_amplitude;
 use crate::motions::one_to_one;
 use crate::regimes::Regime;
 use crate::study::CaseStudy;

@@ -5,11 +5,12 @@ use std::f64::consts::TAU;
 use serde_json::Value;
 
 use crate::case::Case;
+use crate::flights::STEPS;
 use crate::quantity::{Dimension, catalogue as of};
 use crate::report::document::Scale;
 use crate::report::figure::{Axis, Figure, Layer, Panel, Role, Rule};
 use crate::report::transient::{DAMPER, THEORY};
-use crate::transient::{DecayStudy, STEPS};
+use crate::transient::DecayStudy;
 
 /// Points of a line: as many as there are pixels.
 const POINTS: usize = 700;

@@ -3,11 +3,12 @@
 use serde_json::Value;
 
 use crate::case::Case;
+use crate::excitation::SweepRate;
 use crate::quantity::{Dimension, catalogue as of};
 use crate::report::document::Scale;
 use crate::report::figure::{Axis, Color, Dash, Figure, Layer, MarkedPoint, Panel, Role, Style};
 use crate::report::transient::DAMPER;
-use crate::transient::{SweepRate, SweepStudy};
+use crate::transient::SweepStudy;
 
 /// Points of a line: as many as there are pixels.
 const POINTS: usize = 700;
@@ -33,7 +34,7 @@ fn envelope(case: &Case, study: &SweepStudy) -> Panel {
     let units = scale.units();
     let [from, to] = [study.sweep.from, study.sweep.to];
     let highest = from.max(to);
-    let peak = |passage: &crate::transient::Passage| passage.peak()[1];
+    let peak = |passage: &crate::flights::Passage| passage.peak()[1];
     let there = study.worst().map(|(_, worst)| worst);
     let own = there.map_or(0.0, peak);
     let largest = own.max(peak(&study.back)).max(peak(&study.alone));

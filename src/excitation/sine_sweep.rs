@@ -13,9 +13,7 @@ use std::f64::consts::TAU;
 
 use libm::{exp, log1p};
 
-use crate::case::Scales;
-use crate::simulation::{Detail, Impact, Measurement, Observer, Simulation, StartError, Stop};
-use crate::system::{InvalidParameter, State, System};
+use crate::system::{InvalidParameter, Scales, System};
 
 /// A range of frequencies and how fast it is gone through.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -156,7 +154,8 @@ pub struct Stretch {
     pub first: bool,
     /// Phase of the system of [`Self::system`] at its beginning; at its end it is `2 pi`.
     pub begins: f64,
-    lead: f64,
+    /// What its phase at the end is ahead of a whole period.
+    pub(crate) lead: f64,
 }
 
 impl Stretch {
@@ -171,110 +170,5 @@ impl Stretch {
     /// As [`System::new`].
     pub fn system(&self, system: &System) -> Result<System, InvalidParameter> {
         Ok(system.with_frequency_ratio(self.ratio)?.with_lead(self.lead))
-    }
-}
-
-/// What a structure did on its way through a range of frequencies.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Passage {
-    /// Of each period of the excitation its frequency ratio and the structure's largest displacement in it.
-    pub envelope: Vec<[f64; 2]>,
-    /// Impacts.
-    pub impacts: u64,
-    /// Largest relative speed of one of them, over the clearance in fast time.
-    pub impact_speed: f64,
-    /// Largest part of a period's energy that its balance leaves open: rounding.
-    pub residual: f64,
-    /// Largest displacement of absorber or damper against the structure.
-    pub stroke: f64,
-}
-
-impl Passage {
-    pub(super) fn new(count: u64, stroke: f64) -> Self {
-        let envelope = Vec::with_capacity(count as usize);
-        Self { envelope, impacts: 0, impact_speed: 0.0, residual: 0.0, stroke }
-    }
-
-    /// Frequency ratio and size of the largest displacement.
-    pub fn peak(&self) -> [f64; 2] {
-        let larger = |a: [f64; 2], b: &[f64; 2]| if b[1] > a[1] { *b } else { a };
-        self.envelope.iter().fold([f64::NAN, 0.0], larger)
-    }
-
-    /// Follows a start through a sweep; the frequency of the system does not matter.
-    ///
-    /// # Errors
-    /// [`StartError`] for a start outside of the cavity, or where a motion becomes so large that rounding hides the
-    /// walls.
-    pub fn follow(
-        system: &System,
-        scales: &Scales,
-        sweep: &SineSweep,
-        start: State,
-    ) -> Result<Self, StartError> {
-        let all = Self::follow_telling(system, scales, sweep, start, u64::MAX, &mut |_| {});
-        all.map(|(found, _)| found)
-    }
-
-    /// The same for so many periods at the most, and its duration; `told` hears of every impact, its time that since the
-    /// start.
-    pub(super) fn follow_telling(
-        system: &System,
-        scales: &Scales,
-        sweep: &SineSweep,
-        start: State,
-        periods: u64,
-        told: &mut dyn FnMut(&Impact),
-    ) -> Result<(Self, f64), StartError> {
-        let mut found = Self::new(sweep.count().min(periods), 1.0);
-        let (mut state, mut elapsed) = (start, 0.0);
-        for stretch in sweep.stretches(scales) {
-            if stretch.first && found.envelope.len() as u64 == periods {
-                break;
-            }
-            let refused = StartError::NotFinite { state };
-            let system = stretch.system(system).map_err(|_| refused)?;
-            let mut simulation = Simulation::new(&system, state, stretch.begins)?;
-            let measured = Measurement::begin_within(&system, state, stretch.begins);
-            let mut teller = Teller { elapsed, stretch, told: &mut *told };
-            let mut measured = (measured, &mut teller);
-            if simulation.run(1, u64::MAX, &mut measured) != Stop::EndTime {
-                return Err(refused);
-            }
-            (state, elapsed) = (simulation.state(), elapsed + stretch.duration());
-            let period = measured.0.statistics();
-            found.passed(&stretch, period.peak());
-            found.impacts += period.impacts();
-            found.impact_speed = found.impact_speed.max(period.impact_speed());
-            found.residual = found.residual.max(period.energy().relative_residual);
-        }
-        Ok((found, elapsed))
-    }
-
-    /// The largest displacement of a stretch.
-    pub(super) fn passed(&mut self, stretch: &Stretch, peak: f64) {
-        match self.envelope.last_mut() {
-            Some(last) if !stretch.first => last[1] = last[1].max(peak),
-            _ => self.envelope.push([stretch.of_period, peak]),
-        }
-    }
-}
-
-/// Tells of impacts of a stretch in the time and phase of the sweep.
-struct Teller<'a> {
-    elapsed: f64,
-    stretch: Stretch,
-    told: &'a mut dyn FnMut(&Impact),
-}
-
-impl Observer for Teller<'_> {
-    fn detail(&self) -> Detail {
-        Detail::Events
-    }
-
-    fn impact(&mut self, impact: &Impact) {
-        let since = (impact.phase - self.stretch.begins) / self.stretch.ratio;
-        let phase = (impact.phase + self.stretch.lead).rem_euclid(TAU);
-        (self.told)(&Impact { tau: self.elapsed + since, phase, ..*impact });
     }
 }

@@ -6,15 +6,12 @@ use std::f64::consts::TAU;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::driven::{Meter, Response};
-use super::record::Piece;
-use super::{Passage, STEPS, Settling, SineSweep, amplitude};
-use crate::band::rivals::TunedMassDamper;
-use crate::case::Scales;
+use super::{Meter, Passage, Response, STEPS, Settling, TunedMassDamper};
+use crate::excitation::{Piece, SineSweep, amplitude};
 use crate::numerics::extremes::Cubic;
-use crate::system::{State, System};
+use crate::system::{Scales, State, System};
 
-/// A linear structure on its way to rest, per step as [`super::Ringdown`].
+/// A linear structure on its way to rest, per step as [`Ringdown`](crate::flights::Ringdown).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Linear {
     /// Amplitude of the structure.
@@ -25,15 +22,6 @@ pub struct Linear {
     pub stroke: f64,
     /// Oscillations after which the amplitude stays at the level or below it; infinite where that was not seen.
     pub settles: f64,
-}
-
-impl TunedMassDamper {
-    /// The damper with which an undamped structure comes to rest fastest: its four roots are a double pair, at
-    /// tuning `1/(1 + mu)` and damping ratio `sqrt(mu/(1 + mu))` (Nishihara and Matsuhisa 1997, maximum stability).
-    pub fn for_free_decay(mass_ratio: f64) -> Self {
-        let total = 1.0 + mass_ratio;
-        Self { tuning: 1.0 / total, damping_ratio: (mass_ratio / total).sqrt() }
-    }
 }
 
 /// The structure with a damper, or alone, from a state, over so many oscillations or until its amplitude has

@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use super::{Settling, amplitude, unforced};
+use super::unforced;
+use crate::excitation::amplitude;
+use crate::linear::{STEPS, Settling};
 use crate::numerics::extremes::largest;
 use crate::simulation::{Detail, Impact, Observer, Segment, Simulation, StartError, Stop};
 use crate::system::{State, System};
 
-/// Steps in an oscillation of the structure: between two of them its amplitude moves by impacts alone.
-pub const STEPS: u32 = 16;
 /// Impacts per oscillation after which a run is given up: chattering ends in contact long before.
 const MOST_IMPACTS: u64 = 1000;
 
@@ -110,7 +110,7 @@ impl Ringdown {
     }
 
     /// The same; `told` hears of every impact.
-    pub(super) fn follow_telling(
+    pub(crate) fn follow_telling(
         system: &System,
         start: State,
         level: f64,

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
-use crate::case::Scales;
+use crate::system::Scales;
 use vinesink_core::names;
 
 names! { name:

@@ -9,9 +9,9 @@
 //! `g` is a cubic, of which the nearest straight line (least squares over the piece) is taken: the rest is orthogonal
 //! to straight lines, so that the motion at the end of a piece of length `h` is off by `h^5`.
 
-use super::record::Piece;
 use super::unforced;
-use crate::numerics::extremes::Cubic;
+use crate::excitation::Piece;
+use crate::linear::{Meter, Response};
 use crate::simulation::{Detail, Impact, Observer, Simulation, StartError, Stop};
 use crate::system::{InvalidParameter, State, System};
 
@@ -41,93 +41,6 @@ pub enum DrivenError {
     /// A piece is too short or too long for a number.
     #[error(transparent)]
     Piece(#[from] InvalidParameter),
-}
-
-/// What a driven structure did. Lengths over the clearance and relative to the base, fast time; energies per unit of
-/// the oscillator's mass.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Response {
-    /// Largest displacement of the structure.
-    pub peak: f64,
-    /// Root mean square displacement over the whole record.
-    pub rms: f64,
-    /// Largest displacement of absorber or damper against the structure.
-    pub stroke: f64,
-    /// Impacts.
-    pub impacts: u64,
-    /// Largest relative speed of one of them.
-    pub impact_speed: f64,
-    /// Work of the excitation.
-    pub work: f64,
-    /// Energy that the structure's own damping took.
-    pub damping_loss: f64,
-    /// Energy that impacts took.
-    pub impact_loss: f64,
-    /// Energy of structure and absorber, or mass of the damper, at the end; its spring's not included.
-    pub stored: f64,
-    /// Time and displacement at the end of every piece.
-    pub trace: Vec<[f64; 2]>,
-}
-
-/// Measures a motion between states that are so near that it is a cubic in between.
-pub(super) struct Meter {
-    pub(super) found: Response,
-    /// Mass of the absorber or damper over the structure's, and `eps lambda`.
-    mass_ratio: f64,
-    damping: f64,
-    time: f64,
-    square: f64,
-}
-
-impl Meter {
-    pub(super) fn new(mass_ratio: f64, damping: f64) -> Self {
-        let mut found = Response::default();
-        found.trace.push([0.0, 0.0]);
-        Self { found, mass_ratio, damping, time: 0.0, square: 0.0 }
-    }
-
-    /// The base changes its velocity.
-    pub(super) fn jump(&mut self, piece: &Piece, state: &mut State) {
-        let before = state.energy(self.mass_ratio);
-        state.x_velocity += piece.jump;
-        state.y_velocity += piece.jump;
-        self.found.work += state.energy(self.mass_ratio) - before;
-    }
-
-    /// The motion between two times of a piece.
-    pub(super) fn moved(&mut self, piece: &Piece, [from, to]: [f64; 2], states: [&State; 2]) {
-        let duration = to - from;
-        let x = Cubic::of(duration, states.map(|state| [state.x, state.x_velocity]));
-        let against =
-            |state: &State| [state.relative_displacement(), state.x_velocity - state.y_velocity];
-        let w = Cubic::of(duration, states.map(against));
-        let found = &mut self.found;
-        found.peak = found.peak.max(x.largest());
-        found.stroke = found.stroke.max(w.largest());
-        self.square += x.square();
-        found.damping_loss += self.damping * x.square_of_slope();
-        // The integral of f q', by parts.
-        let moved = if piece.shakes { self.mass_ratio } else { 0.0 };
-        let q = |state: &State| {
-            [state.x + moved * state.y, state.x_velocity + moved * state.y_velocity]
-        };
-        let [force, slope] = piece.force;
-        let ends = states.map(q);
-        found.work += (force + slope * to) * ends[1][0] - (force + slope * from) * ends[0][0];
-        found.work -= slope * Cubic::of(duration, ends).integral();
-    }
-
-    /// A piece has come to its end.
-    pub(super) fn passed(&mut self, piece: &Piece, state: &State) {
-        self.time += piece.duration;
-        self.found.trace.push([self.time, state.x]);
-        self.found.stored = state.energy(self.mass_ratio);
-    }
-
-    pub(super) fn finished(mut self) -> Response {
-        self.found.rms = if self.time > 0.0 { (self.square / self.time).sqrt() } else { 0.0 };
-        self.found
-    }
 }
 
 /// From what is seen from the base to what the unforced system does in a piece.
@@ -243,7 +156,7 @@ pub fn follow(system: &System, pieces: &[Piece], w: f64) -> Result<Response, Dri
 }
 
 /// The same from a state; `told` hears of every impact as it is seen from the base, its time that since the start.
-pub(super) fn follow_from(
+pub(crate) fn follow_from(
     system: &System,
     pieces: &[Piece],
     start: State,

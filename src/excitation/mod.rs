@@ -1,0 +1,110 @@
+//! What a structure is subjected to: data, and what follows from them in closed form.
+//!
+//! | scene | what it says | in dimensionless form |
+//! | --- | --- | --- |
+//! | steady | `F sin(2 pi f t)` of the base, or such a force | [`System`](crate::system::System) |
+//! | [`Release`] | displacement, velocity, an impulse | a [`State`](crate::system::State) |
+//! | [`SineSweep`] | `sin(phi(t))` with `phi' = 2 pi f(t)` | stretches of a constant frequency ratio |
+//! | [`Record`], [`Spectrum`] | values over time, or the density of noise | [`Piece`]s in which `f` is linear |
+//!
+//! Numbers are in SI, or without units where a case is, until [`Scales`](crate::system::Scales) divide them: lengths by
+//! the clearance, times by `1/omega0`. Nothing is flown here.
+
+mod record;
+mod release;
+mod sine_sweep;
+
+pub use record::{Piece, Record, RecordQuantity, Spectrum};
+pub use release::Release;
+pub(crate) use release::amplitude;
+pub use sine_sweep::{SineSweep, Stretch, SweepRate};
+
+use crate::system::Parameter;
+
+/// What a structure is subjected to that is not steady harmonic excitation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Transient {
+    /// It is let go or struck.
+    Release(Release),
+    /// The frequency of its excitation is swept.
+    Sweep(SineSweep),
+    /// A record or noise drives it, whose values are of this quantity.
+    Record(RecordQuantity),
+}
+
+impl Transient {
+    /// Places of the absorber that are simulated unless a case says how many.
+    pub const PLACES: u32 = 64;
+    /// The same under each of several records.
+    const PLACES_OF_MANY: u32 = 8;
+
+    /// Places of the absorber under each of so many records, unless a case says how many.
+    pub const fn places_under(records: usize) -> u32 {
+        if records > 1 { Self::PLACES_OF_MANY } else { Self::PLACES }
+    }
+
+    /// Places of the absorber that are simulated unless a case says how many: of several records fewer of each.
+    pub const fn places(self, records: usize) -> u32 {
+        match self {
+            Self::Release(_) | Self::Sweep(_) => Self::PLACES,
+            Self::Record(_) => Self::places_under(records),
+        }
+    }
+
+    /// The numbers that a parameter is in it: how far and how fast a structure is let go, how hard it is struck, how
+    /// fast it is swept.
+    pub(crate) fn numbers(&mut self, parameter: Parameter) -> Vec<&mut f64> {
+        use Parameter as P;
+        let (struck, shock) = match self {
+            Self::Release(of) => (of.impulse > 0.0, of.impulse > 0.0 || of.absorber_velocity > 0.0),
+            _ => (false, false),
+        };
+        match (self, parameter, struck, shock) {
+            (Self::Release(of), P::Amplitude, true, _) => vec![&mut of.impulse],
+            (Self::Release(of), P::Amplitude, _, true) => {
+                vec![&mut of.velocity, &mut of.absorber_velocity]
+            }
+            (Self::Release(of), P::InitialDisplacement, _, false) => vec![&mut of.displacement],
+            (Self::Release(of), P::InitialVelocity, _, false) => vec![&mut of.velocity],
+            (Self::Sweep(of), P::Rate, ..) => match &mut of.rate {
+                SweepRate::Linear(rate) | SweepRate::Octaves(rate) => vec![rate],
+            },
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// What a structure is subjected to: which criteria, tables and commands make sense of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scene {
+    /// Harmonic excitation.
+    Steady,
+    /// None: it is let go or struck.
+    Release,
+    /// Harmonic excitation whose frequency changes.
+    Sweep,
+    /// A record or noise.
+    Record,
+}
+
+impl Scene {
+    /// Seconds for an oscillation on the way to rest, a period of a sweep or a piece of a record from one place of the
+    /// absorber, measured in the release profile on one core of an ARM server: 2.8, 1.6 and 0.3 us with some impacts each.
+    pub const fn seconds(self) -> f64 {
+        match self {
+            Self::Release => 3e-6,
+            Self::Steady | Self::Sweep => 1.6e-6,
+            Self::Record => 0.4e-6,
+        }
+    }
+
+    /// "a structure that is ...".
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Steady => "driven steadily",
+            Self::Release => "released or struck",
+            Self::Sweep => "swept through resonance",
+            Self::Record => "driven by a record",
+        }
+    }
+}
