@@ -10,6 +10,7 @@
 
 mod band;
 mod criteria;
+mod design;
 mod document;
 mod error;
 mod excitation;
@@ -411,12 +412,8 @@ fn system_of(reader: &mut Reader, root: &Table, design: &Design) -> Option<Syste
         Ok(_) => ("response that is not finite".to_owned(), "values that fit one another"),
         Err(error) => (format!("{} of {}", error.name, error.value), error.expected),
     };
-    let table = match design {
-        Design::Physical(_) => physical::TABLES[0],
-        Design::Reduced(_) => reduced::TABLE,
-    };
     let message = format!("the values together give a {what}");
     let help = "check the units: one value is many orders of magnitude away from the others";
-    reader.report(root.span_of(table), message, format!("expected {expected}"), help);
+    reader.report(root.span_of(design.tables()[0]), message, format!("expected {expected}"), help);
     None
 }

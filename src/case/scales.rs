@@ -143,10 +143,7 @@ impl Design {
 
     /// What is not steady vibration in it.
     pub fn transient(&self) -> Option<Transient> {
-        match self {
-            Self::Physical(physical) => physical.transient,
-            Self::Reduced(reduced) => reduced.transient,
-        }
+        *self.clone().common().transient
     }
 
     /// How the oscillator is set in motion, where nothing drives it.

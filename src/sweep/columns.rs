@@ -3,7 +3,7 @@
 use super::facts::{Facts, Found};
 use super::{Plan, Point};
 use crate::analysis::{Area, Strip};
-use crate::case::{Design, Recorded};
+use crate::case::Recorded;
 use crate::motions::Motion;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
@@ -137,7 +137,7 @@ pub fn empty(plan: &Plan) -> Vec<Column> {
         let unit = plan.design.unit(axis.parameter);
         Column::empty(axis.parameter.key().to_owned(), unit, Storage::Number)
     }));
-    let physical = matches!(plan.design, Design::Physical(_));
+    let physical = plan.design.is_physical();
     for (recorded, direction) in recorded(plan) {
         let unit = kind(recorded).map_or("", |kind| kind.dimension.symbol(physical));
         let storage = match kind(recorded).map(|kind| kind.dimension) {

@@ -18,13 +18,14 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use super::figure::Figure;
-use crate::case::{Case, Design};
+use crate::case::Case;
 use crate::criteria::{Judged, method};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Quantity, Units};
 use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
+use crate::system::Parameter;
 
 pub(super) use band::{Absorber, damper, outside};
 pub use notes::theory_limits;
@@ -136,9 +137,8 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
         scale.length(&of::DAMPER_PEAK, study.rivals.damped.amplitude, Method::ClosedForm),
         scale.length(&of::DAMPER_STROKE, study.rivals.damped.stroke, Method::ClosedForm),
     ];
-    if let Design::Physical(physical) = &case.design {
-        all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
-    }
+    let mass = case.design.value(Parameter::AbsorberMass);
+    all.extend(mass.map(|mass| given(&of::ABSORBER_MASS, mass)));
     all.extend(scale::cavity(case));
     if let Some(main) = study.motions.main() {
         let headline = motions::headline(scale, system, main.facts(), method(main));
