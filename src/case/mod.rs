@@ -11,6 +11,7 @@
 mod band;
 mod criteria;
 mod design;
+mod dimensionless;
 mod document;
 mod error;
 mod excitation;
@@ -25,7 +26,6 @@ mod record;
 mod reduced;
 mod restitution;
 mod rewrite;
-mod scales;
 mod schema;
 mod settings;
 mod sweep;
@@ -49,7 +49,6 @@ pub use quantity::QuantityError;
 pub use record::{RecordSource, Recording};
 pub use reduced::Reduced;
 pub use rewrite::{RewriteError, Rewritten, Rounding};
-pub use scales::Scales;
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use settings::{AccuracySettings, ExtraFigure, ReportSettings, SimulationSettings};
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
@@ -57,6 +56,7 @@ pub use uncertainty::{Distribution, Uncertainty};
 
 use crate::digest::sha256;
 use crate::motions::{BandEffort, Effort};
+use crate::quantity::Units;
 use crate::system::{Band, System};
 use crate::transient::Scene;
 use reader::{Reader, Table};
@@ -86,8 +86,8 @@ use reader::{Reader, Table};
 /// frequency = "8 Hz"
 /// "#)?;
 /// assert!((case.system().mass_ratio() - 0.032 / 4.168).abs() < 1e-15);
-/// // Results are over the clearance; the case's scales make metres of them.
-/// assert!((case.scales().length(0.475) - 3.5625e-3).abs() < 1e-12);
+/// // Results are over the clearance; the case's units make metres of them.
+/// assert!((case.units().length(0.475) - 3.5625e-3).abs() < 1e-12);
 /// // What is wrong is said all at once, with the line.
 /// assert!(Case::parse("damper.toml", "title = 7").is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -289,8 +289,8 @@ impl Case {
     }
 
     /// What turns the system's results back into the case's units.
-    pub fn scales(&self) -> Scales {
-        self.design.scales()
+    pub fn units(&self) -> Units {
+        self.design.units()
     }
 
     /// The text of a commented case to start from, with the given title.

@@ -96,7 +96,7 @@ impl Design {
 
     /// `b`, in metres or the design's own unit.
     pub fn clearance(&self) -> f64 {
-        self.scales().clearance
+        self.units().clearance
     }
 
     /// What a number of the cavity that a design of the other kind has is called in this one.
@@ -121,7 +121,7 @@ impl Design {
 
     /// The symbol of the SI unit in which a parameter's values are held; "1" for a plain number.
     pub fn unit(&self, parameter: Parameter) -> &'static str {
-        self.kind(parameter).dimension.symbol(self.scales().physical)
+        self.kind(parameter).dimension.symbol(self.units().physical)
     }
 
     /// How values of a parameter are written beside this design: as the design's own; `None` where it has no

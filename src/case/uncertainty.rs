@@ -134,7 +134,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
             format!("write {} instead, or remove the line", other.key()),
         );
     }
-    if read.amplitude.is_some() && design.scales().forcing == 0.0 {
+    if read.amplitude.is_some() && design.forcing() == 0.0 {
         reader.report(
             table.span_of_value("amplitude"),
             "the amplitude is uncertain in a case that is not driven",

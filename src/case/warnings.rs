@@ -78,7 +78,7 @@ impl Read<'_> {
         let Design::Physical(physical) = &self.case.design else { return None };
         let at = self.input(0, &["frequency", "stiffness"])?;
         let (natural, ratio) =
-            (self.case.scales().frequency(1.0), 1.0 / self.case.system.frequency_ratio());
+            (self.case.units().frequency(1.0), 1.0 / self.case.system.frequency_ratio());
         let message = format!(
             "the structure's natural frequency, {}, is {}",
             hertz(natural),
@@ -95,7 +95,7 @@ impl Read<'_> {
 
     /// That a frequency of the drive is far from the structure's.
     fn drive(&self, at: &Input, ratio: f64) -> Problem {
-        let natural = self.case.scales().frequency(1.0);
+        let natural = self.case.units().frequency(1.0);
         let than = "the structure's natural frequency";
         let (than, meant) = match self.case.design.is_physical() {
             true => (

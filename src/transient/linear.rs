@@ -10,8 +10,8 @@ use super::driven::{Meter, Response};
 use super::record::Piece;
 use super::{Passage, STEPS, Settling, SineSweep, amplitude};
 use crate::band::rivals::TunedMassDamper;
-use crate::case::Scales;
 use crate::numerics::extremes::Cubic;
+use crate::quantity::Units;
 use crate::system::{State, System};
 
 /// A linear structure on its way to rest, per step as [`super::Ringdown`].
@@ -113,12 +113,12 @@ const STEPS_OF_PERIOD: u32 = 128;
 pub fn swept(
     system: &System,
     damper: Option<&TunedMassDamper>,
-    scales: &Scales,
+    units: &Units,
     sweep: &SineSweep,
 ) -> Passage {
     let mut found = Passage::new(sweep.count(), 0.0);
     let mut state = Motion::zeros();
-    for stretch in sweep.stretches(scales) {
+    for stretch in sweep.stretches(units) {
         let Ok(piece) = stretch.system(system) else { break };
         let left = TAU - stretch.begins;
         let steps = libm::ceil(left / TAU * f64::from(STEPS_OF_PERIOD)) as u32;

@@ -38,8 +38,9 @@ pub(crate) use study::{bare, followed};
 pub use sweep::{Passage, SineSweep, SweepRate};
 pub use theory::Predicted;
 
-use crate::case::{Case, Recording, Scales};
+use crate::case::{Case, Recording};
 use crate::executor::Executor;
+use crate::quantity::Units;
 use crate::simulation::StartError;
 use crate::system::{InvalidParameter, Parameter, Parameters, State, System};
 
@@ -178,20 +179,20 @@ impl Release {
     }
 
     /// The amplitude with which the structure begins, over the clearance.
-    pub(crate) fn amplitude(&self, scales: &Scales) -> f64 {
-        amplitude(&self.state(scales, 0.0))
+    pub(crate) fn amplitude(&self, units: &Units) -> f64 {
+        amplitude(&self.state(units, 0.0))
     }
 
     /// Where no wall ever reaches an absorber at rest.
-    fn inactive(&self, system: &System, scales: &Scales) -> Inactive {
-        study::inactive(system, &self.state(scales, 0.0))
+    fn inactive(&self, system: &System, units: &Units) -> Inactive {
+        study::inactive(system, &self.state(units, 0.0))
     }
 
     /// The state in which an absorber at a relative displacement `w` begins.
-    fn state(&self, scales: &Scales, w: f64) -> State {
-        let x = scales.over_clearance(self.displacement);
-        let velocity = self.velocity + self.impulse / scales.oscillator_mass;
-        let speed = scales.velocity(1.0);
+    fn state(&self, units: &Units, w: f64) -> State {
+        let x = units.over_clearance(self.displacement);
+        let velocity = self.velocity + self.impulse / units.oscillator_mass;
+        let speed = units.velocity(1.0);
         let y_velocity = self.absorber_velocity / speed;
         State { x, x_velocity: velocity / speed, y: x - w, y_velocity }
     }

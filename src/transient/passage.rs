@@ -8,9 +8,10 @@ use super::places::{Places, even, survey, worst_of_places};
 use super::sweep::{Passage, SineSweep};
 use super::{Measured, counted};
 use crate::band::rivals::{TunedMassDamper, bare_amplitude};
-use crate::case::{Case, Scales};
+use crate::case::Case;
 use crate::executor::{Executor, map};
 use crate::orbits::steady_orbit;
+use crate::quantity::Units;
 use crate::simulation::StartError;
 use crate::system::{State, System};
 
@@ -88,18 +89,18 @@ impl SweepStudy {
     /// From rest, the absorber at a relative displacement `w`.
     pub(super) fn start(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         sweep: &SineSweep,
         w: f64,
     ) -> Result<SweepStart, StartError> {
         let start = State { y: -w, ..State::AT_REST };
-        Passage::follow(system, scales, sweep, start).map(|found| (w, found))
+        Passage::follow(system, units, sweep, start).map(|found| (w, found))
     }
 
     /// From even places of the absorber and closer ones, without those that do not count.
     pub(crate) fn starts(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         sweep: &SineSweep,
         places: Places<'_>,
         inactive: bool,
@@ -112,7 +113,7 @@ impl SweepStudy {
         };
         let (peaks, speeds) = (counts(|found| found.peak()[1]), counts(|found| found.impact_speed));
         let flown = survey(places, &[&peaks, &speeds], |w| {
-            Self::start(system, scales, sweep, w).map(|(_, found)| found)
+            Self::start(system, units, sweep, w).map(|(_, found)| found)
         })?;
         Ok(counted(&flown, inactive, |(_, found)| found.impacts).into_iter().cloned().collect())
     }
@@ -123,10 +124,10 @@ impl SweepStudy {
         even_places: u32,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
-        let (system, scales) = (case.system(), case.scales());
+        let (system, units) = (case.system(), case.units());
         let inactive = case.count_inactive;
         let places = Places { even: even_places.into(), closer: true, executor };
-        let starts = Self::starts(&system, &scales, sweep, places, inactive)?;
+        let starts = Self::starts(&system, &units, sweep, places, inactive)?;
         let rates: Vec<SineSweep> = RATES
             .into_iter()
             .map(|factor| sweep.faster(factor))
@@ -136,8 +137,7 @@ impl SweepStudy {
         let others = rates.iter().copied().filter(|other| other != sweep);
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(others).collect();
         let at: Vec<f64> = even(even_places.min(Self::STARTS_BESIDE).into()).collect();
-        let passage =
-            |k: usize| Self::start(&system, &scales, &all[k / at.len()], at[k % at.len()]);
+        let passage = |k: usize| Self::start(&system, &units, &all[k / at.len()], at[k % at.len()]);
         let flown = map(executor, "passages", all.len() * at.len(), passage);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
         let worst_of = |sweep: &SineSweep| -> Option<Passage> {
@@ -149,7 +149,7 @@ impl SweepStudy {
         let there = worst(starts.iter()).map(|(_, found)| found.clone());
         let damper = TunedMassDamper::den_hartog(system.mass_ratio());
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
-            swept(&system, damper, &scales, sweep)
+            swept(&system, damper, &units, sweep)
         };
         let by_rate = rates.iter().map(|other| {
             let found = if other == sweep { there.clone() } else { worst_of(other) };
@@ -172,7 +172,7 @@ impl SweepStudy {
             sweep: *sweep,
             alone: linear(None, sweep),
             damped: (damper, linear(Some(&damper), sweep)),
-            steady: steady(&system, &scales, sweep),
+            steady: steady(&system, &units, sweep),
             jumps: [&there, &back].map(|passage| jumps(&passage.envelope, window)),
             differ: differ(&there.envelope, &back.envelope, window),
             by_rate,
@@ -203,10 +203,10 @@ pub(crate) fn worst<'a>(starts: impl Iterator<Item = &'a SweepStart>) -> Option<
 }
 
 /// Amplitudes of steady motion along the range.
-fn steady(system: &System, scales: &Scales, sweep: &SineSweep) -> Vec<[f64; 3]> {
+fn steady(system: &System, units: &Units, sweep: &SineSweep) -> Vec<[f64; 3]> {
     let place = |k: u32| {
         let part = f64::from(k) / f64::from(PLACES);
-        let ratio = scales.frequency_ratio(sweep.from + part * (sweep.to - sweep.from));
+        let ratio = units.frequency_ratio(sweep.from + part * (sweep.to - sweep.from));
         let there = system.with_frequency_ratio(ratio).ok()?;
         let orbit = steady_orbit(&there).map_or(f64::NAN, |orbit| orbit.peaks.displacement);
         Some([ratio, bare_amplitude(&there), orbit])

@@ -6,8 +6,8 @@ use std::f64::consts::{PI, TAU};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
-use crate::case::Scales;
 use crate::names::names;
+use crate::quantity::Units;
 
 names! { name:
     /// What a record, or a spectrum, is of.
@@ -55,12 +55,12 @@ impl Record {
     /// therefore used as it is: a constant velocity of the base, into which an offset or a missing start of the
     /// record integrates, changes nothing, and nothing is removed. The base of a record of its displacement moves at
     /// a constant velocity between samples, so that all there is to its acceleration are the jumps of that velocity.
-    pub fn pieces(&self, scales: &Scales, longest: f64) -> Vec<Piece> {
+    pub fn pieces(&self, units: &Units, longest: f64) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut velocity = 0.0;
         for two in self.samples.windows(2) {
-            let duration = (two[1][0] - two[0][0]) / scales.time(1.0);
-            let [from, to] = [two[0][1], two[1][1]].map(|value| self.reduced(scales, value));
+            let duration = (two[1][0] - two[0][0]) / units.time(1.0);
+            let [from, to] = [two[0][1], two[1][1]].map(|value| self.reduced(units, value));
             let count = libm::ceil(duration / longest).max(1.0);
             let step = duration / count;
             let displaced = self.quantity == RecordQuantity::BaseDisplacement;
@@ -80,19 +80,19 @@ impl Record {
     }
 
     /// How many pieces of at most [`Self::LONGEST`] the record has.
-    pub fn count(&self, scales: &Scales) -> u64 {
-        let longest = scales.time(Self::LONGEST);
+    pub fn count(&self, units: &Units) -> u64 {
+        let longest = units.time(Self::LONGEST);
         let pieces = |two: &[[f64; 2]]| libm::ceil((two[1][0] - two[0][0]) / longest).max(1.0);
         self.samples.windows(2).map(pieces).sum::<f64>() as u64
     }
 
     /// A value, dimensionless: displacement of the base, else `f` of [`Piece`].
-    pub(crate) fn reduced(&self, scales: &Scales, value: f64) -> f64 {
-        let acceleration = scales.acceleration(1.0);
+    pub(crate) fn reduced(&self, units: &Units, value: f64) -> f64 {
+        let acceleration = units.acceleration(1.0);
         match self.quantity {
             RecordQuantity::BaseAcceleration => -value / acceleration,
-            RecordQuantity::BaseDisplacement => scales.over_clearance(value),
-            RecordQuantity::Force => value / (scales.oscillator_mass * acceleration),
+            RecordQuantity::BaseDisplacement => units.over_clearance(value),
+            RecordQuantity::Force => value / (units.oscillator_mass * acceleration),
         }
     }
 
@@ -106,7 +106,7 @@ impl Record {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
     /// Frequency in Hz, ascending, and density in the squared unit of the quantity per Hz: straight between two of
-    /// them on logarithmic scales, nothing outside.
+    /// them on logarithmic units, nothing outside.
     pub corners: Vec<[f64; 2]>,
     /// Seconds.
     pub duration: f64,

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use libm::{exp, log1p};
 
-use crate::case::Scales;
+use crate::quantity::Units;
 use crate::simulation::{Detail, Impact, Measurement, Observer, Simulation, StartError, Stop};
 use crate::system::{InvalidParameter, State, System};
 
@@ -120,8 +120,8 @@ impl SineSweep {
     }
 
     /// The stretches in which it is flown, in order.
-    pub fn stretches(&self, scales: &Scales) -> impl Iterator<Item = Stretch> + use<> {
-        let (sweep, scales) = (*self, *scales);
+    pub fn stretches(&self, units: &Units) -> impl Iterator<Item = Stretch> + use<> {
+        let (sweep, units) = (*self, *units);
         let frequency = move |begin: f64, end: f64| {
             let [from, to] = [begin, end].map(|periods| sweep.time(periods));
             sweep.turn * (end - begin) / (to - from)
@@ -134,8 +134,8 @@ impl SineSweep {
             (0..parts as u32).map(move |k| {
                 let [begin, end] = [k, k + 1].map(|k| f64::from(k) / parts);
                 Stretch {
-                    ratio: scales.frequency_ratio(frequency(n + begin, n + end)),
-                    of_period: scales.frequency_ratio(of_period),
+                    ratio: units.frequency_ratio(frequency(n + begin, n + end)),
+                    of_period: units.frequency_ratio(of_period),
                     first: k == 0,
                     begins: TAU * (1.0 - 1.0 / parts),
                     lead: TAU * (end - 1.0),
@@ -208,11 +208,11 @@ impl Passage {
     /// walls.
     pub fn follow(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         sweep: &SineSweep,
         start: State,
     ) -> Result<Self, StartError> {
-        let all = Self::follow_telling(system, scales, sweep, start, u64::MAX, &mut |_| {});
+        let all = Self::follow_telling(system, units, sweep, start, u64::MAX, &mut |_| {});
         all.map(|(found, _)| found)
     }
 
@@ -220,7 +220,7 @@ impl Passage {
     /// start.
     pub(super) fn follow_telling(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         sweep: &SineSweep,
         start: State,
         periods: u64,
@@ -228,7 +228,7 @@ impl Passage {
     ) -> Result<(Self, f64), StartError> {
         let mut found = Self::new(sweep.count().min(periods), 1.0);
         let (mut state, mut elapsed) = (start, 0.0);
-        for stretch in sweep.stretches(scales) {
+        for stretch in sweep.stretches(units) {
             if stretch.first && found.envelope.len() as u64 == periods {
                 break;
             }

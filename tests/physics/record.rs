@@ -4,8 +4,8 @@
 use std::f64::consts::{PI, TAU};
 
 use vinesink::band::rivals::TunedMassDamper;
-use vinesink::case::Scales;
 use vinesink::executor::Serial;
+use vinesink::quantity::Units;
 use vinesink::simulation::Simulation;
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 use vinesink::transient::linear::driven;
@@ -16,13 +16,8 @@ use vinesink::transient::{
 use crate::common::unforced as system;
 
 /// A unit of everything: SI is dimensionless.
-const UNITS: Scales = Scales {
-    physical: true,
-    clearance: 1.0,
-    natural_frequency: 1.0,
-    oscillator_mass: 1.0,
-    forcing: 0.0,
-};
+const UNITS: Units =
+    Units { physical: true, clearance: 1.0, natural_frequency: 1.0, oscillator_mass: 1.0 };
 
 /// Values at even times.
 fn record(quantity: RecordQuantity, step: f64, count: u32, value: impl Fn(f64) -> f64) -> Record {
@@ -372,7 +367,7 @@ fn a_seed_names_its_records() {
     assert_eq!(first(&short), first(&short));
     assert_ne!(first(&short), first(&Spectrum { seed: 8, ..short.clone() }));
     assert_ne!(first(&short)[0], first(&short)[1]);
-    // Straight on logarithmic scales: 1/10 over a decade.
+    // Straight on logarithmic units: 1/10 over a decade.
     assert!((short.density(0.1_f64.sqrt()) / 0.3 - 0.1_f64.sqrt()).abs() < 1e-12);
 }
 
@@ -403,7 +398,7 @@ fn the_worst_place_counts() {
     let reduction = study.reduction_db(|one| one.bare.peak)[0];
     assert!((reduction - 20.0 * libm::log10(bare / worst[0])).abs() < 1e-12);
     // Twice as stiff a structure in the same units of SI: time runs sqrt(2) times as fast.
-    let stiff = Scales { natural_frequency: study.spectrum[20].ratio, ..UNITS };
+    let stiff = Units { natural_frequency: study.spectrum[20].ratio, ..UNITS };
     let stiff = driven(&of, None, &record.pieces(&stiff, Record::LONGEST)).peak;
     assert_eq!(study.spectrum[20].bare, stiff);
 }

@@ -15,9 +15,9 @@ use crate::band::Band;
 use crate::band::rivals::{TunedMassDamper, bare_along};
 use crate::band::theory::z3_share;
 use crate::bifurcation::Bifurcation;
-use crate::case::Scales;
 use crate::operation_count::counted;
 use crate::orbits::{SymmetricFamily, symmetric_orbits};
+use crate::quantity::Units;
 use crate::simulation::{ImpactLog, Simulation};
 use crate::system::{BandOver, Cavity, Excitation, Parameters, State, System};
 use crate::transient::linear::{driven, swept};
@@ -334,13 +334,8 @@ fn damper(system: &System) -> Answer {
 }
 
 /// Lengths over the clearance, fast time.
-const UNITS: Scales = Scales {
-    physical: false,
-    clearance: 1.0,
-    natural_frequency: 1.0,
-    oscillator_mass: 1.0,
-    forcing: 1.0,
-};
+const UNITS: Units =
+    Units { physical: false, clearance: 1.0, natural_frequency: 1.0, oscillator_mass: 1.0 };
 
 /// The state in which a structure is let go, its impacts that are compared, of which an almost plastic one is the last that
 /// a reference without sustained contact knows, and the fast time in which they happen: rounding adds up beyond.
