@@ -414,6 +414,11 @@ fn system_of(reader: &mut Reader, root: &Table, design: &Design) -> Option<Syste
     };
     let message = format!("the values together give a {what}");
     let help = "check the units: one value is many orders of magnitude away from the others";
-    reader.report(root.span_of(design.tables()[0]), message, format!("expected {expected}"), help);
+    reader.report(
+        root.span_of(design.writing().tables[0]),
+        message,
+        format!("expected {expected}"),
+        help,
+    );
     None
 }

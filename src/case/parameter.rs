@@ -111,14 +111,6 @@ impl Design {
         self.row(parameter).is_none().then_some(other)
     }
 
-    /// Its kind in the words of a message.
-    pub(super) fn words(&self) -> &'static str {
-        match self.is_physical() {
-            true => "a design in [oscillator], [absorber] and [excitation]",
-            false => "a design in [reduced]",
-        }
-    }
-
     /// The symbol of the SI unit in which a parameter's values are held; "1" for a plain number.
     pub fn unit(&self, parameter: Parameter) -> &'static str {
         self.kind(parameter).dimension.symbol(self.units().physical)

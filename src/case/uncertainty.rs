@@ -129,7 +129,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
         let key = parameter.key();
         reader.report(
             table.span_of(key),
-            format!("{} has no `{key}` that could be uncertain", design.words()),
+            format!("{} has no `{key}` that could be uncertain", design.writing().words),
             "expected a number that the design has",
             format!("write {} instead, or remove the line", other.key()),
         );

@@ -46,7 +46,7 @@ impl Read<'_> {
     /// The number that stands under one of some keys, in the one of `[oscillator]`, `[absorber]` and
     /// `[excitation]` of that index, or in `[reduced]`.
     fn input(&self, table: usize, keys: &[&str]) -> Option<&Input> {
-        let tables = self.case.design.tables();
+        let tables = self.case.design.writing().tables;
         let table = tables.get(table).or(tables.last())?;
         self.case.inputs.iter().find(|input| input.table == *table && keys.contains(&input.name))
     }

@@ -311,6 +311,11 @@ impl Units {
         Self { physical: false, clearance: 1.0, natural_frequency: 1.0, oscillator_mass: 1.0 }
     }
 
+    /// What documents call them: SI, or a reduced design's.
+    pub fn name(&self) -> &'static str {
+        if self.physical { "si" } else { "reduced" }
+    }
+
     /// The unit that lengths share.
     fn of_lengths(&self) -> Unit {
         if !self.physical {

@@ -56,10 +56,10 @@ pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> 
     let table = reader.table::<AxisTable>(sweep, name)?;
     if design.form(parameter).is_none() {
         let structure = format!("a structure that is {}", design.scene().words());
-        let instead = if design.is_physical() { "frequency" } else { "mass_ratio or damping" };
+        let writing = design.writing();
         let (this, other) = match (design.counterpart(parameter), design.scene()) {
-            (Some(other), _) => (design.words(), other.key()),
-            (_, Scene::Steady) => (design.words(), instead),
+            (Some(other), _) => (writing.words, other.key()),
+            (_, Scene::Steady) => (writing.words, writing.steady),
             _ => (structure.as_str(), "clearance"),
         };
         reader.report(

@@ -80,7 +80,7 @@ pub fn document(source: &Source) -> Value {
         "name": source.name,
         "title": case.title,
         "source": case.source,
-        "units": if scale.units.physical { "si" } else { "reduced" },
+        "units": scale.units.name(),
         "verdict": verdict::verdict(study, judged),
         // Numbers of the case, and those that its first screen, the index and a comparison show, by their id.
         "quantities": quantities(&scale, case, study),

@@ -94,7 +94,7 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
         "name": name,
         "title": case.title,
         "source": case.source,
-        "units": if case.units().physical { "si" } else { "reduced" },
+        "units": case.units().name(),
         "verdict": { "tone": word.tone(), "word": word, "headline": name_of(study) },
         "quantities": all,
         "criteria": criteria(case, judged),
