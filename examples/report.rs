@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     store::replace_folder(Path::new(&folder), &files, render::is_of_report)?;
     println!("{}: {} files in {folder}", case.title, files.len());
     for motion in &report.answer.studied()?.motions {
-        let peak_mm = 1e3 * case.scales().length(motion.facts().peak.value);
+        let peak_mm = 1e3 * case.units().length(motion.facts().peak.value);
         let impacts = motion.facts().impacts_per_period.value;
         println!(
             "  {}: peak {peak_mm:.3} mm, {impacts:.2} impacts per period",

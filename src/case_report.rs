@@ -68,7 +68,7 @@ impl Report {
     /// [`ReportError`] says which part cannot be rendered.
     pub fn files(&self, case: &Case) -> Result<Files, ReportError> {
         let equations = equations::groups(case, self.answer.studied()?);
-        let units = document::units(case);
+        let units = case.units();
         Ok(render::files(&self.document, &equations, &units, &self.figures)?)
     }
 }
@@ -79,5 +79,5 @@ impl Report {
 /// [`ReportError`] where theory or simulation cannot be carried out.
 pub fn drawn(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, ReportError> {
     let plots = Plot::all(case, study)?;
-    Ok(template::worded(figures::all(case, study, &plots), &document::units(case))?)
+    Ok(template::worded(figures::all(case, study, &plots), &case.units())?)
 }

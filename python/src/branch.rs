@@ -15,7 +15,7 @@ use crate::work::refused;
 
 /// Orbits with two impacts per period, in the case's units: the fields of `orbits` in the JSON of `analyze` and more.
 pub fn orbits(case: &Case) -> Vec<Value> {
-    let (system, scales) = (case.system(), case.scales());
+    let (system, scales) = (case.system(), case.units());
     let full = FullSystem::of(&system);
     let told = |orbit: &Orbit, impact: f64, peak: f64, phase: f64| {
         json!({
@@ -66,7 +66,7 @@ pub fn followed(
     orbit: Option<usize>,
     most_points: usize,
 ) -> PyResult<Followed> {
-    let (system, scales) = (case.system(), case.scales());
+    let (system, scales) = (case.system(), case.units());
     let known = Parameter::OF_SYSTEM.map(Parameter::key).join(", ");
     let unknown =
         || refused(format!("no branch is followed along `{parameter}`; choose one of {known}"));

@@ -106,7 +106,7 @@ impl Case {
 
     /// Clearance, natural frequency and mass, which turn dimensionless numbers into the case's units.
     fn scales<'py>(&self, py: Python<'py>) -> PyResult<Columns<'py>> {
-        let scales = self.inner.scales();
+        let scales = self.inner.units();
         let dict = PyDict::new(py);
         dict.set_item("physical", scales.physical)?;
         dict.set_item("length", scales.length(1.0))?;

@@ -5,8 +5,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
 use vinesink::answer::trajectory::{Simulation, Stop};
-use vinesink::case::{self, Scales};
+use vinesink::case;
 use vinesink::motions::{Effort, Motion, follow, starts};
+use vinesink::quantity::Units;
 use vinesink::regimes::Regime;
 use vinesink::system::{Parameter, State, System};
 
@@ -24,7 +25,7 @@ pub fn regimes() -> Vec<&'static str> {
 }
 
 /// One system of many.
-type Place = (System, State, Scales);
+type Place = (System, State, Units);
 
 /// The long-term motion of each element: `values` has a row for each of the names, `initial` one for each element.
 #[pyfunction]
@@ -106,11 +107,11 @@ fn place(
     let system = design.system().map_err(|error| of(&error))?;
     let start = start.unwrap_or(starts::FROM_REST);
     Simulation::new(&system, start, 0.0).map_err(|error| of(&error))?;
-    Ok((system, start, design.scales()))
+    Ok((system, start, design.units()))
 }
 
 /// A motion with what turns its numbers into units; none where it could not be followed.
-type Found = (Option<Motion>, Scales);
+type Found = (Option<Motion>, Units);
 
 fn motions(places: &[Vec<Place>], effort: &Effort, work: &Work) -> PyResult<Vec<Found>> {
     work.expect(places.iter().map(|some| some.len() as u64).sum());
@@ -129,7 +130,7 @@ fn motions(places: &[Vec<Place>], effort: &Effort, work: &Work) -> PyResult<Vec<
 
 fn columns<'py>(py: Python<'py>, found: &[Found]) -> PyResult<Columns<'py>> {
     let dict = PyDict::new(py);
-    let numbers_of = |of: fn(&Motion, &Scales) -> f64| {
+    let numbers_of = |of: fn(&Motion, &Units) -> f64| {
         let each = found
             .iter()
             .map(|(motion, scales)| motion.as_ref().map_or(f64::NAN, |one| of(one, scales)));

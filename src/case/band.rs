@@ -112,7 +112,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<BandSettings> {
         reader.inputs.push(Input { table, name, symbol, value, unit: "1", as_written, span });
     }
     let own = design.value(Parameter::Amplitude)?;
-    let omega = |frequency: f64| design.scales().frequency_ratio(frequency);
+    let omega = |frequency: f64| design.units().frequency_ratio(frequency);
     let range = [band.from, band.to].map(|end| match over {
         BandOver::Frequency => omega(end),
         BandOver::Amplitude => end / own,

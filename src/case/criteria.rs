@@ -239,9 +239,9 @@ fn criterion(
 
 /// How a limit is written: a length or a velocity of a reduced design without unit, a share also without %.
 fn form(of: Dimension, design: &Design) -> Form {
-    let measured = match (of, design) {
-        (Dimension::Number, _) => None,
-        (Dimension::Length | Dimension::Velocity | Dimension::Time, Design::Reduced(_)) => None,
+    let measured = match of {
+        Dimension::Number => None,
+        Dimension::Length | Dimension::Velocity | Dimension::Time if !design.is_physical() => None,
         _ => Some(of),
     };
     let plain = measured.is_none() || matches!(of, Dimension::Share | Dimension::Level);

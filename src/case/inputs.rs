@@ -35,17 +35,17 @@ impl Case {
     /// The numbers that follow from the inputs, the dimensionless ones that decide the dynamics
     /// among them.
     pub fn derived(&self) -> Vec<Input> {
-        let (system, scales) = (self.system(), self.scales());
-        let unit = scales.length_unit();
+        let (system, units) = (self.system(), self.units());
+        let unit = units.length_unit();
         let damping_ratio = system.mass_ratio() * system.damping() / 2.0;
         let numbers = [
-            ("natural_frequency", "f_0", scales.frequency(1.0), "Hz"),
+            ("natural_frequency", "f_0", units.frequency(1.0), "Hz"),
             ("mass_ratio", r"\varepsilon", system.mass_ratio(), "1"),
             ("damping", r"\lambda", system.damping(), "1"),
             ("damping_ratio", r"\zeta_1", damping_ratio, "1"),
             ("frequency_ratio", r"\Omega", system.frequency_ratio(), "1"),
             ("detuning", r"\sigma", system.detuning(), "1"),
-            ("forcing", "G", scales.forcing, unit),
+            ("forcing", "G", self.design.forcing(), unit),
             ("forcing_per_clearance", r"\gamma", system.forcing_per_clearance(), "1"),
         ];
         let derived =
@@ -65,7 +65,7 @@ impl Case {
             ("restitution_difference", "r_1 - r_2", cavity.restitution_difference, "1"),
         ];
         // A reduced design has no frequency but ratios.
-        let numbers = numbers.into_iter().skip(usize::from(!scales.physical));
+        let numbers = numbers.into_iter().skip(usize::from(!units.physical));
         numbers.chain(of_cavity.into_iter().filter(|_| !cavity.is_ideal())).map(derived).collect()
     }
 }

@@ -10,6 +10,8 @@
 
 mod band;
 mod criteria;
+mod design;
+mod dimensionless;
 mod document;
 mod error;
 mod excitation;
@@ -24,7 +26,6 @@ mod record;
 mod reduced;
 mod restitution;
 mod rewrite;
-mod scales;
 mod schema;
 mod settings;
 mod sweep;
@@ -53,11 +54,10 @@ pub use settings::{AccuracySettings, ExtraFigure, ReportSettings, SimulationSett
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
-pub use crate::system::Scales;
-
 use crate::digest::sha256;
 use crate::excitation::Scene;
 use crate::motions::{BandEffort, Effort};
+use crate::quantity::Units;
 use crate::system::{Band, System};
 use reader::{Reader, Table};
 
@@ -86,8 +86,8 @@ use reader::{Reader, Table};
 /// frequency = "8 Hz"
 /// "#)?;
 /// assert!((case.system().mass_ratio() - 0.032 / 4.168).abs() < 1e-15);
-/// // Results are over the clearance; the case's scales make metres of them.
-/// assert!((case.scales().length(0.475) - 3.5625e-3).abs() < 1e-12);
+/// // Results are over the clearance; the case's units make metres of them.
+/// assert!((case.units().length(0.475) - 3.5625e-3).abs() < 1e-12);
 /// // What is wrong is said all at once, with the line.
 /// assert!(Case::parse("damper.toml", "title = 7").is_err());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -289,8 +289,8 @@ impl Case {
     }
 
     /// What turns the system's results back into the case's units.
-    pub fn scales(&self) -> Scales {
-        self.design.scales()
+    pub fn units(&self) -> Units {
+        self.design.units()
     }
 
     /// The text of a commented case to start from, with the given title.
@@ -412,12 +412,13 @@ fn system_of(reader: &mut Reader, root: &Table, design: &Design) -> Option<Syste
         Ok(_) => ("response that is not finite".to_owned(), "values that fit one another"),
         Err(error) => (format!("{} of {}", error.name, error.value), error.expected),
     };
-    let table = match design {
-        Design::Physical(_) => physical::TABLES[0],
-        Design::Reduced(_) => reduced::TABLE,
-    };
     let message = format!("the values together give a {what}");
     let help = "check the units: one value is many orders of magnitude away from the others";
-    reader.report(root.span_of(table), message, format!("expected {expected}"), help);
+    reader.report(
+        root.span_of(design.writing().tables[0]),
+        message,
+        format!("expected {expected}"),
+        help,
+    );
     None
 }

@@ -4,7 +4,6 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::Design;
 use super::criteria::{AREAS_ARE_IDEAL, EXACT_INSTEAD};
 use super::reader::{Reader, Table};
 use super::schema::in_design;
@@ -62,7 +61,7 @@ pub struct OptimizeSettings {
 pub(super) fn read(reader: &mut Reader, root: &Table) -> OptimizeSettings {
     let read = reader.optional::<OptimizeSettings>(root, "optimize");
     let Some((table, settings)) = read else { return OptimizeSettings::default() };
-    if matches!(reader.design, Some(Design::Reduced(_))) && table.has("mass") {
+    if reader.design.is_some_and(|design| !design.is_physical()) && table.has("mass") {
         reader.report(
             table.span_of("mass"),
             "a reduced case has no mass to choose",

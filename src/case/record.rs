@@ -76,10 +76,10 @@ impl Case {
         if let Some(Recording { quantity, source: RecordSource::File { read, .. } }) =
             &mut self.recording
         {
-            let scales = self.design.scales();
-            let physical = scales.physical;
+            let units = self.design.units();
+            let physical = units.physical;
             let mut record = Record { quantity: *quantity, samples: Vec::new() };
-            let most = LARGEST / record.reduced(&scales, 1.0).abs();
+            let most = LARGEST / record.reduced(&units, 1.0).abs();
             record.samples = samples(visible, *quantity, physical, most).map_err(|problems| {
                 let error = CaseError::new(name, visible, problems, 0);
                 match is_record(visible, *quantity, physical) {

@@ -107,6 +107,12 @@ impl Reduced {
         let detuned = libm::fma(self.mass_ratio, self.detuning.unwrap_or_default(), 1.0);
         self.frequency_ratio.unwrap_or(detuned)
     }
+
+    /// `sigma`, however its author gave it.
+    pub fn detuning(&self) -> f64 {
+        let of_ratio = || (self.frequency_ratio() - 1.0) / self.mass_ratio;
+        self.detuning.unwrap_or_else(of_ratio)
+    }
 }
 
 pub(super) const TABLE: &str = "reduced";

@@ -124,20 +124,3 @@ impl Case {
         Ok(Rewritten { text, case })
     }
 }
-
-impl Input {
-    /// What it says of the design.
-    fn parameter(&self) -> Option<Parameter> {
-        match (self.table.as_str(), self.name) {
-            ("absorber", "mass") => Some(Parameter::AbsorberMass),
-            ("reduced", "forcing") => Some(Parameter::Amplitude),
-            ("reduced", "frequency_ratio") => Some(Parameter::Frequency),
-            // The natural frequency follows from mass and stiffness.
-            ("oscillator", "frequency") => None,
-            ("oscillator" | "absorber" | "excitation" | "reduced", name) => {
-                Parameter::of_name(name)
-            }
-            _ => None,
-        }
-    }
-}

@@ -129,12 +129,12 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
         let key = parameter.key();
         reader.report(
             table.span_of(key),
-            format!("{} has no `{key}` that could be uncertain", design.words()),
+            format!("{} has no `{key}` that could be uncertain", design.writing().words),
             "expected a number that the design has",
             format!("write {} instead, or remove the line", other.key()),
         );
     }
-    if read.amplitude.is_some() && design.scales().forcing == 0.0 {
+    if read.amplitude.is_some() && design.forcing() == 0.0 {
         reader.report(
             table.span_of_value("amplitude"),
             "the amplitude is uncertain in a case that is not driven",

@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
-use super::Design;
 use super::number::{Bound, Form, toml};
 use super::reader::{Reader, Table, kind};
 use super::restitution::alternatives;
@@ -114,7 +113,9 @@ impl Reader<'_> {
     fn example(&self, schema: &'static Value) -> String {
         let plain = &schema["x-plain"][0];
         match (&schema["examples"][0], self.form(schema)) {
-            _ if matches!(self.design, Some(Design::Reduced(_))) && !plain.is_null() => toml(plain),
+            _ if self.design.is_some_and(|design| !design.is_physical()) && !plain.is_null() => {
+                toml(plain)
+            }
             (_, Some(form)) => form.example,
             (Value::Null, None) => match self.form(&schema["items"]) {
                 Some(form) => format!("[{}]", form.example),

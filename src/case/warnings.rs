@@ -4,7 +4,7 @@
 
 use super::error::Problem;
 use super::inputs::Input;
-use super::{BandOver, BandSettings, Case, Design, physical, reduced};
+use super::{BandOver, BandSettings, Case, Design};
 use crate::excitation::Scene;
 use crate::quantity::numbers::rounded_to;
 
@@ -46,11 +46,9 @@ impl Read<'_> {
     /// The number that stands under one of some keys, in the one of `[oscillator]`, `[absorber]` and
     /// `[excitation]` of that index, or in `[reduced]`.
     fn input(&self, table: usize, keys: &[&str]) -> Option<&Input> {
-        let table = match &self.case.design {
-            Design::Physical(_) => physical::TABLES[table],
-            Design::Reduced(_) => reduced::TABLE,
-        };
-        self.case.inputs.iter().find(|input| input.table == table && keys.contains(&input.name))
+        let tables = self.case.design.writing().tables;
+        let table = tables.get(table).or(tables.last())?;
+        self.case.inputs.iter().find(|input| input.table == *table && keys.contains(&input.name))
     }
 
     fn warning(&self, at: &Input, message: String, label: &str, meant: String) -> Problem {
@@ -80,7 +78,7 @@ impl Read<'_> {
         let Design::Physical(physical) = &self.case.design else { return None };
         let at = self.input(0, &["frequency", "stiffness"])?;
         let (natural, ratio) =
-            (self.case.scales().frequency(1.0), 1.0 / self.case.system.frequency_ratio());
+            (self.case.units().frequency(1.0), 1.0 / self.case.system.frequency_ratio());
         let message = format!(
             "the structure's natural frequency, {}, is {}",
             hertz(natural),
@@ -97,14 +95,14 @@ impl Read<'_> {
 
     /// That a frequency of the drive is far from the structure's.
     fn drive(&self, at: &Input, ratio: f64) -> Problem {
-        let natural = self.case.scales().frequency(1.0);
+        let natural = self.case.units().frequency(1.0);
         let than = "the structure's natural frequency";
-        let (than, meant) = match &self.case.design {
-            Design::Physical(_) => (
+        let (than, meant) = match self.case.design.is_physical() {
+            true => (
                 format!("{than}, {}", hertz(natural)),
                 meant(&at.as_written, ratio * natural, ratio, true),
             ),
-            Design::Reduced(_) => (
+            false => (
                 than.to_owned(),
                 "frequencies of [reduced] are over the natural one, and 1 is resonance".to_owned(),
             ),
@@ -146,7 +144,7 @@ impl Read<'_> {
         let ratio = self.case.system.mass_ratio();
         let [least, most] = MASS_RATIOS;
         // Without units a small one is no slip of one.
-        let too_small = ratio < least && matches!(self.case.design, Design::Physical(_));
+        let too_small = ratio < least && self.case.design.is_physical();
         if !too_small && ratio <= most {
             return None;
         }

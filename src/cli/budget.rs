@@ -347,7 +347,7 @@ impl Flown {
             return Some(Self { records: 0, periods: sweep.count() });
         }
         let records = case.recording.as_ref()?.records();
-        let periods = records.iter().map(|record| record.count(&case.scales())).sum();
+        let periods = records.iter().map(|record| record.count(&case.units())).sum();
         Some(Self { records: records.len().max(1), periods })
     }
 }

@@ -10,10 +10,11 @@ mod scope;
 mod transient;
 
 use crate::band::{Survey, SurveySettings};
-use crate::case::{Case, Criterion, Relation, Scales, Subject};
+use crate::case::{Case, Criterion, Relation, Subject};
 use crate::linear::reduction_db;
 use crate::method::Method;
 use crate::motions::{Along, Extreme, Fact, Kind, Motion, RestKind, Value};
+use crate::quantity::Units;
 
 use scope::Scope;
 pub use transient::{judge_release, judge_sweep, judge_transient, of_records};
@@ -104,7 +105,7 @@ pub fn settings(case: &Case) -> SurveySettings {
 
 /// Judges every criterion of a case by a survey of its range, as [`settings`] asks for it.
 pub fn judge(case: &Case, survey: &Survey) -> Vec<Judged> {
-    let scope = Scope { survey, scales: case.scales() };
+    let scope = Scope { survey, units: case.units() };
     case.criteria.iter().map(|criterion| scope.judge(criterion)).collect()
 }
 
@@ -161,7 +162,7 @@ impl Judged {
 pub fn judge_peak(case: &Case, motion: &Motion) -> Option<Judged> {
     let asked = |one: &&Criterion| one.subject == Subject::PeakDisplacement;
     let Value { value, error } = motion.facts().peak;
-    let [peak, error] = [value, error].map(|one| case.scales().length(one));
+    let [peak, error] = [value, error].map(|one| case.units().length(one));
     let asked = case.criteria.iter().find(asked)?;
     Some(asked.judged(Some(peak), error, method(motion)))
 }
@@ -178,12 +179,12 @@ fn of_motion(
     motion: &Motion,
     peak: Value,
     against: f64,
-    scales: &Scales,
+    units: &Units,
 ) -> Option<[f64; 2]> {
     let facts = motion.facts();
     let pair = |of: Value| [of.value, of.error];
     let peak = pair(peak);
-    let length = |value: [f64; 2]| value.map(|one| scales.length(one));
+    let length = |value: [f64; 2]| value.map(|one| units.length(one));
     let decibels = || {
         if against.is_infinite() {
             // Anything is less than what has no limit: that says nothing.
@@ -196,7 +197,7 @@ fn of_motion(
         Subject::PeakDisplacement => length(peak),
         Subject::RmsDisplacement => length(pair(facts.rms)),
         Subject::ReductionDb | Subject::ReductionDbTmd => decibels()?,
-        Subject::ImpactVelocity => pair(facts.impact_speed).map(|speed| scales.velocity(speed)),
+        Subject::ImpactVelocity => pair(facts.impact_speed).map(|speed| units.velocity(speed)),
         Subject::ImpactsPerPeriod => pair(facts.impacts_per_period),
         Subject::Z3Share
         | Subject::StableShare

@@ -2,9 +2,10 @@
 
 use super::{Judged, ROUNDING, method, of_motion, of_stability};
 use crate::band::{Survey, theory};
-use crate::case::{Criterion, Scales, Subject};
+use crate::case::{Criterion, Subject};
 use crate::method::Method;
 use crate::motions::Motion;
+use crate::quantity::Units;
 use crate::validation::tolerance::asymptotic_error;
 
 /// Places of a band at which the theory's own error is asked for.
@@ -13,7 +14,7 @@ const PLACES: u32 = 25;
 /// A survey and the units of its case.
 pub(super) struct Scope<'a> {
     pub(super) survey: &'a Survey,
-    pub(super) scales: Scales,
+    pub(super) units: Units,
 }
 
 impl Scope<'_> {
@@ -121,7 +122,7 @@ impl Scope<'_> {
             _ => f64::NAN,
         };
         let subject = criterion.subject;
-        let [found, error] = of_motion(subject, motion, peak, against, &self.scales)?;
+        let [found, error] = of_motion(subject, motion, peak, against, &self.units)?;
         let judged = criterion.judged(Some(found), error, method(motion));
         let inactive = motion.rest().map(|rest| rest.share);
         Some((Judged { at: self.place(at), motion: Some(index), inactive, ..judged }, motion))

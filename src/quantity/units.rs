@@ -1,9 +1,13 @@
-//! Units and prefixes: from a number in SI to what a reader sees.
+//! Units and prefixes: from a dimensionless number to SI, and from there to what a reader sees.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Deref;
 
+use super::Quantity;
 use super::catalogue::{Digits, Dimension, ErrorKind, Kind};
 use super::numbers::{fixed, significant, with_minus};
+use crate::method::Method;
+use crate::system::Scales;
 
 /// A unit with a prefix.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,37 +172,131 @@ const PAGE_RANGE: [f64; 2] = [0.1, 1000.0];
 /// Below 1 Hz a frequency stays in Hz down to this: of a tower people say 0.79 Hz, not 790 mHz.
 const LEAST_HERTZ: f64 = 0.1;
 
-/// The units of one page.
+/// The units of a design and its pages: SI, or for a reduced design those of an oscillator with m1 = k1 = 1, lengths in
+/// the unit of its own clearance. They turn what is dimensionless into quantities, as its [`Scales`] do, and quantities into
+/// text; the unit that a page's lengths share is that of the clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Units {
-    /// Whether numbers are in SI; otherwise in reduced units.
-    pub physical: bool,
-    /// The unit that the page's lengths share: that of the clearance.
-    length: Unit,
+pub struct Units(Scales);
+
+impl From<Scales> for Units {
+    fn from(scales: Scales) -> Self {
+        Self(scales)
+    }
 }
 
+impl Deref for Units {
+    type Target = Scales;
+
+    fn deref(&self) -> &Scales {
+        &self.0
+    }
+}
+
+/// The conversion from dimensionless numbers, and back.
 impl Units {
-    /// Those of a case with a clearance in metres.
-    pub fn physical(clearance_m: f64) -> Self {
-        // 0.1 mm reads better than 100 µm, and 300 mm better than 0.3 m.
-        let fits = |one: &&Unit| clearance_m >= one.size * if one.size == 1.0 { 1.0 } else { 0.1 };
-        let length = Dimension::Length.units().iter().find(fits).copied();
-        Self { physical: true, length: length.unwrap_or(unit("nm", -9)) }
+    /// A number of some dimension in these units, of the dimensionless one: lengths over the clearance, times over
+    /// `1/omega0`, frequencies over the natural one, masses over `m1`.
+    pub fn number(&self, dimension: Dimension, value: f64) -> f64 {
+        match dimension {
+            Dimension::Length => self.length(value),
+            Dimension::Time => self.time(value),
+            Dimension::Frequency => self.frequency(value),
+            Dimension::FrequencyRate => self.frequency(value) * self.natural_frequency,
+            Dimension::Velocity => self.velocity(value),
+            Dimension::Acceleration => self.acceleration(value),
+            Dimension::Mass => self.oscillator_mass * value,
+            Dimension::Stiffness => self.number(Dimension::Damping, value) * self.natural_frequency,
+            Dimension::Damping => self.oscillator_mass * self.natural_frequency * value,
+            Dimension::Force => self.oscillator_mass * self.acceleration(value),
+            Dimension::Energy => self.energy(value),
+            Dimension::Power => self.energy(value) * self.natural_frequency,
+            Dimension::Impulse => self.oscillator_mass * self.velocity(value),
+            Dimension::OctaveRate
+            | Dimension::Angle
+            | Dimension::Inclination
+            | Dimension::Share
+            | Dimension::Change
+            | Dimension::Level
+            | Dimension::Number
+            | Dimension::Count => value,
+        }
     }
 
-    /// Those of a case in reduced units.
+    /// The quantity of a kind whose dimensionless number is this: see [`Units::number`].
+    pub fn quantity(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
+        Quantity::new(kind, self.number(kind.dimension, value), method)
+    }
+
+    /// The same with its error.
+    pub fn quantity_with(
+        &self,
+        kind: &'static Kind,
+        [value, error]: [f64; 2],
+        method: Method,
+    ) -> Quantity {
+        self.quantity(kind, value, method).with_error(self.number(kind.dimension, error))
+    }
+
+    /// The unit of [`Scales::clearance`] and [`Scales::length`]: "m", or "1" for a
+    /// reduced design's own.
+    pub fn length_unit(&self) -> &'static str {
+        Dimension::Length.symbol(self.physical)
+    }
+
+    /// The inclination in rad of a cavity along which gravity accelerates by so much over `b omega0^2`; none where that is
+    /// more than gravity.
+    pub fn inclination(&self, along: f64) -> Option<f64> {
+        let sine = self.acceleration(along) / STANDARD_GRAVITY.size;
+        (sine.abs() <= 1.0).then(|| libm::asin(sine))
+    }
+
+    /// The coefficient of friction in a cavity by the accelerations of gravity along it and of friction, over
+    /// `b omega0^2`; none where gravity does not press on it.
+    pub fn friction(&self, accelerations: [f64; 2]) -> Option<f64> {
+        let [sine, friction] =
+            accelerations.map(|one| self.acceleration(one) / STANDARD_GRAVITY.size);
+        let coefficient = friction / ((1.0 - sine) * (1.0 + sine)).sqrt();
+        coefficient.is_finite().then_some(coefficient)
+    }
+}
+
+/// What a reader sees.
+impl Units {
+    /// Those of a page of quantities, with a clearance in metres, of an oscillator of 1 kg and 1 rad/s.
+    pub const fn physical(clearance_m: f64) -> Self {
+        Self(Scales { physical: true, clearance: clearance_m, ..Scales::REDUCED })
+    }
+
+    /// Those of a reduced design whose clearance is 1.
     pub const fn reduced() -> Self {
-        Self { physical: false, length: unit("units", 0) }
+        Self(Scales::REDUCED)
+    }
+
+    /// What documents call them: SI, or a reduced design's.
+    pub fn name(&self) -> &'static str {
+        if self.physical { "si" } else { "reduced" }
+    }
+
+    /// The unit that lengths share.
+    fn of_lengths(&self) -> Unit {
+        if !self.physical {
+            return unit("units", 0);
+        }
+        // 0.1 mm reads better than 100 µm, and 300 mm better than 0.3 m.
+        let fits =
+            |one: &&Unit| self.clearance >= one.size * if one.size == 1.0 { 1.0 } else { 0.1 };
+        let length = Dimension::Length.units().iter().find(fits).copied();
+        length.unwrap_or(unit("nm", -9))
     }
 
     /// The symbol of the unit that lengths share.
-    pub const fn length_symbol(&self) -> &'static str {
-        self.length.symbol
+    pub fn length_symbol(&self) -> &'static str {
+        self.of_lengths().symbol
     }
 
     /// A length in the unit that lengths share.
     pub fn length_number(&self, length: f64) -> f64 {
-        length / self.length.size
+        length / self.of_lengths().size
     }
 
     /// The unit in which a number of a dimension is shown: lengths of a page share theirs, others have the
@@ -212,9 +310,9 @@ impl Units {
         let size = value.abs();
         let [least, most] = PAGE_RANGE;
         if dimension == Dimension::Length
-            && (size == 0.0 || (least..most).contains(&(size / self.length.size)))
+            && (size == 0.0 || (least..most).contains(&self.length_number(size)))
         {
-            return self.length;
+            return self.of_lengths();
         }
         let units = dimension.units();
         let plain = units.iter().find(|one| one.size == 1.0).or(units.first());

@@ -66,8 +66,8 @@ impl Analysed<'_> {
         let scale = Scale::of(case);
         let point = |point: &ManifoldPoint| {
             [
-                scale.length(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
-                scale.length(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
+                scale.quantity(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
+                scale.quantity(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
             ]
         };
         // Where saddle-node and Hopf meet.
@@ -87,7 +87,7 @@ impl Analysed<'_> {
             "motions": self.motions(),
             "answers": answers,
         });
-        template::render("analyze.txt", &scale.units(), &page)
+        template::render("analyze.txt", &scale.units, &page)
     }
 
     /// For programs: `vinesink/analysis@2`. `theory` is that of `report.json`; `exact` is all that the exact
@@ -95,7 +95,7 @@ impl Analysed<'_> {
     pub fn document(&self) -> Value {
         let Self { case, theory: answer::Theory { analysis, exact }, .. } = self;
         let (scale, system) = (Scale::of(case), &analysis.system);
-        let forcing = case.scales().forcing;
+        let forcing = case.design.forcing();
         let boundaries = &analysis.boundaries;
         let nodes = boundaries.saddle_node.iter().map(|node| {
             json!({
@@ -154,7 +154,7 @@ impl Analysed<'_> {
 
 /// An exact symmetric orbit.
 fn orbit(scale: &Scale, orbit: &SymmetricOrbit) -> Value {
-    let length = |value: f64| scale.length(&of::PEAK, value, ExactOrbit).value;
+    let length = |value: f64| scale.quantity(&of::PEAK, value, ExactOrbit).value;
     let found = &orbit.orbit;
     json!({
         "impact_displacement": length(orbit.impact_displacement),
@@ -204,14 +204,14 @@ impl Simulated<'_> {
     pub fn text(&self) -> Result<String, RenderError> {
         let (motion, motions) = (self.motion(), self.motions());
         let page = json!({ "title": self.case.title, "motion": motion, "motions": motions });
-        template::render("simulate.txt", &Scale::of(self.case).units(), &page)
+        template::render("simulate.txt", &self.case.units(), &page)
     }
 
     /// For programs: `vinesink/simulation@2`. `motion` is that of `report.json`, and `motions` the list of all;
     /// `classification`, `energetics` and `orbit` are the evidence: per m1, lengths over the clearance, fast time.
     pub fn document(&self) -> Value {
         let scale = Scale::of(self.case);
-        let energy = |value: f64| scale.energy(&of::WORK, value, Simulation).value;
+        let energy = |value: f64| scale.quantity(&of::WORK, value, Simulation).value;
         let (measured, told) = (self.measured, self.motion());
         let balance = &measured.energy;
         let mut document = json!({

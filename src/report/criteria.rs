@@ -25,7 +25,7 @@ pub struct Checked {
 impl Checked {
     /// A case, by its file's path and stem, whose criteria were judged.
     pub fn judged(path: &str, name: &str, case: &Case, answer: &Answer) -> Self {
-        let (scale, units) = (Scale::of(case), document::units(case));
+        let (scale, units) = (Scale::of(case), case.units());
         let judged = answer.judged.as_slice();
         let (counts, survey) = (case.count_inactive, answer.survey.as_ref());
         let survey = survey.filter(|survey| !survey.band().is_point());

@@ -2,7 +2,6 @@
 
 use serde_json::{Value, json};
 
-use super::document;
 use crate::case::Case;
 use crate::equations;
 use crate::orbits::flight::Flight;
@@ -47,13 +46,13 @@ fn with_numbers(group: &Group, values: &Values) -> Value {
 
 /// A length over the clearance in the unit of the case's pages.
 fn length(case: &Case, over_clearance: f64) -> f64 {
-    document::units(case).length_number(case.scales().length(over_clearance))
+    case.units().length_number(case.units().length(over_clearance))
 }
 
 /// The case's numbers that belong to no motion: dimensionless ones, and lengths in the report's unit.
 fn case_values(case: &Case, study: &CaseStudy) -> Values {
     let system = &study.analysis.system;
-    let forcing = document::units(case).length_number(case.scales().forcing);
+    let forcing = case.units().length_number(case.design.forcing());
     equations::values_of(system)
         .with(Symbol::b, length(case, 1.0))
         .with(Symbol::G, forcing)

@@ -3,7 +3,7 @@
 use super::facts::{Facts, Found};
 use super::{Plan, Point};
 use crate::analysis::{Area, Strip};
-use crate::case::{Design, Recorded};
+use crate::case::Recorded;
 use crate::motions::Motion;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind};
@@ -137,7 +137,7 @@ pub fn empty(plan: &Plan) -> Vec<Column> {
         let unit = plan.design.unit(axis.parameter);
         Column::empty(axis.parameter.key().to_owned(), unit, Storage::Number)
     }));
-    let physical = matches!(plan.design, Design::Physical(_));
+    let physical = plan.design.is_physical();
     for (recorded, direction) in recorded(plan) {
         let unit = kind(recorded).map_or("", |kind| kind.dimension.symbol(physical));
         let storage = match kind(recorded).map(|kind| kind.dimension) {
@@ -198,7 +198,7 @@ pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
                 cells.push(found.motions.main().map(|motion| Cell::Text(motion.regime().key())));
             }
             Recorded::Section => cells.extend((0..SECTION).map(|k| {
-                found.section.displacements.get(k).map(|x| Cell::Number(point.scales.length(*x)))
+                found.section.displacements.get(k).map(|x| Cell::Number(point.units.length(*x)))
             })),
             other => cells.push(number(other, facts, found).map(Cell::Number)),
         }
@@ -208,8 +208,8 @@ pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
 
 /// The value of what fills one column of numbers, whole numbers or flags.
 fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
-    let scales = &facts.point.scales;
-    let length = |over_clearance: f64| scales.length(over_clearance);
+    let units = &facts.point.units;
+    let length = |over_clearance: f64| units.length(over_clearance);
     let motions = &found.motions;
     let main = || motions.main();
     let facts_of = || motions.main().map(Motion::facts);
@@ -231,7 +231,7 @@ fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
         Recorded::Rms => Some(length(facts_of()?.rms.value)),
         Recorded::ReductionDb => Some(20.0 * libm::log10(facts.bare()? / facts_of()?.peak.value)),
         Recorded::Efficiency => facts_of()?.efficiency.map(|share| share.value),
-        Recorded::ImpactSpeed => Some(scales.velocity(facts_of()?.impact_speed.value)),
+        Recorded::ImpactSpeed => Some(units.velocity(facts_of()?.impact_speed.value)),
         Recorded::RepeatsAfter => main()?.repeats_after().map(f64::from),
         Recorded::Lyapunov => found.section.exponent,
         Recorded::ShareOfStarts => {

@@ -5,18 +5,16 @@ use super::facts::Found;
 use super::{Plan, Point};
 use crate::motions::starts::FROM_REST;
 use crate::motions::{Effort, Motions, carried_over, follow};
+use crate::quantity::Units;
 use crate::simulation::StartError;
-use crate::system::{Parameter, Scales, State};
+use crate::system::{Parameter, State};
 
 /// The start that axes say, over the clearance; none where they say nothing. What no axis says is at
 /// rest, the absorber halfway between the middle of its cavity and a wall.
-pub(super) fn start(
-    axes: impl Iterator<Item = (Parameter, f64)>,
-    scales: &Scales,
-) -> Option<State> {
-    let speed = scales.natural_frequency;
-    let length = |value: f64| scales.over_clearance(value);
-    let velocity = |value: f64| scales.over_clearance(value) / speed;
+pub(super) fn start(axes: impl Iterator<Item = (Parameter, f64)>, units: &Units) -> Option<State> {
+    let speed = units.natural_frequency;
+    let length = |value: f64| units.over_clearance(value);
+    let velocity = |value: f64| units.over_clearance(value) / speed;
     let (mut start, mut absorber, mut said) = (State::AT_REST, None, false);
     for (parameter, value) in axes.filter(|(parameter, _)| parameter.is_initial()) {
         said = true;
@@ -40,18 +38,18 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
     let effort = Effort::over(plan.settings.periods);
     let mut found: Vec<Vec<Found>> = points.iter().map(|_| Vec::with_capacity(2)).collect();
     // Where the motion of each line stands, and at which point.
-    let mut stands: Vec<Option<(State, &Scales)>> = vec![None; points.len().div_ceil(length)];
+    let mut stands: Vec<Option<(State, &Units)>> = vec![None; points.len().div_ceil(length)];
     for k in (0..length).chain((0..length).rev()) {
         // All lines side by side.
         let here = || points[k..].iter().step_by(length);
         let starts = here().zip(&stands).filter_map(|(point, stand)| {
-            let carried = |(state, from)| carried(state, from, &point.scales);
+            let carried = |(state, from)| carried(state, from, &point.units);
             Some((point.system?, stand.map_or(FROM_REST, carried)))
         });
         let mut motions = follow(&starts.collect::<Vec<_>>(), &effort)?.into_iter();
         for (line, point) in here().enumerate() {
             let motion = point.system.and_then(|_| motions.next().flatten());
-            stands[line] = motion.as_ref().map(|motion| (motion.state(), &point.scales));
+            stands[line] = motion.as_ref().map(|motion| (motion.state(), &point.units));
             let motions = motion.map(Motions::of_one).unwrap_or_default();
             found[line * length + k].push(Found { motions, ..Found::default() });
         }
@@ -60,7 +58,7 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
 }
 
 /// The same physical state at another point.
-fn carried(state: State, from: &Scales, to: &Scales) -> State {
+fn carried(state: State, from: &Units, to: &Units) -> State {
     let frequency = from.natural_frequency / to.natural_frequency;
     carried_over(state, from.clearance / to.clearance, frequency)
 }
@@ -68,22 +66,17 @@ fn carried(state: State, from: &Scales, to: &Scales) -> State {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::system::Scales;
 
-    fn scales(clearance: f64) -> Scales {
-        Scales {
-            physical: true,
-            clearance,
-            natural_frequency: 50.0,
-            oscillator_mass: 1.0,
-            forcing: 1.0,
-        }
+    fn units(clearance: f64) -> Units {
+        Scales { physical: true, clearance, natural_frequency: 50.0, oscillator_mass: 1.0 }.into()
     }
 
     /// By hand: 2 mm and 5 mm/s are 0.1 and 0.005 of a clearance of 20 mm at 50 rad/s.
     #[test]
     fn axes_set_the_start_and_the_rest_is_at_rest() {
         let axes = [(Parameter::InitialDisplacement, 2e-3), (Parameter::Clearance, 0.02)];
-        let found = start(axes.into_iter(), &scales(0.02)).expect("an axis says");
+        let found = start(axes.into_iter(), &units(0.02)).expect("an axis says");
         assert!((found.x - 0.1).abs() < 1e-15 && found.x_velocity == 0.0);
         assert!((found.relative_displacement() + FROM_REST.y).abs() < 1e-15, "{found:?}");
         let axes = [
@@ -91,21 +84,21 @@ mod tests {
             (Parameter::InitialAbsorberDisplacement, -4e-3),
             (Parameter::InitialAbsorberVelocity, 10e-3),
         ];
-        let found = start(axes.into_iter(), &scales(0.02)).expect("an axis says");
+        let found = start(axes.into_iter(), &units(0.02)).expect("an axis says");
         let wanted = State { x: 0.0, x_velocity: 0.005, y: -0.2, y_velocity: 0.01 };
         assert!(found.distance(&wanted) < 1e-15, "{found:?}");
-        assert_eq!(start([(Parameter::Clearance, 1.0)].into_iter(), &scales(1.0)), None);
+        assert_eq!(start([(Parameter::Clearance, 1.0)].into_iter(), &units(1.0)), None);
     }
 
     #[test]
     fn a_motion_goes_on_from_the_same_place_over_another_clearance() {
         let state = State { x: 0.5, x_velocity: -1.0, y: -0.3, y_velocity: 2.0 };
-        let wider = carried(state, &scales(0.02), &scales(0.04));
+        let wider = carried(state, &units(0.02), &units(0.04));
         let wanted = State { x: 0.25, x_velocity: -0.5, y: 0.25 - 0.4, y_velocity: 1.0 };
         assert!(wider.distance(&wanted) < 1e-15, "{wider:?}");
         // Half as many radians a second as before: twice as far in one of them.
-        let softer = Scales { natural_frequency: 25.0, ..scales(0.02) };
-        let softer = carried(state, &scales(0.02), &softer);
+        let softer = Scales { natural_frequency: 25.0, ..*units(0.02) }.into();
+        let softer = carried(state, &units(0.02), &softer);
         let wanted = State { x_velocity: -2.0, y_velocity: 4.0, ..state };
         assert!(softer.distance(&wanted) < 1e-15, "{softer:?}");
     }

@@ -20,13 +20,13 @@ pub struct StabilityLimit {
 /// The limits at some frequencies from the first to the last of an axis, in Hz, or as ratios of a reduced case;
 /// none where the oscillator has no resonance.
 pub fn stability_limits(case: &Case, frequencies: &[f64]) -> Vec<StabilityLimit> {
-    let (system, scales) = (case.system(), case.scales());
+    let (system, units) = (case.system(), case.units());
     let ([first, .., last], true) = (frequencies, has_resonance(&system)) else {
         return Vec::new();
     };
     let ratio = |k: u32| {
         let frequency = first + (last - first) * (f64::from(k) + 0.5) / f64::from(FREQUENCIES);
-        scales.frequency_ratio(frequency)
+        units.frequency_ratio(frequency)
     };
     let found = over_frequency(&system, &(0..FREQUENCIES).map(ratio).collect::<Vec<_>>());
     let limits = found.into_iter().flat_map(|at| {

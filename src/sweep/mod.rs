@@ -14,8 +14,9 @@ pub mod work;
 
 use std::ops::Range;
 
-use crate::case::{Case, Design, Scales, SweepSettings};
+use crate::case::{Case, Design, SweepSettings};
 use crate::digest::sha256;
+use crate::quantity::Units;
 use crate::system::{Parameter, State, System};
 use transient::Subject;
 
@@ -59,7 +60,7 @@ pub struct Point {
     /// Its system; `None` where the values together leave none.
     pub system: Option<System>,
     /// What turns the system's numbers into the case's units.
-    pub scales: Scales,
+    pub units: Units,
     /// Where its motion starts, over its clearance; `None` where no axis says, or nothing drives it steadily.
     pub start: Option<State>,
 }
@@ -146,10 +147,10 @@ impl Plan {
         let applied =
             |design: Design, (parameter, value): &(Parameter, f64)| design.with(*parameter, *value);
         let design = values.iter().fold(self.design, applied);
-        let scales = design.scales();
+        let units = design.units();
         let steady = self.subject.is_none();
-        let start = follow::start(values.into_iter().filter(|_| steady), &scales);
-        Point { number, design, system: design.possible_system(), scales, start, coordinates }
+        let start = follow::start(values.into_iter().filter(|_| steady), &units);
+        Point { number, design, system: design.possible_system(), units, start, coordinates }
     }
 
     /// Whether anything is recorded that only simulation knows.

@@ -1,12 +1,13 @@
 //! What is recorded of structures that are not driven steadily: numbers of the study that a case of the point has,
 //! without what costs more and is not recorded. A motion that cannot be followed has none.
 
+use crate::quantity::Units;
 use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
 use super::columns::Cell;
 use super::{Plan, Point};
-use crate::case::{Case, RecordSource, Recorded, Recording, Scales};
+use crate::case::{Case, RecordSource, Recorded, Recording};
 use crate::excitation::{Record, Transient};
 use crate::executor::Serial;
 use crate::flights::{Places, Predicted, with_closer};
@@ -65,29 +66,28 @@ impl Subject {
     /// What is recorded of a point, in the order of the settings.
     pub fn cells(&self, plan: &Plan, point: &Point) -> Vec<Option<Cell>> {
         let study = self.study(plan, point);
-        let number = |of: &Recorded| number(*of, study.as_ref()?, &point.scales);
+        let number = |of: &Recorded| number(*of, study.as_ref()?, &point.units);
         plan.settings.record.iter().map(|of| number(of).map(Cell::Number)).collect()
     }
 
     fn study(&self, plan: &Plan, point: &Point) -> Option<Found> {
-        let (system, scales, inactive) = (point.system?, &point.scales, self.count_inactive);
+        let (system, units, inactive) = (point.system?, &point.units, self.count_inactive);
         let places = Places { even: places(plan).into(), closer: true, executor: &Serial };
         Some(match point.design.transient()? {
             Transient::Release(release) => {
                 let share = self.decay_level;
-                let study = DecayStudy::without_theory(&system, scales, &release, share, places);
+                let study = DecayStudy::without_theory(&system, units, &release, share, places);
                 Found::Release(Box::new(DecayStudy { count_inactive: inactive, ..study.ok()? }))
             }
             Transient::Sweep(sweep) => {
-                let starts = SweepStudy::starts(&system, scales, &sweep, places, inactive).ok()?;
+                let starts = SweepStudy::starts(&system, units, &sweep, places, inactive).ok()?;
                 let damper = TunedMassDamper::den_hartog(system.mass_ratio());
-                let peak = |damper| swept(&system, damper, scales, &sweep).peak()[1];
+                let peak = |damper| swept(&system, damper, units, &sweep).peak()[1];
                 Found::Sweep { starts, peaks: [None, Some(&damper)].map(peak) }
             }
             Transient::Record(_) => {
                 let (records, places) = (self.records(), places.even);
-                let study =
-                    RecordStudy::without_spectrum(&system, scales, records, places, &Serial);
+                let study = RecordStudy::without_spectrum(&system, units, records, places, &Serial);
                 Found::Record(RecordStudy { count_inactive: inactive, ..study.ok()? })
             }
         })
@@ -98,12 +98,12 @@ impl Subject {
         let (Some(system), Some(of)) = (&point.system, point.design.transient()) else {
             return 0.0;
         };
-        let (places, scales) = (with_closer(places(plan).into()) as f64, &point.scales);
+        let (places, units) = (with_closer(places(plan).into()) as f64, &point.units);
         let each = point.design.scene().seconds();
         match of {
             Transient::Release(release) => {
                 let flown = places * followed(bare_decay(system, self.decay_level)) * each;
-                let from = release.amplitude(scales);
+                let from = release.amplitude(units);
                 let asked = plan.settings.record.contains(&Recorded::TheoryDecayTime);
                 match asked && from <= Predicted::LARGEST {
                     true => flown + THEORY[0] + THEORY[1] * from * from * from,
@@ -112,7 +112,7 @@ impl Subject {
             }
             Transient::Sweep(sweep) => (places + ALTERNATIVES) * sweep.count() as f64 * each,
             Transient::Record(_) => {
-                let pieces = self.records().iter().map(|record| record.count(scales)).sum::<u64>();
+                let pieces = self.records().iter().map(|record| record.count(units)).sum::<u64>();
                 (places + ALTERNATIVES) * pieces as f64 * each
             }
         }
@@ -125,10 +125,10 @@ fn places(plan: &Plan) -> u32 {
 }
 
 /// A number of what was found.
-fn number(of: Recorded, found: &Found, scales: &Scales) -> Option<f64> {
-    let time = |oscillations: f64| scales.time(TAU * oscillations);
-    let length = |over_clearance: f64| scales.length(over_clearance);
-    let speed = |over_clearance: f64| scales.velocity(over_clearance);
+fn number(of: Recorded, found: &Found, units: &Units) -> Option<f64> {
+    let time = |oscillations: f64| units.time(TAU * oscillations);
+    let length = |over_clearance: f64| units.length(over_clearance);
+    let speed = |over_clearance: f64| units.velocity(over_clearance);
     Some(match found {
         Found::Release(study) => match of {
             Recorded::DecayTime => time(study.decay().oscillations[0]),
@@ -148,7 +148,7 @@ fn number(of: Recorded, found: &Found, scales: &Scales) -> Option<f64> {
                 (Recorded::BarePeak, _) => length(peaks[0]),
                 (Recorded::DamperPeak, _) => length(peaks[1]),
                 (Recorded::Peak, Some(worst)) => length(worst.peak()[1]),
-                (Recorded::PeakFrequency, Some(worst)) => scales.frequency(worst.peak()[0]),
+                (Recorded::PeakFrequency, Some(worst)) => units.frequency(worst.peak()[0]),
                 (Recorded::ReductionDb, Some(worst)) => reduction_db(worst.peak()[1], peaks[0]),
                 (Recorded::ReductionDbTmd, Some(worst)) => reduction_db(worst.peak()[1], peaks[1]),
                 (Recorded::ImpactSpeed, _) => {

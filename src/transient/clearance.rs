@@ -148,7 +148,7 @@ fn slowest(
     design: &Design,
     places: Places<'_>,
 ) -> Option<Measured> {
-    let (system, scales) = (design.system().ok()?, design.scales());
+    let (system, units) = (design.system().ok()?, design.units());
     let factors = match case.optimize.releases {
         None => vec![1.0],
         Some([from, to]) => {
@@ -159,25 +159,25 @@ fn slowest(
     let alone = bare_decay(&system, case.decay_level);
     let time = |factor: &f64| {
         let release = release.scaled(*factor);
-        let inactive = inactive(&system, &release.state(&scales, 0.0));
+        let inactive = inactive(&system, &release.state(&units, 0.0));
         if case.count_inactive && inactive.share > 0.0 && alone.is_infinite() {
             return Some([alone, 0.0]);
         }
-        let found = DecayStudy::starts(&system, &scales, &release, case.decay_level, places);
+        let found = DecayStudy::starts(&system, &units, &release, case.decay_level, places);
         let time = DecayTime::of(&found.ok()?, alone, case.count_inactive, &inactive);
         Some(time.oscillations)
     };
     let times = factors.iter().map(time).collect::<Option<Vec<Measured>>>()?;
     let slowest = times.into_iter().max_by(|a, b| a[0].total_cmp(&b[0]))?;
-    Some(slowest.map(|oscillations| scales.time(TAU * oscillations)))
+    Some(slowest.map(|oscillations| units.time(TAU * oscillations)))
 }
 
 /// Largest displacement of the passage from the worst start.
 fn swept(case: &Case, sweep: &SineSweep, design: &Design, places: Places<'_>) -> Option<Measured> {
-    let (system, scales) = (design.system().ok()?, design.scales());
-    let starts = SweepStudy::starts(&system, &scales, sweep, places, case.count_inactive).ok()?;
+    let (system, units) = (design.system().ok()?, design.units());
+    let starts = SweepStudy::starts(&system, &units, sweep, places, case.count_inactive).ok()?;
     let peaks: Vec<f64> = starts.iter().map(|(_, found)| found.peak()[1]).collect();
-    Some(worst_of_places(&peaks).map(|peak| scales.length(peak)))
+    Some(worst_of_places(&peaks).map(|peak| units.length(peak)))
 }
 
 /// Largest displacement from the worst place of the absorber, mean over records.
@@ -187,13 +187,13 @@ fn shaken(
     design: &Design,
     places: Places<'_>,
 ) -> Option<Measured> {
-    let (system, scales) = (design.system().ok()?, design.scales());
+    let (system, units) = (design.system().ok()?, design.units());
     let of_record = |record: &Record| {
-        let found = flown(&system, &record.pieces(&scales, Record::LONGEST), places).ok()?;
+        let found = flown(&system, &record.pieces(&units, Record::LONGEST), places).ok()?;
         let counted = counted(&found, case.count_inactive, |(_, found)| found.impacts);
         let peaks: Vec<f64> = counted.iter().map(|(_, found)| found.peak).collect();
         Some(worst_of_places(&peaks))
     };
     let each = records.iter().map(of_record).collect::<Option<Vec<Measured>>>()?;
-    Some(over_records(&each).map(|peak| scales.length(peak)))
+    Some(over_records(&each).map(|peak| units.length(peak)))
 }

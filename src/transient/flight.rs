@@ -42,7 +42,7 @@ impl Flight {
         periods: Option<u64>,
         told: &mut dyn FnMut(&Impact),
     ) -> Option<Result<Self, DrivenError>> {
-        let (system, scales) = (case.system(), case.scales());
+        let (system, units) = (case.system(), case.units());
         let none = Self {
             start,
             duration: 0.0,
@@ -53,7 +53,7 @@ impl Flight {
         };
         let flown = match case.design.transient()? {
             Transient::Release(release) => {
-                let level = case.decay_level * release.amplitude(&scales);
+                let level = case.decay_level * release.amplitude(&units);
                 let most =
                     periods.unwrap_or_else(|| longest(bare_decay(&system, case.decay_level)));
                 Ringdown::follow_telling(&system, start, level, most, told)
@@ -69,7 +69,7 @@ impl Flight {
             }
             Transient::Sweep(sweep) => {
                 let most = periods.unwrap_or(u64::MAX);
-                Passage::follow_telling(&system, &scales, &sweep, start, most, told)
+                Passage::follow_telling(&system, &units, &sweep, start, most, told)
                     .map(|(found, duration)| Self {
                         duration,
                         peak: found.peak()[1],
@@ -82,7 +82,7 @@ impl Flight {
             Transient::Record(_) => {
                 let records = case.recording.as_ref().map_or_else(Vec::new, Recording::records);
                 let Some(record) = records.first() else { return Some(Err(DrivenError::NoRecord)) };
-                let mut pieces = record.pieces(&scales, Record::LONGEST);
+                let mut pieces = record.pieces(&units, Record::LONGEST);
                 let mut left = periods.map_or(f64::INFINITY, |periods| TAU * periods as f64);
                 pieces.retain(|piece| {
                     let begins = left > 0.0;
@@ -107,7 +107,7 @@ impl Flight {
         let at_rest = |w: f64| State { y: -w, ..State::AT_REST };
         match study {
             Study::Release(study) => {
-                Some(case.design.release()?.state(&case.scales(), study.worst()?.place))
+                Some(case.design.release()?.state(&case.units(), study.worst()?.place))
             }
             Study::Sweep(study) => study.worst().map(|(w, _)| at_rest(*w)),
             Study::Record(study) => study.worst_place().map(at_rest),

@@ -10,8 +10,9 @@ use crate::executor::{Executor, map};
 use crate::flights::{Passage, Places, even, survey, worst_of_places};
 use crate::linear::{TunedMassDamper, bare_amplitude, swept};
 use crate::orbits::steady_orbit;
+use crate::quantity::Units;
 use crate::simulation::StartError;
-use crate::system::{Scales, State, System};
+use crate::system::{State, System};
 
 /// Rates over the case's own.
 pub const RATES: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
@@ -82,25 +83,25 @@ impl SweepStudy {
         let sweep = case.design.sine_sweep()?;
         let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
         let places = starts.unwrap_or(Self::STARTS);
-        let (system, scales) = (case.system(), case.scales());
-        Some(Self::of(&system, &scales, &sweep, places, case.count_inactive, executor))
+        let (system, units) = (case.system(), case.units());
+        Some(Self::of(&system, &units, &sweep, places, case.count_inactive, executor))
     }
 
     /// From rest, the absorber at a relative displacement `w`.
     pub(super) fn start(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         sweep: &SineSweep,
         w: f64,
     ) -> Result<SweepStart, StartError> {
         let start = State { y: -w, ..State::AT_REST };
-        Passage::follow(system, scales, sweep, start).map(|found| (w, found))
+        Passage::follow(system, units, sweep, start).map(|found| (w, found))
     }
 
     /// From even places of the absorber and closer ones, without those that do not count.
     pub(crate) fn starts(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         sweep: &SineSweep,
         places: Places<'_>,
         inactive: bool,
@@ -113,21 +114,21 @@ impl SweepStudy {
         };
         let (peaks, speeds) = (counts(|found| found.peak()[1]), counts(|found| found.impact_speed));
         let flown = survey(places, &[&peaks, &speeds], |w| {
-            Self::start(system, scales, sweep, w).map(|(_, found)| found)
+            Self::start(system, units, sweep, w).map(|(_, found)| found)
         })?;
         Ok(counted(&flown, inactive, |(_, found)| found.impacts).into_iter().cloned().collect())
     }
 
     fn of(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         sweep: &SineSweep,
         even_places: u32,
         inactive: bool,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
         let places = Places { even: even_places.into(), closer: true, executor };
-        let starts = Self::starts(system, scales, sweep, places, inactive)?;
+        let starts = Self::starts(system, units, sweep, places, inactive)?;
         let rates: Vec<SineSweep> = RATES
             .into_iter()
             .map(|factor| sweep.faster(factor))
@@ -137,7 +138,7 @@ impl SweepStudy {
         let others = rates.iter().copied().filter(|other| other != sweep);
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(others).collect();
         let at: Vec<f64> = even(even_places.min(Self::STARTS_BESIDE).into()).collect();
-        let passage = |k: usize| Self::start(system, scales, &all[k / at.len()], at[k % at.len()]);
+        let passage = |k: usize| Self::start(system, units, &all[k / at.len()], at[k % at.len()]);
         let flown = map(executor, "passages", all.len() * at.len(), passage);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
         let worst_of = |sweep: &SineSweep| -> Option<Passage> {
@@ -149,7 +150,7 @@ impl SweepStudy {
         let there = worst(starts.iter()).map(|(_, found)| found.clone());
         let damper = TunedMassDamper::den_hartog(system.mass_ratio());
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
-            swept(system, damper, scales, sweep)
+            swept(system, damper, units, sweep)
         };
         let by_rate = rates.iter().map(|other| {
             let found = if other == sweep { there.clone() } else { worst_of(other) };
@@ -172,7 +173,7 @@ impl SweepStudy {
             sweep: *sweep,
             alone: linear(None, sweep),
             damped: (damper, linear(Some(&damper), sweep)),
-            steady: steady(system, scales, sweep),
+            steady: steady(system, units, sweep),
             jumps: [&there, &back].map(|passage| jumps(&passage.envelope, window)),
             differ: differ(&there.envelope, &back.envelope, window),
             by_rate,
@@ -203,10 +204,10 @@ pub(crate) fn worst<'a>(starts: impl Iterator<Item = &'a SweepStart>) -> Option<
 }
 
 /// Amplitudes of steady motion along the range.
-fn steady(system: &System, scales: &Scales, sweep: &SineSweep) -> Vec<[f64; 3]> {
+fn steady(system: &System, units: &Units, sweep: &SineSweep) -> Vec<[f64; 3]> {
     let place = |k: u32| {
         let part = f64::from(k) / f64::from(PLACES);
-        let ratio = scales.frequency_ratio(sweep.from + part * (sweep.to - sweep.from));
+        let ratio = units.frequency_ratio(sweep.from + part * (sweep.to - sweep.from));
         let there = system.with_frequency_ratio(ratio).ok()?;
         let orbit = steady_orbit(&there).map_or(f64::NAN, |orbit| orbit.peaks.displacement);
         Some([ratio, bare_amplitude(&there), orbit])

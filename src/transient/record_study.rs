@@ -10,6 +10,7 @@ use crate::flights::{
 };
 use crate::linear::{TunedMassDamper, driven, reduction_db};
 use crate::numerics::scatter::twice_standard_error;
+use crate::quantity::Units;
 use crate::system::{Scales, System};
 
 /// A value and its error: of one record how much worse other places of the absorber may be, of several twice the
@@ -88,7 +89,7 @@ impl RecordStudy {
         let records = recording.records();
         let usual = Self::usual_places(records.len());
         let places = case.simulation.starts.unwrap_or(usual.into());
-        let study = Self::of(&case.system(), &case.scales(), &records, places, executor);
+        let study = Self::of(&case.system(), &case.units(), &records, places, executor);
         Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
     }
 
@@ -98,15 +99,15 @@ impl RecordStudy {
     /// As [`Self::of_case`].
     pub fn of(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         records: &[Record],
         places: u64,
         executor: &dyn Executor,
     ) -> Result<Self, DrivenError> {
-        let study = Self::without_spectrum(system, scales, records, places, executor)?;
+        let study = Self::without_spectrum(system, units, records, places, executor)?;
         let point = |k: usize| {
             let part = 2.0 * k as f64 / f64::from(FREQUENCIES - 1) - 1.0;
-            spectrum_point(system, scales, records, libm::pow(FURTHEST, part))
+            spectrum_point(system, units, records, libm::pow(FURTHEST, part))
         };
         let spectrum = map(executor, "frequencies", FREQUENCIES as usize, point);
         Ok(Self { spectrum: spectrum.into_iter().collect::<Result<_, _>>()?, ..study })
@@ -115,7 +116,7 @@ impl RecordStudy {
     /// The same without the response spectrum.
     pub(crate) fn without_spectrum(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         records: &[Record],
         places: u64,
         executor: &dyn Executor,
@@ -128,7 +129,7 @@ impl RecordStudy {
             damper: TunedMassDamper::den_hartog(system.mass_ratio()),
             input_peaks: records.iter().map(Record::peak).collect(),
             length: (to - from, first.samples.len()),
-            realisations: realisations(system, scales, records, places, executor)?,
+            realisations: realisations(system, units, records, places, executor)?,
             even: places,
             spectrum: Vec::new(),
             count_inactive: true,
@@ -188,14 +189,14 @@ pub(super) fn over_records(each: &[Measured]) -> Measured {
 
 fn realisations(
     system: &System,
-    scales: &Scales,
+    units: &Units,
     records: &[Record],
     places: u64,
     executor: &dyn Executor,
 ) -> Result<Vec<Realisation>, DrivenError> {
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let pieces: Vec<Vec<Piece>> =
-        records.iter().map(|record| record.pieces(scales, Record::LONGEST)).collect();
+        records.iter().map(|record| record.pieces(units, Record::LONGEST)).collect();
     let places = Places { even: places, closer: records.len() == 1, executor };
     let one = |(k, pieces): (usize, &Vec<Piece>)| {
         let found = flown(system, pieces, places)?.into_iter();
@@ -225,17 +226,17 @@ pub(super) fn flown(
 
 fn spectrum_point(
     system: &System,
-    scales: &Scales,
+    units: &Units,
     records: &[Record],
     ratio: f64,
 ) -> Result<SpectrumPoint, DrivenError> {
-    let scales = Scales { natural_frequency: ratio * scales.natural_frequency, ..*scales };
+    let units = Scales { natural_frequency: ratio * units.natural_frequency, ..**units };
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let records = &records[..records.len().min(RECORDS_OF_SPECTRUM)];
     let places = (FLIGHTS_OF_FREQUENCY / records.len()) as u64;
     let mut sums = [0.0; 3];
     for record in records {
-        let pieces = record.pieces(&scales, Record::LONGEST);
+        let pieces = record.pieces(&units, Record::LONGEST);
         let mut worst = 0.0_f64;
         for w in even(places) {
             worst = worst.max(follow(system, &pieces, w)?.peak);

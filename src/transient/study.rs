@@ -7,8 +7,9 @@ use crate::excitation::{Release, Transient, amplitude};
 use crate::executor::{Executor, Serial};
 use crate::flights::{Inactive, Places, Predicted, Ringdown, inactive, survey, worst_of_places};
 use crate::linear::{Linear, STEPS, TunedMassDamper, bare_decay, released};
+use crate::quantity::Units;
 use crate::simulation::StartError;
-use crate::system::{Scales, System};
+use crate::system::System;
 
 /// How fast a structure comes to a level from one place of the absorber.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,35 +70,35 @@ impl DecayStudy {
     /// [`StartError`] where the motion is so large that rounding hides the walls.
     pub fn of(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         release: &Release,
         share: f64,
         starts: u32,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
         let places = Places { even: starts.into(), closer: true, executor };
-        let study = Self::without_theory(system, scales, release, share, places)?;
+        let study = Self::without_theory(system, units, release, share, places)?;
         Ok(Self { predicted: Predicted::of(system, study.from, study.level), ..study })
     }
 
     /// The same without what theory predicts, which may take longer than all starts.
     pub(crate) fn without_theory(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         release: &Release,
         share: f64,
         places: Places<'_>,
     ) -> Result<Self, StartError> {
-        let middle = release.state(scales, 0.0);
+        let middle = release.state(units, 0.0);
         let from = amplitude(&middle);
         let level = share * from;
         let bare = bare_decay(system, share);
         let damper = TunedMassDamper::for_free_decay(system.mass_ratio());
         let linear = released(system, Some(&damper), middle, level, longest(bare));
         let inactive = inactive(system, &middle);
-        let starts = Self::starts(system, scales, release, share, places)?;
+        let starts = Self::starts(system, units, release, share, places)?;
         let follow = |worst: &Decay| {
-            Ringdown::follow(system, release.state(scales, worst.place), level, longest(bare))
+            Ringdown::follow(system, release.state(units, worst.place), level, longest(bare))
         };
         Ok(Self {
             system: *system,
@@ -140,20 +141,20 @@ impl DecayStudy {
         executor: &dyn Executor,
     ) -> Option<Result<Self, StartError>> {
         let release = case.design.release()?;
-        let (system, scales) = (case.system(), case.scales());
-        let study = Self::of(&system, &scales, &release, case.decay_level, starts, executor);
+        let (system, units) = (case.system(), case.units());
+        let study = Self::of(&system, &units, &release, case.decay_level, starts, executor);
         Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
     }
 
     /// Every start by itself.
     pub(super) fn starts(
         system: &System,
-        scales: &Scales,
+        units: &Units,
         release: &Release,
         share: f64,
         places: Places<'_>,
     ) -> Result<Vec<Decay>, StartError> {
-        let level = share * amplitude(&release.state(scales, 0.0));
+        let level = share * amplitude(&release.state(units, 0.0));
         let longest = longest(bare_decay(system, share));
         let awake = |of: fn(&Decay) -> f64| {
             move |start: &Decay| if start.wakes { of(start) } else { f64::NAN }
@@ -161,7 +162,7 @@ impl DecayStudy {
         let times = awake(|start| start.oscillations);
         let speeds = awake(|start| start.impact_speed);
         let found = survey(places, &[&times, &speeds], |w| {
-            let found = Ringdown::follow(system, release.state(scales, w), level, longest)?;
+            let found = Ringdown::follow(system, release.state(units, w), level, longest)?;
             Ok(Decay::of(w, &found))
         });
         Ok(found?.into_iter().map(|(_, start)| start).collect())

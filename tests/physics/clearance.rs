@@ -20,7 +20,7 @@ fn peaks_of_sweep(text: &str, clearance: f64) -> [f64; 2] {
     let case = Case::parse("sweep.toml", &format!("{text}{PLACES}")).expect("a case");
     let study = SweepStudy::of_case(&case, &Serial).expect("swept").expect("flown");
     let (_, worst) = study.worst().expect("a start");
-    [worst.peak()[1], study.alone.peak()[1]].map(|peak| case.scales().length(peak))
+    [worst.peak()[1], study.alone.peak()[1]].map(|peak| case.units().length(peak))
 }
 
 /// What drives the structure is the same for every clearance: so is what it does alone. Clearances to either side of the
@@ -58,12 +58,12 @@ fn tower(clearance: &str, count: u32, value: impl Fn(f64) -> f64) -> Case {
 
 fn peaks_of_record(case: &Case, clearance: f64) -> [f64; 2] {
     let design = case.design.with(Parameter::Clearance, clearance);
-    let (system, scales) = (design.system().expect("a system"), design.scales());
+    let (system, units) = (design.system().expect("a system"), design.units());
     let records = case.recording.as_ref().expect("recorded").records();
-    let study = RecordStudy::of(&system, &scales, &records, 41, &Serial);
+    let study = RecordStudy::of(&system, &units, &records, 41, &Serial);
     let study = study.expect("studied");
     [study.worst(|_, place| place.peak)[0], study.mean(|one| one.bare.peak)[0]]
-        .map(|peak| scales.length(peak))
+        .map(|peak| units.length(peak))
 }
 
 /// Twenty periods of a sine at the tower's own frequency, and clearances from which the absorber is not lost: a larger one

@@ -34,7 +34,7 @@ fn simulation_lies_on_the_exact_branches_at_8p5_hz() {
     let path = "cases/li2016-8p5hz-fig4c.toml";
     let text = fs::read_to_string(path).expect("is shipped");
     let case = Case::parse(path, &text).expect("is valid");
-    let millimetres = |value: f64| 1e3 * case.scales().length(value);
+    let millimetres = |value: f64| 1e3 * case.units().length(value);
     let diagram = diagram(&case.system(), Parameter::Clearance);
 
     let agreement = diagram.agreement.expect("steady motions");

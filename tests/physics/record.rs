@@ -3,25 +3,19 @@
 
 use std::f64::consts::{PI, TAU};
 
-use vinesink::case::Scales;
 use vinesink::excitation::{Record, RecordQuantity, Spectrum};
 use vinesink::executor::Serial;
 use vinesink::flights::{Response, follow, worst_of_places};
 use vinesink::linear::{TunedMassDamper, driven};
 use vinesink::simulation::Simulation;
-use vinesink::system::{Cavity, Excitation, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, Parameters, Scales, State, System};
 use vinesink::transient::RecordStudy;
 
 use crate::common::unforced as system;
 
 /// A unit of everything: SI is dimensionless.
-const UNITS: Scales = Scales {
-    physical: true,
-    clearance: 1.0,
-    natural_frequency: 1.0,
-    oscillator_mass: 1.0,
-    forcing: 0.0,
-};
+const UNITS: Scales =
+    Scales { physical: true, clearance: 1.0, natural_frequency: 1.0, oscillator_mass: 1.0 };
 
 /// Values at even times.
 fn record(quantity: RecordQuantity, step: f64, count: u32, value: impl Fn(f64) -> f64) -> Record {
@@ -371,7 +365,7 @@ fn a_seed_names_its_records() {
     assert_eq!(first(&short), first(&short));
     assert_ne!(first(&short), first(&Spectrum { seed: 8, ..short.clone() }));
     assert_ne!(first(&short)[0], first(&short)[1]);
-    // Straight on logarithmic scales: 1/10 over a decade.
+    // Straight on logarithmic units: 1/10 over a decade.
     assert!((short.density(0.1_f64.sqrt()) / 0.3 - 0.1_f64.sqrt()).abs() < 1e-12);
 }
 
@@ -380,7 +374,7 @@ fn a_seed_names_its_records() {
 fn the_worst_place_counts() {
     let record = record(RecordQuantity::BaseAcceleration, 0.25, 160, quake);
     let of = WALLS.system();
-    let study = RecordStudy::of(&of, &UNITS, std::slice::from_ref(&record), 8, &Serial);
+    let study = RecordStudy::of(&of, &UNITS.into(), std::slice::from_ref(&record), 8, &Serial);
     let study = study.expect("studied");
     let pieces = record.pieces(&UNITS, Record::LONGEST);
     let from = |w: f64| follow(&of, &pieces, w).expect("followed").peak;

@@ -122,12 +122,12 @@ fn a_sweep_is_the_same_without_units() {
         TAU * rate / (omega0 * omega0),
     ));
     let flown = |case: &Case| {
-        let (system, scales) = (case.system(), case.scales());
+        let (system, units) = (case.system(), case.units());
         let sweep = case.design.sine_sweep().expect("swept");
         let start = State { y: 0.5, ..State::AT_REST };
         [
-            Passage::follow(&system, &scales, &sweep, start).expect("flown"),
-            swept(&system, None, &scales, &sweep),
+            Passage::follow(&system, &units, &sweep, start).expect("flown"),
+            swept(&system, None, &units, &sweep),
         ]
     };
     let [physical, reduced] = [&physical, &reduced].map(flown);
@@ -167,7 +167,7 @@ fn a_record_is_the_same_without_units() {
         .map(|case| case.expect("a record"));
         let flown = |case: &Case| {
             let records = case.recording.as_ref().expect("driven").records();
-            let pieces = records[0].pieces(&case.scales(), Record::LONGEST);
+            let pieces = records[0].pieces(&case.units(), Record::LONGEST);
             follow(&case.system(), &pieces, 0.5).expect("flown")
         };
         let [one, other] = [&one, &other].map(flown);

@@ -107,7 +107,7 @@ fn a_structure_comes_to_rest_at_an_impact_or_between_two() {
     let release = case.design.release().expect("released");
     let mut at_impacts = 0;
     for decay in study.starts.iter().filter(|decay| decay.wakes).step_by(3) {
-        let velocity = release.impulse / 4000.0 / case.scales().velocity(1.0);
+        let velocity = release.impulse / 4000.0 / case.units().velocity(1.0);
         let start = State { x_velocity: velocity, y: -decay.place, ..State::AT_REST };
         let mut impacts = Vec::new();
         let flight = Flight::of_case(&case, start, None, &mut |impact| impacts.push(*impact));
@@ -140,9 +140,9 @@ fn an_impulse_is_a_velocity() {
     let case = footbridge("3 mm");
     let study = DecayStudy::of_case(&case, &Serial).expect("released").expect("studied");
     let omega = std::f64::consts::TAU * 2.0;
-    let amplitude = case.scales().length(study.from);
+    let amplitude = case.units().length(study.from);
     assert!((amplitude - 150.0 / 4000.0 / omega).abs() < 1e-12, "{amplitude}");
-    let alone = case.scales().time(std::f64::consts::TAU * study.bare);
+    let alone = case.units().time(std::f64::consts::TAU * study.bare);
     assert!((alone - libm::log(10.0) / (0.005 * omega)).abs() < 1e-9, "{alone}");
     // What `check` says is the worst of the starts; an absorber that no wall reaches leaves the structure alone.
     let judged = |case: &Case, study: &DecayStudy| {
@@ -173,14 +173,14 @@ fn an_absorber_that_no_wall_reaches_never_wakes() {
         // From one wall to the other, where it wakes and where it does not.
         let places: Vec<f64> = (0..4000).map(|k| f64::from(2 * k + 1) / 4000.0 - 1.0).collect();
         let quiet = places.iter().filter(|w| impacts(**w) == 0).count();
-        let scales = footbridge("3 mm").scales();
+        let units = footbridge("3 mm").units();
         let release = Release {
-            displacement: scales.length(x),
-            velocity: scales.velocity(v),
+            displacement: units.length(x),
+            velocity: units.velocity(v),
             absorber_velocity: 0.0,
             impulse: 0.0,
         };
-        let study = DecayStudy::of(&system, &scales, &release, 0.5, 1, &Serial).expect("studied");
+        let study = DecayStudy::of(&system, &units, &release, 0.5, 1, &Serial).expect("studied");
         let share = quiet as f64 / places.len() as f64;
         assert!(
             (study.inactive.share - share).abs() < 5e-4,
@@ -199,7 +199,7 @@ fn a_base_that_comes_to_move_takes_the_absorber_along() {
     assert_eq!(release.absorber_velocity, release.velocity);
     let [of_base, of_force] = [&base, &footbridge("3 mm")].map(|case| {
         let study = DecayStudy::of_case(case, &Serial).expect("released").expect("studied");
-        assert!((case.scales().length(study.from) - 2.984e-3).abs() < 1e-6);
+        assert!((case.units().length(study.from) - 2.984e-3).abs() < 1e-6);
         study.worst().expect("simulated").oscillations
     });
     // As hard a shock: the absorber is caught either way, within the time of a few impacts.
@@ -277,12 +277,11 @@ fn no_other_clearance_is_better() {
         let slowest = [0.5, 0.9, 1.3, 2.0].map(|factor: f64| {
             let other = footbridge(clearance);
             let release = other.design.release().expect("released").scaled(factor);
-            let study =
-                DecayStudy::of(&other.system(), &other.scales(), &release, 0.1, 20, &Serial);
+            let study = DecayStudy::of(&other.system(), &other.units(), &release, 0.1, 20, &Serial);
             study.expect("studied").decay().oscillations[0]
         });
         let slowest = slowest.into_iter().fold(0.0, f64::max);
-        let slowest = case.scales().time(std::f64::consts::TAU * slowest);
+        let slowest = case.units().time(std::f64::consts::TAU * slowest);
         assert!(slowest > 0.97 * checked, "{clearance}: {slowest} {checked}");
     }
 }
@@ -332,7 +331,7 @@ fn a_clearance_that_fails_is_followed_by_the_next() {
             let other = text.replace("\"1.5 mm\"", &format!("\"{clearance:?} m\""));
             let other = Case::parse("f.toml", &other).expect("a case");
             let study = DecayStudy::of_case(&other, &Serial).expect("released").expect("flown");
-            other.scales().time(std::f64::consts::TAU * study.decay().oscillations[0])
+            other.units().time(std::f64::consts::TAU * study.decay().oscillations[0])
         };
         // What the answer is said to have is what a study of it says.
         assert_eq!(judged(best.design.clearance()), checked);

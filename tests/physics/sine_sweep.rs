@@ -92,14 +92,14 @@ fn a_sweep_in_stretches_is_the_true_sweep() {
         for rate in rates {
             let all = [changes.clone(), vec![("\"0.1 Hz/s\"", rate)]].concat();
             let case = case(&all);
-            let (system, scales) = (case.system(), case.scales());
+            let (system, units) = (case.system(), case.units());
             let sweep = case.design.sine_sweep().expect("swept");
             // An absorber in the middle of a cavity too large to be reached.
             let system = system.with_clearance_scaled(1e3).expect("valid");
-            let flown = Passage::follow(&system, &scales, &sweep, start(0.0)).expect("flown");
+            let flown = Passage::follow(&system, &units, &sweep, start(0.0)).expect("flown");
             assert_eq!(flown.impacts, 0);
-            let alone = swept(&system, None, &scales, &sweep);
-            let exact = integrated(&system, scales.natural_frequency, &sweep);
+            let alone = swept(&system, None, &units, &sweep);
+            let exact = integrated(&system, units.natural_frequency, &sweep);
             assert_eq!((flown.envelope.len(), alone.envelope.len()), (exact.len(), exact.len()));
             let largest = exact.iter().copied().fold(0.0, f64::max);
             let worst = |found: &Passage| {
@@ -117,16 +117,16 @@ fn a_sweep_in_stretches_is_the_true_sweep() {
 #[test]
 fn stretches_make_up_the_sweep() {
     let case = case(&[("\"9 Hz\"", "\"16 Hz\""), ("\"0.1 Hz/s\"", "\"2.7 Hz/s\"")]);
-    let (scales, sweep) = (case.scales(), case.design.sine_sweep().expect("swept"));
-    let all: Vec<_> = sweep.stretches(&scales).collect();
+    let (units, sweep) = (case.units(), case.design.sine_sweep().expect("swept"));
+    let all: Vec<_> = sweep.stretches(&units).collect();
     assert_eq!(all.iter().filter(|one| one.first).count() as u64, sweep.count());
     assert!(all.len() as u64 > 5 * sweep.count());
     let time: f64 = all.iter().map(|one| (TAU - one.begins) / one.ratio).sum();
-    let wanted = scales.natural_frequency * sweep.time(sweep.count() as f64);
+    let wanted = units.natural_frequency * sweep.time(sweep.count() as f64);
     assert!((time / wanted - 1.0).abs() < 1e-12, "{time} {wanted}");
     // Slow enough, a period is one stretch.
     let slow = sweep.faster(1e-3);
-    assert_eq!(slow.stretches(&scales).count() as u64, slow.count());
+    assert_eq!(slow.stretches(&units).count() as u64, slow.count());
 }
 
 /// With impacts: energy of every period, and the exact orbit that a slow sweep follows where it attracts.
@@ -138,12 +138,12 @@ fn a_slow_sweep_follows_the_exact_orbit_and_loses_no_energy() {
         ("\"9 Hz\"", "\"8.51 Hz\""),
         ("\"0.1 Hz/s\"", "\"0.0001 Hz/s\""),
     ]);
-    let (system, scales) = (case.system(), case.scales());
+    let (system, units) = (case.system(), case.units());
     let sweep = case.design.sine_sweep().expect("swept");
     let after = attracting_orbit(&system).expect("one attracts").orbit.cycle.impacts[0];
     let mut simulation = Simulation::new(&system, after.state(), after.phase).expect("a start");
     simulation.run(1, u64::MAX, &mut ());
-    let found = Passage::follow(&system, &scales, &sweep, simulation.state()).expect("flown");
+    let found = Passage::follow(&system, &units, &sweep, simulation.state()).expect("flown");
     assert!(found.residual < 1e-9, "{}", found.residual);
     assert_eq!(found.impacts, 2 * sweep.count());
     for [ratio, peak] in found.envelope.iter().step_by(100) {
@@ -188,9 +188,9 @@ fn the_worst_place_of_the_absorber_counts() {
     ]);
     let study = SweepStudy::of_case(&case, &Serial).expect("swept").expect("studied");
     assert_eq!((study.even, study.starts.len()), (8, 12));
-    let (system, scales) = (case.system(), case.scales());
+    let (system, units) = (case.system(), case.units());
     let peaks = [-0.875, -0.625, -0.375, -0.125, 0.125, 0.375, 0.625, 0.875].map(|w| {
-        let found = Passage::follow(&system, &scales, &study.sweep, start(w)).expect("flown");
+        let found = Passage::follow(&system, &units, &study.sweep, start(w)).expect("flown");
         found.peak()[1]
     });
     // Even places, and closer ones.
@@ -207,7 +207,7 @@ fn the_worst_place_of_the_absorber_counts() {
             .expect("found")
     };
     assert!((of(Subject::PeakDisplacement) - 7.5e-3 * worst).abs() < 1e-15);
-    let alone = swept(&system, None, &scales, &study.sweep).peak()[1];
+    let alone = swept(&system, None, &units, &study.sweep).peak()[1];
     assert!((of(Subject::ReductionDb) - 20.0 * (alone / worst).log10()).abs() < 1e-12);
     // The faster the sweep, the less the structure alone comes up, and the later.
     let alone: Vec<[f64; 2]> = study.by_rate.iter().map(|one| one.peaks[1]).collect();

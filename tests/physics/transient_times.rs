@@ -4,23 +4,17 @@ use std::f64::consts::TAU;
 
 use crate::common::{table_1, unforced};
 use crate::reference::{Moment, Real, Reference};
-use vinesink::case::Scales;
 use vinesink::excitation::{Record, RecordQuantity, SineSweep, SweepRate};
 use vinesink::flights::{Ringdown, STEPS, follow};
 use vinesink::simulation::{ImpactLog, Measurement, Simulation};
-use vinesink::system::State;
+use vinesink::system::{Scales, State};
 
 /// Steps in which the reference looks for impacts.
 const STEP: f64 = 0.06;
 
 /// SI is dimensionless.
-const UNIT: Scales = Scales {
-    physical: true,
-    clearance: 1.0,
-    natural_frequency: 1.0,
-    oscillator_mass: 1.0,
-    forcing: 0.0,
-};
+const UNIT: Scales =
+    Scales { physical: true, clearance: 1.0, natural_frequency: 1.0, oscillator_mass: 1.0 };
 
 fn first(start: State) -> Moment {
     Moment::start([start.x, start.x_velocity, start.y, start.y_velocity])
@@ -60,14 +54,14 @@ fn a_ringdown_is_the_references() {
 fn a_sweep_has_the_references_impact_times() {
     const DISPLACED: f64 = 1e-12;
     let system = table_1(8.0, 7.5);
-    let scales = Scales { natural_frequency: TAU * 8.349, ..UNIT };
+    let units = Scales { natural_frequency: TAU * 8.349, ..UNIT };
     let sweep = SineSweep { from: 8.0, to: 8.7, rate: SweepRate::Linear(0.1), turn: 1.0 };
     let mut state = State { x: 0.25, x_velocity: 0.3, y: -0.4, y_velocity: 0.6 };
     let mut moments = [first(state), first(state)];
     let (mut impacts, mut worst, mut displaced) = (0, 0.0_f64, 0.0_f64);
     for n in 0..50 {
         let [begin, end] = [n, n + 1].map(|n| sweep.time(f64::from(n)));
-        let ratio = scales.frequency_ratio(1.0 / (end - begin));
+        let ratio = units.frequency_ratio(1.0 / (end - begin));
         let piece = system.with_frequency_ratio(ratio).expect("valid");
         let mut simulation = Simulation::new(&piece, state, 0.0).expect("inside");
         let mut log = ImpactLog::default();

@@ -103,28 +103,28 @@ fn physical_case_gives_the_system_of_table_1() {
     close(system.frequency_ratio(), 8.0 / 8.3491);
     close(system.forcing_per_clearance(), 0.25 / 0.0076775 / 7.5);
     assert_eq!(system.restitution(), 0.6);
-    let scales = case.scales();
-    close(scales.frequency(1.0), 8.3491);
-    close(scales.forcing, 0.25e-3 / 0.0076775);
-    assert_eq!((scales.clearance, scales.length_unit()), (0.0075, "m"));
-    assert_eq!(scales.oscillator_mass, 4.168);
+    let units = case.units();
+    close(units.frequency(1.0), 8.3491);
+    close(case.design.forcing(), 0.25e-3 / 0.0076775);
+    assert_eq!((units.clearance, units.length_unit()), (0.0075, "m"));
+    assert_eq!(units.oscillator_mass, 4.168);
 }
 
 #[test]
 fn scales_have_the_dimensions_they_claim() {
     let case = parsed(PHYSICAL);
-    let scales = case.scales();
+    let units = case.units();
     let omega0 = (11470.0_f64 / 4.168).sqrt();
     let close = |value: f64, expected: f64| {
         assert!((value / expected - 1.0).abs() < 1e-14, "{value} {expected}");
     };
-    close(scales.time(3.0), 3.0 / omega0);
-    close(scales.velocity(3.0), 3.0 * 0.0075 * omega0);
-    close(scales.acceleration(3.0), 3.0 * 0.0075 * omega0 * omega0);
+    close(units.time(3.0), 3.0 / omega0);
+    close(units.velocity(3.0), 3.0 * 0.0075 * omega0);
+    close(units.acceleration(3.0), 3.0 * 0.0075 * omega0 * omega0);
     // Half the spring's energy unit: k1 b^2 is m1 omega0^2 b^2.
-    close(scales.energy(0.5), 0.5 * 11470.0 * 0.0075 * 0.0075);
-    close(scales.frequency_ratio(8.0), case.system().frequency_ratio());
-    close(scales.over_clearance(scales.length(2.5)), 2.5);
+    close(units.energy(0.5), 0.5 * 11470.0 * 0.0075 * 0.0075);
+    close(units.frequency_ratio(8.0), case.system().frequency_ratio());
+    close(units.over_clearance(units.length(2.5)), 2.5);
 }
 
 #[test]
@@ -135,13 +135,13 @@ fn reduced_case_keeps_its_numbers_and_its_own_unit() {
     assert_eq!(system.forcing_per_clearance(), 4.342);
     assert_eq!(system.excitation(), Excitation::BaseDisplacement);
     // As an oscillator with m1 = k1 = 1: nothing but lengths has a scale of its own.
-    let scales = case.scales();
-    assert_eq!((scales.length_unit(), scales.physical), ("1", false));
+    let units = case.units();
+    assert_eq!((units.length_unit(), units.physical), ("1", false));
     assert_eq!(
-        [scales.frequency(0.9), scales.frequency_ratio(0.9), scales.time(3.0)],
+        [units.frequency(0.9), units.frequency_ratio(0.9), units.time(3.0)],
         [0.9, 0.9, 3.0]
     );
-    assert_eq!([scales.velocity(3.0), scales.acceleration(3.0), scales.energy(3.0)], [3.0; 3]);
+    assert_eq!([units.velocity(3.0), units.acceleration(3.0), units.energy(3.0)], [3.0; 3]);
     let force = parsed(&(REDUCED.to_owned() + "kind = \"force\"\n"));
     assert_eq!(force.system().excitation(), Excitation::Force);
 }

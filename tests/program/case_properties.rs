@@ -1,8 +1,8 @@
 //! Properties of every case: text and numbers, physical and reduced, are the same thing.
 
 use proptest::prelude::*;
-use vinesink::case::{Case, Design, Physical, Reduced, Scales};
-use vinesink::quantity::Dimension;
+use vinesink::case::{Case, Design, Physical, Reduced};
+use vinesink::quantity::{Dimension, Units};
 use vinesink::system::{Cavity, Excitation, System};
 
 /// Values whose order of magnitude, not only whose size, is random.
@@ -179,12 +179,12 @@ fn numbers(design: &Design) -> ([f64; 11], Excitation) {
     }
 }
 
-/// The design of a system at some scales: the inverse of [`Design::system`].
-fn restored(scales: &Scales, system: &System) -> Design {
-    let forcing = scales.length(system.forcing_per_clearance());
-    let (clearance, restitution) = (scales.clearance, system.restitution());
+/// The design of a system at some units: the inverse of [`Design::system`].
+fn restored(units: &Units, system: &System) -> Design {
+    let forcing = units.length(system.forcing_per_clearance());
+    let (clearance, restitution) = (units.clearance, system.restitution());
     let (mass_ratio, excitation) = (system.mass_ratio(), system.excitation());
-    if !scales.physical {
+    if !units.physical {
         let (frequency_ratio, detuning) = (None, Some(system.detuning()));
         return Design::Reduced(Reduced {
             mass_ratio,
@@ -199,12 +199,12 @@ fn restored(scales: &Scales, system: &System) -> Design {
             transient: None,
         });
     }
-    let (mass_kg, omega0) = (scales.oscillator_mass, scales.natural_frequency);
+    let (mass_kg, omega0) = (units.oscillator_mass, units.natural_frequency);
     let stiffness_n_per_m = mass_kg * omega0 * omega0;
     let absorber_mass_kg = mass_ratio * mass_kg;
     let displacement = forcing * mass_ratio;
     let cavity = system.cavity();
-    let gravity = 9.80665 / scales.acceleration(1.0);
+    let gravity = 9.80665 / units.acceleration(1.0);
     let inclination_rad = libm::asin(cavity.gravity_along / gravity);
     Design::Physical(Physical {
         mass_kg,
@@ -221,7 +221,7 @@ fn restored(scales: &Scales, system: &System) -> Design {
             Excitation::BaseDisplacement => displacement,
             Excitation::Force => displacement * stiffness_n_per_m,
         },
-        frequency_hz: scales.frequency(system.frequency_ratio()),
+        frequency_hz: units.frequency(system.frequency_ratio()),
         transient: None,
     })
 }
@@ -239,7 +239,7 @@ proptest! {
     fn restoring_a_reduced_design_gives_it_back(physical in physical(), reduced in reduced()) {
         for design in [Design::Physical(physical), Design::Reduced(reduced)] {
             let system = design.system().expect("a valid design");
-            let (restored, kind) = numbers(&restored(&design.scales(), &system));
+            let (restored, kind) = numbers(&restored(&design.units(), &system));
             let (expected, expected_kind) = numbers(&design);
             prop_assert_eq!(kind, expected_kind);
             for (value, expected) in restored.into_iter().zip(expected) {

@@ -92,13 +92,13 @@ fn a_motion_beside_the_orbit_counts() {
     let criteria = "peak_displacement = \"<= 3 mm\"\nimpacts_per_period = 2";
     let case = alone("8 Hz", "16.6 mm", criteria);
     let system = case.system();
-    let scales = case.scales();
+    let units = case.units();
     let orbit = attracting_orbit(&system).expect("there is one").peaks.displacement;
     let inactive = system.linear_response().expect("damped").amplitude();
-    assert!(scales.length(orbit) < 3e-3 && scales.length(inactive) > 3e-3, "{orbit} {inactive}");
+    assert!(units.length(orbit) < 3e-3 && units.length(inactive) > 3e-3, "{orbit} {inactive}");
     let judged = judge(&case);
     // A modulated motion may be larger still.
-    assert!(judged[0].holds == Some(false) && judged[0].found >= Some(scales.length(inactive)));
+    assert!(judged[0].holds == Some(false) && judged[0].found >= Some(units.length(inactive)));
     assert_eq!((judged[1].found, judged[1].holds), (Some(0.0), Some(false)));
     assert_eq!(judged[1].decided_by, Method::ClosedForm);
     assert!(judged[1].inactive.is_some_and(|share| share > 0.5), "{judged:?}");

@@ -50,7 +50,7 @@ fn figures(case: &Case) -> Vec<Figure> {
 fn of_study(case: &Case, study: &CaseStudy) -> Vec<Figure> {
     let plots = Plot::all(case, study).expect("can be worked out");
     let figures = made::all(case, study, &plots);
-    template::worded(figures, &document::units(case)).expect("have words")
+    template::worded(figures, &case.units()).expect("have words")
 }
 
 /// Everything that holds for every case; returns the figures' names.

@@ -21,7 +21,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("digest", &[]),
     ("executor", &[]),
     ("figure", &[]),
-    ("quantity", &["method"]),
+    ("quantity", &["method", "system"]),
     ("symbolic", &["operation_count"]),
     ("numerics", &["operation_count"]),
     ("system", &["names"]),

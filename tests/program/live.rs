@@ -247,7 +247,7 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
     let [first, last] = [case(&begin), case(&dragged)];
     let frequency = |case: &Case| case.system().frequency_ratio();
     assert!(
-        frequency(&last) < frequency(&first) && last.scales().clearance < first.scales().clearance,
+        frequency(&last) < frequency(&first) && last.units().clearance < first.units().clearance,
         "{dragged}"
     );
     // The mark is where the pointer left it, as near as four digits of the case file tell.
@@ -258,15 +258,15 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
     page.press("ArrowUp", 38, "");
     settle(&mut page);
     let pushed = text(&mut page);
-    assert!(case(&pushed).scales().clearance > last.scales().clearance);
+    assert!(case(&pushed).units().clearance > last.units().clearance);
     let caption = "document.querySelector('[data-name=map] figcaption').textContent";
-    let written = format!("{:.1} mm", 1e3 * case(&pushed).scales().clearance);
+    let written = format!("{:.1} mm", 1e3 * case(&pushed).units().clearance);
     assert!(page.evaluate(caption).as_str().expect("words").contains(&written), "{written}");
     // The map was drawn anew and the mark still has the focus; presses in quick succession would be one step back.
     page.evaluate("new Promise((done) => setTimeout(done, 800))");
     page.press("ArrowUp", 38, "");
     settle(&mut page);
-    assert!(case(&text(&mut page)).scales().clearance > case(&pushed).scales().clearance);
+    assert!(case(&text(&mut page)).units().clearance > case(&pushed).units().clearance);
     // One step back for a movement, however many events it had.
     let press = |page: &mut Page, words: &str| {
         page.evaluate(&format!("[...document.querySelectorAll('button')].find((one) => one.textContent === '{words}').click()"));

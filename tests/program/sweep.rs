@@ -370,7 +370,7 @@ fn every_parameter_can_be_an_axis() {
         let wanted = Case::parse("map.toml", &written).expect("valid");
         let point = swept.point(0);
         assert_eq!(point.system, Some(wanted.system()), "{axis}");
-        assert_eq!(point.scales, wanted.scales(), "{axis}");
+        assert_eq!(point.units, wanted.units(), "{axis}");
     }
 }
 

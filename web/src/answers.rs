@@ -66,7 +66,7 @@ fn answer(request: Request) -> Result<Value, Value> {
         Request::Study { text } => study(&read(&text)?),
         Request::Run { text, from } => {
             let case = read(&text)?;
-            running::change(&case.system(), case.scales().clearance, from).map_err(words)?;
+            running::change(&case.system(), case.units().clearance, from).map_err(words)?;
             Ok(json!({}))
         }
     }

@@ -2,8 +2,7 @@
 //!
 //! Lengths are divided by the clearance `b`, time by `1/omega0` with `omega0 = sqrt(k1/m1)`, velocities by `b omega0`,
 //! accelerations by `b omega0^2`, energies by `m1 omega0^2 b^2`. With `eps = m2/m1` the frequency ratio is
-//! `Omega = 2 pi f/omega0`, and the reduced forcing `G = F/eps` for a base displacement `F` (equation (7) of Li, Seguy,
-//! Berlioz 2016) or `G = P/(k1 eps)` for a force `P`; `gamma = G/b`.
+//! `Omega = 2 pi f/omega0`.
 
 use std::f64::consts::TAU;
 
@@ -19,11 +18,13 @@ pub struct Scales {
     pub natural_frequency: f64,
     /// `m1` in kg; 1 for a reduced design.
     pub oscillator_mass: f64,
-    /// `G`, the reduced forcing, in the unit of [`Scales::clearance`].
-    pub forcing: f64,
 }
 
 impl Scales {
+    /// Those of a reduced design whose clearance is 1.
+    pub const REDUCED: Self =
+        Self { physical: false, clearance: 1.0, natural_frequency: 1.0, oscillator_mass: 1.0 };
+
     /// A length given over the clearance.
     pub fn length(&self, over_clearance: f64) -> f64 {
         over_clearance * self.clearance

@@ -4,7 +4,6 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::super::Design;
 use super::super::reader::{Reader, Table};
 use crate::excitation::Scene;
 use crate::system::Parameter;
@@ -58,10 +57,10 @@ pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> 
     let table = reader.table::<AxisTable>(sweep, name)?;
     if design.form(parameter).is_none() {
         let structure = format!("a structure that is {}", design.scene().words());
-        let (this, other) = match (design.counterpart(parameter), design.scene(), design) {
-            (Some(other), ..) => (design.words(), other.key()),
-            (_, Scene::Steady, Design::Physical(_)) => (design.words(), "frequency"),
-            (_, Scene::Steady, Design::Reduced(_)) => (design.words(), "mass_ratio or damping"),
+        let writing = design.writing();
+        let (this, other) = match (design.counterpart(parameter), design.scene()) {
+            (Some(other), _) => (writing.words, other.key()),
+            (_, Scene::Steady) => (writing.words, writing.steady),
             _ => (structure.as_str(), "clearance"),
         };
         reader.report(

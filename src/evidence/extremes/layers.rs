@@ -333,13 +333,8 @@ fn damper(system: &System) -> Answer {
 }
 
 /// Lengths over the clearance, fast time.
-const UNITS: Scales = Scales {
-    physical: false,
-    clearance: 1.0,
-    natural_frequency: 1.0,
-    oscillator_mass: 1.0,
-    forcing: 1.0,
-};
+const UNITS: Scales =
+    Scales { physical: false, clearance: 1.0, natural_frequency: 1.0, oscillator_mass: 1.0 };
 
 /// The state in which a structure is let go, its impacts that are compared, of which an almost plastic one is the last that
 /// a reference without sustained contact knows, and the fast time in which they happen: rounding adds up beyond.

@@ -113,7 +113,7 @@ impl Sample {
                 p.forcing_per_clearance,
             ],
             times: log.impacts.iter().map(|impact| impact.tau).collect(),
-            largest: case.scales().length(largest),
+            largest: case.units().length(largest),
         })
     }
 }

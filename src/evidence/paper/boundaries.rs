@@ -122,7 +122,7 @@ pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
             ("least_at_the_end", least.clearance == last.clearance),
         ],
         json!({
-            "frequency": member.case.scales().frequency(ratio),
+            "frequency": member.case.units().frequency(ratio),
             "detuning": meeting.detuning,
             "forcing": meeting.forcing_over_clearance,
             "clearance": member.length(forcing / meeting.forcing_over_clearance),

@@ -37,11 +37,11 @@ pub(super) struct Set {
 
 impl Set {
     pub(super) fn of(case: &Case) -> Self {
-        let (scales, system) = (case.scales(), case.system());
+        let (units, system) = (case.units(), case.system());
         Self {
-            natural_frequency: scales.frequency(1.0),
+            natural_frequency: units.frequency(1.0),
             restitution: system.restitution(),
-            amplitude: scales.forcing * system.mass_ratio(),
+            amplitude: case.design.forcing() * system.mass_ratio(),
         }
     }
 
@@ -49,7 +49,7 @@ impl Set {
     pub(super) fn system(&self, case: &Case, clearance: f64) -> Result<System, PaperError> {
         let (own, parameters) = (Self::of(case), case.system().parameters());
         let softer = own.natural_frequency / self.natural_frequency;
-        let narrower = case.scales().length(1.0) / clearance;
+        let narrower = case.units().length(1.0) / clearance;
         let forcing = self.amplitude / own.amplitude * narrower;
         let system = System::new(Parameters {
             damping: parameters.damping * softer,
@@ -66,7 +66,7 @@ impl Set {
     /// steady 1:1 resonance ends, as two fixed points collide on the stable branch or one reaches the fold; and above
     /// which the oscillator alone does not reach the fold.
     pub(super) fn limits(&self, case: &Case) -> Result<[f64; 3], PaperError> {
-        let clearance = case.scales().length(1.0);
+        let clearance = case.units().length(1.0);
         let system = self.system(case, clearance)?;
         let analysis = Analysis::of(&system).map_err(StudyError::from)?;
         let (found, forcing) = (&analysis.boundaries, system.forcing_per_clearance());
@@ -174,7 +174,7 @@ fn told(
     let figure_11 = Section::new(checks, Value::Null);
     let (set, bare) = (Set::of(case), case.system().linear_response());
     Ok(json!({
-        "bare": bare.map_or(f64::INFINITY, |linear| case.scales().length(linear.amplitude())),
+        "bare": bare.map_or(f64::INFINITY, |linear| case.units().length(linear.amplitude())),
         "natural_frequency": set.natural_frequency,
         "amplitude": set.amplitude,
         "detuning": case.system().detuning(),

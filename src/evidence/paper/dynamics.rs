@@ -57,9 +57,8 @@ pub(super) fn figure_12(cases: &CaseSet) -> Result<Section, PaperError> {
 pub(super) fn transfer(member: &CaseReport, measured: &CaseReport) -> Result<Section, PaperError> {
     let transfer = member.needs(Transfer::of(&member.case, &member.study)?, "stretches")?;
     let ([weak, falls, sparse], searched) = (transfer.parts, Transfer::PERIODS);
-    let scales = member.case.scales();
-    let millinewton_seconds =
-        |impulse: f64| 1e3 * scales.oscillator_mass * scales.velocity(impulse);
+    let units = member.case.units();
+    let millinewton_seconds = |impulse: f64| 1e3 * units.oscillator_mass * units.velocity(impulse);
     let (_, main) = member.main()?;
     let evidence = &main.classification.evidence;
     let correlation = evidence.absorber_amplitude.correlation_with_growth.unwrap_or(0.0);

@@ -117,7 +117,7 @@ pub struct CaseReport {
 impl CaseReport {
     /// A length over the clearance in metres.
     fn length(&self, over_clearance: f64) -> f64 {
-        self.case.scales().length(over_clearance)
+        self.case.units().length(over_clearance)
     }
 
     /// The clearance at which the theory has a boundary, in metres.

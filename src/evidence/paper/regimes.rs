@@ -91,7 +91,7 @@ fn forcing(cases: &CaseSet) -> Result<Value, PaperError> {
     let [breaking, last] = stretch.clearance.map(|end| member.length(end));
     let lost = member.study.confirmations.upper_limit.map(|limit| member.length(limit.lost.factor));
     // F = G eps in metres, and the F that moves a boundary of this case to a given clearance.
-    let amplitude = member.case.scales().forcing * system.mass_ratio();
+    let amplitude = member.case.design.forcing() * system.mass_ratio();
     let moved = |boundary: f64, to: f64| amplitude * to / boundary;
     let least = moved(breaking, asymmetric);
     let beside = moved(lost.unwrap_or(last), modulated);

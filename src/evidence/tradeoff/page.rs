@@ -7,7 +7,6 @@ use super::{Best, Layer, Method, Search, Tradeoff, Trial};
 use crate::case::Case;
 use crate::method::Method as KnownBy;
 use crate::quantity::{Quantity, catalogue};
-use crate::report::document::Scale;
 use crate::report::render::{Files, RenderError, page_files};
 use crate::report::template::{render, worded};
 
@@ -35,7 +34,7 @@ impl Page<'_> {
     /// `vinesink/tradeoff@3`. What refers to a method is its place in `methods`.
     pub fn document(&self) -> Value {
         let Self { case, found, allowed, seconds } = *self;
-        let scales = case.scales();
+        let units = case.units();
         let enough = winner(found, allowed);
         let answering = found.trials.iter().filter(|trial| trial.answer.rms.is_some());
         let cheapest = enough.map(|k| found.trials[k].operations);
@@ -44,7 +43,7 @@ impl Page<'_> {
             let rms = trial.answer.rms;
             let mut row = json!(trial);
             row["layer"] = json!(trial.method.layer());
-            row["rms_displacement"] = json!(rms.map(|rms| scales.length(rms)));
+            row["rms_displacement"] = json!(rms.map(|rms| units.length(rms)));
             // Operations over those of the cheapest that is enough, or of the cheapest.
             let times = trial.operations as f64 / cheapest.max(1) as f64;
             row["times"] = json!(rms.map(|_| times));
@@ -61,7 +60,7 @@ impl Page<'_> {
         document["title"] = json!(case.title);
         document["allowed"] = json!(allowed);
         // Of the best answer: in metres, or in the case's own unit of length.
-        document["rms_displacement"] = json!(scales.length(found.best.rms));
+        document["rms_displacement"] = json!(units.length(found.best.rms));
         document["impacts"] = json!(impacts(&found.best));
         document["methods"] = found.trials.iter().enumerate().map(method).collect();
         // The cheapest that is enough; none where none is.
@@ -80,7 +79,7 @@ impl Page<'_> {
     /// # Errors
     /// [`RenderError`] if template and page do not fit, or the figure cannot be drawn.
     pub fn files(&self) -> Result<Files, RenderError> {
-        let units = Scale::of(self.case).units();
+        let units = self.case.units();
         let figures = worded(vec![super::figure(self)], &units)?;
         let facts = json!({ "page": self.document(), "version": env!("CARGO_PKG_VERSION") });
         page_files("tradeoff", "tradeoff.md", None, &units, facts, &figures)
@@ -91,7 +90,7 @@ impl Page<'_> {
     /// # Errors
     /// [`RenderError::Template`] if template and page do not fit.
     pub fn text(&self) -> Result<String, RenderError> {
-        render("tradeoff.txt", &Scale::of(self.case).units(), &json!({ "page": self.document() }))
+        render("tradeoff.txt", &self.case.units(), &json!({ "page": self.document() }))
     }
 }
 

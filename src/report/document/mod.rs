@@ -18,13 +18,14 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use super::figure::Figure;
-use crate::case::{Case, Design};
+use crate::case::Case;
 use crate::criteria::{Judged, method};
 use crate::method::Method;
+use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::quantity::{Quantity, Units};
 use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
+use crate::system::Parameter;
 
 pub(super) use band::{Absorber, damper, outside};
 pub use notes::theory_limits;
@@ -79,7 +80,7 @@ pub fn document(source: &Source) -> Value {
         "name": source.name,
         "title": case.title,
         "source": case.source,
-        "units": if scale.units().physical { "si" } else { "reduced" },
+        "units": scale.units.name(),
         "verdict": verdict::verdict(study, judged),
         // Numbers of the case, and those that its first screen, the index and a comparison show, by their id.
         "quantities": quantities(&scale, case, study),
@@ -117,28 +118,22 @@ pub fn document(source: &Source) -> Value {
     })
 }
 
-/// The units of a case's pages.
-pub fn units(case: &Case) -> Units {
-    Scale::of(case).units()
-}
-
 /// The numbers that stand for a case: its own, and the vibration with and without absorber.
 fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'static str, Quantity> {
     let system = &study.analysis.system;
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
     let mut all = vec![
-        scale.length(&of::CLEARANCE, 1.0, Method::Given),
+        scale.quantity(&of::CLEARANCE, 1.0, Method::Given),
         given(&of::RESTITUTION, system.restitution()),
         given(&of::MASS_RATIO, system.mass_ratio()),
         scale.amplitude(1.0, Method::Given),
         scale.frequency(system.frequency_ratio(), Method::Given),
-        scale.length(&of::BARE_PEAK, study.rivals.bare.1, Method::ClosedForm),
-        scale.length(&of::DAMPER_PEAK, study.rivals.damped.amplitude, Method::ClosedForm),
-        scale.length(&of::DAMPER_STROKE, study.rivals.damped.stroke, Method::ClosedForm),
+        scale.quantity(&of::BARE_PEAK, study.rivals.bare.1, Method::ClosedForm),
+        scale.quantity(&of::DAMPER_PEAK, study.rivals.damped.amplitude, Method::ClosedForm),
+        scale.quantity(&of::DAMPER_STROKE, study.rivals.damped.stroke, Method::ClosedForm),
     ];
-    if let Design::Physical(physical) = &case.design {
-        all.push(given(&of::ABSORBER_MASS, physical.absorber_mass_kg));
-    }
+    let mass = case.design.value(Parameter::AbsorberMass);
+    all.extend(mass.map(|mass| given(&of::ABSORBER_MASS, mass)));
     all.extend(scale::cavity(case));
     if let Some(main) = study.motions.main() {
         let headline = motions::headline(scale, system, main.facts(), method(main));
@@ -146,7 +141,7 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
     } else if let Some(peak) = study.exact.attracting_peak() {
         let bare = study.rivals.bare.1;
         let change = 20.0 * libm::log10(peak / bare);
-        all.push(scale.length(&of::PEAK, peak, Method::ExactOrbit));
+        all.push(scale.quantity(&of::PEAK, peak, Method::ExactOrbit));
         all.push(Quantity::new(&of::CHANGE_DB, change, Method::ExactOrbit));
     }
     all.into_iter().map(|one| (one.kind.id, one)).collect()

@@ -1,6 +1,6 @@
 //! From dimensionless results to quantities in SI, or in the units of a reduced case.
 
-use crate::case::{BandOver, Case, Scales};
+use crate::case::{BandOver, Case};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
@@ -35,7 +35,10 @@ pub fn cavity(case: &Case) -> Vec<Quantity> {
 /// Makes the quantities of one case.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale {
-    scales: Scales,
+    /// The units of the case and its pages.
+    pub units: Units,
+    /// What an excitation frequency is: in Hz, or over the natural one for a reduced case.
+    frequency: &'static Kind,
     /// The case's excitation, and its amplitude in SI.
     excitation: (&'static Kind, f64),
 }
@@ -43,66 +46,30 @@ pub struct Scale {
 impl Scale {
     /// That of a case.
     pub fn of(case: &Case) -> Self {
-        let (design, scales) = (&case.design, case.scales());
+        let design = &case.design;
         let amplitude = design.value(Parameter::Amplitude).unwrap_or_default();
         let excitation = (design.kind(Parameter::Amplitude), amplitude);
-        Self { scales, excitation }
-    }
-
-    /// The units of the case's pages.
-    pub fn units(&self) -> Units {
-        match self.scales.physical {
-            true => Units::physical(self.scales.clearance),
-            false => Units::reduced(),
-        }
+        Self { units: case.units(), frequency: design.kind(Parameter::Frequency), excitation }
     }
 
     /// The unit of a quantity: of SI, or empty for a pure number and in a reduced case.
     pub fn unit(&self, of: &Quantity) -> &'static str {
-        of.kind.dimension.symbol(self.scales.physical)
+        of.kind.dimension.symbol(self.units.physical)
     }
 
-    /// A length over the clearance.
-    pub fn length(&self, kind: &'static Kind, over_clearance: f64, method: Method) -> Quantity {
-        Quantity::new(kind, self.scales.length(over_clearance), method)
+    /// [`Units::quantity`].
+    pub fn quantity(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
+        self.units.quantity(kind, value, method)
     }
 
-    /// The same with an error.
-    pub fn length_with(
-        &self,
-        kind: &'static Kind,
-        [value, error]: [f64; 2],
-        method: Method,
-    ) -> Quantity {
-        self.length(kind, value, method).with_error(self.scales.length(error))
+    /// [`Units::quantity_with`].
+    pub fn quantity_with(&self, kind: &'static Kind, of: [f64; 2], method: Method) -> Quantity {
+        self.units.quantity_with(kind, of, method)
     }
 
-    /// A velocity over the clearance, in fast time, with its error.
-    pub fn velocity(
-        &self,
-        kind: &'static Kind,
-        [value, error]: [f64; 2],
-        method: Method,
-    ) -> Quantity {
-        let [value, error] = [value, error].map(|speed| self.scales.velocity(speed));
-        Quantity::new(kind, value, method).with_error(error)
-    }
-
-    /// A fast time.
-    pub fn time(&self, tau: f64) -> f64 {
-        self.scales.time(tau)
-    }
-
-    /// An energy per unit of the oscillator's mass, over the squared clearance, in fast time.
-    pub fn energy(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
-        Quantity::new(kind, self.scales.energy(value), method)
-    }
-
-    /// An excitation frequency: in Hz, or over the natural one for a reduced case.
+    /// An excitation frequency, of its ratio to the natural one.
     pub fn frequency(&self, ratio: f64, method: Method) -> Quantity {
-        let physical = self.scales.physical;
-        let kind = if physical { &of::EXCITATION_FREQUENCY } else { &of::FREQUENCY_RATIO };
-        Quantity::new(kind, self.scales.frequency(ratio), method)
+        self.quantity(self.frequency, ratio, method)
     }
 
     /// An excitation amplitude over the case's.
@@ -112,25 +79,21 @@ impl Scale {
 
     /// The tilt of a cavity, or gravity along it for a reduced case; none where that is more than gravity.
     pub fn tilt(&self, acceleration: f64, method: Method) -> Option<Quantity> {
-        match self.scales.physical {
-            false => Some(Quantity::new(&of::GRAVITY_ALONG, acceleration, method)),
-            true => {
-                let tilt = self.scales.inclination(acceleration)?;
-                Some(Quantity::new(&of::INCLINATION, tilt, method))
-            }
-        }
+        let (kind, value) = match self.units.physical {
+            false => (&of::GRAVITY_ALONG, acceleration),
+            true => (&of::INCLINATION, self.units.inclination(acceleration)?),
+        };
+        Some(Quantity::new(kind, value, method))
     }
 
     /// The coefficient of friction of a cavity with such accelerations by gravity and friction, or the latter for a reduced
     /// case.
     pub fn friction(&self, accelerations: [f64; 2], method: Method) -> Option<Quantity> {
-        match self.scales.physical {
-            false => Some(Quantity::new(&of::FRICTION_ACCELERATION, accelerations[1], method)),
-            true => {
-                let coefficient = self.scales.friction(accelerations)?;
-                Some(Quantity::new(&of::FRICTION, coefficient, method))
-            }
-        }
+        let (kind, value) = match self.units.physical {
+            false => (&of::FRICTION_ACCELERATION, accelerations[1]),
+            true => (&of::FRICTION, self.units.friction(accelerations)?),
+        };
+        Some(Quantity::new(kind, value, method))
     }
 
     /// A place of a band.

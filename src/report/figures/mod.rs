@@ -21,9 +21,9 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::analysis::Branch;
-use crate::case::{Case, Scales, Subject};
+use crate::case::{Case, Subject};
 use crate::method::Method;
-use crate::quantity::{Digits, Dimension, Kind, Quantity, Units, catalogue as of};
+use crate::quantity::{Digits, Dimension, Kind, Units, catalogue as of};
 use crate::study::CaseStudy;
 use crate::study::plots::Plot;
 use crate::system::{Parameter, System};
@@ -51,7 +51,6 @@ pub fn all(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Vec<Figure> {
 /// excitation periods, frequencies and excitation amplitudes as ratios.
 struct Scene<'a> {
     study: &'a CaseStudy,
-    scales: Scales,
     units: Units,
     /// The excitation's amplitude, and what it is.
     forcing: (&'static Kind, f64),
@@ -75,12 +74,11 @@ struct Ends {
 
 impl<'a> Scene<'a> {
     fn new(case: &Case, study: &'a CaseStudy) -> Self {
-        let (scale, scales) = (Scale::of(case), case.scales());
+        let scale = Scale::of(case);
         let mut limits = case.criteria.iter();
         let asked = limits.find(|one| one.subject == Subject::PeakDisplacement);
         let own = scale.amplitude(1.0, Method::Given);
         let system = &study.analysis.system;
-        let frequency = scales.frequency(system.frequency_ratio());
         let bounds = &study.analysis.boundaries;
         let over_own = |gamma: f64| system.forcing_per_clearance() / gamma;
         let ends = Ends {
@@ -91,21 +89,20 @@ impl<'a> Scene<'a> {
         };
         let motions = found(&scale, study, case.count_inactive);
         let known = json!({
-            "frequency": Quantity::new(&of::EXCITATION_FREQUENCY, frequency, Method::Given),
-            "clearance": scale.length(&of::CLEARANCE, 1.0, Method::Given),
+            "frequency": scale.quantity(&of::EXCITATION_FREQUENCY, system.frequency_ratio(), Method::Given),
+            "clearance": scale.quantity(&of::CLEARANCE, 1.0, Method::Given),
             // Units of lengths over the clearance and of frequency ratios.
-            "b": scales.length(1.0),
-            "f0": scales.frequency(1.0),
+            "b": scale.units.length(1.0),
+            "f0": scale.units.frequency(1.0),
             "theory": theory::with_margins(&scale, study),
             "ends": ends,
             "motions": motions,
         });
         Self {
             study,
-            scales,
-            units: scale.units(),
+            units: scale.units,
             forcing: (own.kind, own.value),
-            limit: asked.map(|one| one.limit / scales.length(1.0)),
+            limit: asked.map(|one| one.limit / scale.units.length(1.0)),
             ends,
             known,
         }
@@ -162,17 +159,9 @@ impl<'a> Scene<'a> {
         if kind.id == self.forcing.0.id {
             return value * self.forcing.1;
         }
-        let (scales, tau) = (&self.scales, value * self.system().period());
-        let velocity = scales.velocity(value);
-        match kind.dimension {
-            Dimension::Length => scales.length(value),
-            Dimension::Frequency => scales.frequency(value),
-            Dimension::Time => scales.time(tau),
-            Dimension::Velocity => velocity,
-            Dimension::Acceleration => scales.acceleration(value),
-            Dimension::Impulse => scales.oscillator_mass * velocity,
-            _ => value,
-        }
+        let of_time = kind.dimension == Dimension::Time;
+        let unit = if of_time { self.system().period() } else { 1.0 };
+        self.units.number(kind.dimension, value * unit)
     }
 
     /// A number with its unit.

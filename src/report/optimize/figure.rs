@@ -6,7 +6,6 @@ use crate::case::{Case, Objective};
 use crate::optimize::Optimization;
 use crate::optimize::chart::Suited;
 use crate::quantity::{Dimension, Units, catalogue};
-use crate::report::document::Scale;
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Fill, Label, Layer, MarkedPoint, Marker, Panel, Role, Rule, Shape,
     Style,
@@ -20,7 +19,7 @@ const GUIDE: Style = Style::new(Color::Grey, 1.4, Dash::Dotted);
 /// Both figures.
 pub fn figures(case: &Case, found: &Optimization) -> Vec<Figure> {
     let context = super::context(case, found);
-    let drawing = Drawing { case, found, units: Scale::of(case).units() };
+    let drawing = Drawing { case, found, units: case.units() };
     let mut figures =
         vec![drawing.landscape().with_facts("captions/optimize-landscape", context.clone())];
     let chart = drawing.chart();
@@ -127,8 +126,8 @@ impl Drawing<'_> {
     /// `None` where no clearance suits any of the frequencies.
     fn chart(&self) -> Option<Figure> {
         let found = self.found;
-        let scales = self.case.scales();
-        let frequency = |omega: f64| scales.frequency(omega);
+        let units = self.case.units();
+        let frequency = |omega: f64| units.frequency(omega);
         let suited = |of: &dyn Fn(&Suited) -> Option<f64>| -> Vec<[f64; 2]> {
             let placed = found
                 .chart

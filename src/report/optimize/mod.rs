@@ -173,7 +173,7 @@ fn objective(task: &Task, design: &Design, [value, error]: [f64; 2]) -> Quantity
 /// # Errors
 /// [`RenderError`] if template and page do not fit, or a figure cannot be drawn.
 pub fn files(case: &Case, found: &Optimization) -> Result<Files, RenderError> {
-    let units = Scale::of(case).units();
+    let units = case.units();
     let tone = if found.succeeds() { "good" } else { "bad" };
     let figures = worded(figures(case, found), &units)?;
     page_files("optimize", "optimize.md", Some(tone), &units, context(case, found), &figures)
@@ -184,7 +184,7 @@ pub fn files(case: &Case, found: &Optimization) -> Result<Files, RenderError> {
 /// # Errors
 /// [`RenderError::Template`] if template and page do not fit.
 pub fn summary(case: &Case, found: &Optimization) -> Result<String, RenderError> {
-    render("optimize.txt", &Scale::of(case).units(), &context(case, found))
+    render("optimize.txt", &case.units(), &context(case, found))
 }
 
 /// What became of the file that was asked for, in a line; `robust` if it holds the best in expectation.
@@ -207,7 +207,7 @@ pub fn written(
         "reached": found.reached(),
         "bounds": bounds(&found.task),
     });
-    Ok(render("optimize-written.txt", &Scale::of(case).units(), &context)?.trim().to_owned())
+    Ok(render("optimize-written.txt", &case.units(), &context)?.trim().to_owned())
 }
 
 /// What the templates read.
@@ -280,7 +280,7 @@ fn places(over: BandOver, found: &Optimization) -> Vec<serde_json::Value> {
         let peak = |motion: &Motion| {
             let Value { value, error } = motion.facts().peak;
             let error = if amplitude { error } else { 0.0 };
-            scale.length_with(&catalogue::PEAK, [value, error], method(motion))
+            scale.quantity_with(&catalogue::PEAK, [value, error], method(motion))
         };
         let largest = |is_one: &dyn Fn(&Motion) -> bool| {
             let alike = here.iter().filter(|motion| is_one(motion));

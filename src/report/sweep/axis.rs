@@ -6,7 +6,6 @@ use crate::case::{Case, SweepAxis};
 use crate::method::Method;
 use crate::quantity::units::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
-use crate::report::document;
 use crate::report::figure::{Axis, Scale, edges};
 use crate::system::Parameter;
 
@@ -43,7 +42,7 @@ impl AxisShown {
     /// An axis of a case's table `[sweep]`.
     pub fn of(case: &Case, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
-        let (kind, units) = (case.design.kind(parameter), document::units(case));
+        let (kind, units) = (case.design.kind(parameter), case.units());
         let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let unit = units.axis_unit(kind, largest);
         Self {

@@ -6,7 +6,6 @@ use crate::case::Recorded;
 use crate::excitation::Scene;
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
-use crate::report::document;
 use crate::sweep::columns::{Cell, Column, Direction};
 use crate::sweep::indices;
 use crate::system::Parameter;
@@ -58,7 +57,7 @@ impl Measure {
 
 impl Swept<'_> {
     pub(super) fn units(&self) -> Units {
-        document::units(self.case)
+        self.case.units()
     }
 
     pub(super) fn points(&self) -> usize {

@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::report::document::{Scale, units};
+use crate::report::document::Scale;
 use crate::report::render::RenderError;
 use crate::report::template::render;
 use crate::transient::Flight;
@@ -21,14 +21,12 @@ pub fn flight(case: &Case, flight: &Flight) -> Value {
         "format": "vinesink/flight@1",
         "title": case.title,
         "start": [start.x, start.x_velocity, start.y, start.y_velocity],
-        "absorber": scale.length(&of::RELATIVE_DISPLACEMENT, place, Method::Given),
-        "duration": Quantity::new(&of::TIME, scale.time(flight.duration), simulated),
-        "peak": scale.length(&of::PEAK, flight.peak, simulated),
+        "absorber": scale.quantity(&of::RELATIVE_DISPLACEMENT, place, Method::Given),
+        "duration": scale.quantity(&of::TIME, flight.duration, simulated),
+        "peak": scale.quantity(&of::PEAK, flight.peak, simulated),
         "impacts": Quantity::new(&of::IMPACT_COUNT, flight.impacts as f64, simulated),
-        "impact_speed": scale.velocity(&of::IMPACT_SPEED, [flight.impact_speed, 0.0], simulated),
-        "decay_time": flight.settles.map(|time| {
-            Quantity::new(&of::DECAY_TIME, scale.time(time), simulated)
-        }),
+        "impact_speed": scale.quantity(&of::IMPACT_SPEED, flight.impact_speed, simulated),
+        "decay_time": flight.settles.map(|time| scale.quantity(&of::DECAY_TIME, time, simulated)),
         "share": case.decay_level,
     })
 }
@@ -38,5 +36,5 @@ pub fn flight(case: &Case, flight: &Flight) -> Value {
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
 pub fn flight_text(case: &Case, document: &Value) -> Result<String, RenderError> {
-    render("flight.txt", &units(case), document)
+    render("flight.txt", &case.units(), document)
 }

@@ -15,7 +15,7 @@ pub use flight::{flight, flight_text};
 pub use optimum::{optimum, optimum_text};
 
 use super::document::criteria::{badge, criteria};
-use super::document::{FORMAT, NOTICEABLE, Scale, Word, cavity, figure_row, units};
+use super::document::{FORMAT, NOTICEABLE, Word, cavity, figure_row};
 use super::figure::{Color, Dash, Style};
 use super::render::{Files, RenderError, in_lines, page_files};
 use super::template::{render, worded};
@@ -58,7 +58,7 @@ pub fn files(
         Study::Sweep(study) => sine_sweep::figures(case, study, &facts),
         Study::Record(study) => record::figures(case, study, &facts),
     };
-    let units = units(case);
+    let units = case.units();
     let figures = worded(figures, &units)?;
     facts["figures"] = figures.iter().map(figure_row).collect();
     let json = format!("{}\n", in_lines(&facts, 0));
@@ -74,7 +74,7 @@ pub fn files(
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
 pub fn text(case: &Case, study: &Study, document: &Value) -> Result<String, RenderError> {
-    render(&format!("{}.txt", name_of(study)), &units(case), document)
+    render(&format!("{}.txt", name_of(study)), &case.units(), document)
 }
 
 /// A report as data. Quantities are in SI, or in the units of a reduced case.
@@ -95,7 +95,7 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
         "name": name,
         "title": case.title,
         "source": case.source,
-        "units": if units(case).physical { "si" } else { "reduced" },
+        "units": case.units().name(),
         "verdict": { "tone": word.tone(), "word": word, "headline": name_of(study) },
         "quantities": all,
         "criteria": criteria(case, judged),
@@ -141,7 +141,7 @@ fn given(case: &Case) -> Vec<Quantity> {
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
     let mass = case.design.value(Parameter::AbsorberMass);
     let own = [
-        Scale::of(case).length(&of::CLEARANCE, 1.0, Method::Given),
+        case.units().quantity(&of::CLEARANCE, 1.0, Method::Given),
         given(&of::RESTITUTION, system.restitution()),
         given(&of::MASS_RATIO, system.mass_ratio()),
         // A reduced design's is over the structure's.

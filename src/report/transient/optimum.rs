@@ -7,7 +7,7 @@ use crate::excitation::Scene;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::report::document::{NOTICEABLE, units};
+use crate::report::document::NOTICEABLE;
 use crate::report::render::RenderError;
 use crate::report::template::render;
 use crate::transient::{Best, Measured};
@@ -67,5 +67,5 @@ pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
 pub fn optimum_text(case: &Case, document: &Value) -> Result<String, RenderError> {
-    render("clearance.txt", &units(case), document)
+    render("clearance.txt", &case.units(), document)
 }

@@ -23,11 +23,11 @@ pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
     let places = study.realisations.first().map_or(&[][..], |first| &first.places);
     let place = |(w, found): &(f64, Response)| {
         json!({
-            "absorber": scale.length(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
-            "peak": scale.length(&of::PEAK, found.peak, Method::Simulation),
-            "rms": scale.length(&of::RMS, found.rms, Method::Simulation),
+            "absorber": scale.quantity(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
+            "peak": scale.quantity(&of::PEAK, found.peak, Method::Simulation),
+            "rms": scale.quantity(&of::RMS, found.rms, Method::Simulation),
             "impacts": Quantity::new(&of::IMPACT_COUNT, found.impacts as f64, Method::Simulation),
-            "impact_speed": scale.velocity(&of::IMPACT_SPEED, [found.impact_speed, 0.0], Method::Simulation),
+            "impact_speed": scale.quantity(&of::IMPACT_SPEED, found.impact_speed, Method::Simulation),
         })
     };
     for (name, told) in told(case, study) {
@@ -40,15 +40,13 @@ pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     facts["sample"] = sample(study.even, places.len());
     facts["places"] = places.into_iter().map(place).collect();
-    let exact = |kind, peak| scale.length(kind, peak, Method::ClosedForm);
-    let natural = |ratio: f64| {
-        Quantity::new(&of::STRUCTURE_FREQUENCY, case.scales().frequency(ratio), Method::Given)
-    };
+    let exact = |kind, peak| scale.quantity(kind, peak, Method::ClosedForm);
+    let natural = |ratio: f64| scale.quantity(&of::STRUCTURE_FREQUENCY, ratio, Method::Given);
     let point = |one: &SpectrumPoint| {
         json!({
             "frequency": natural(one.ratio),
             "bare": exact(&of::BARE_PEAK, one.bare),
-            "absorber": scale.length(&of::PEAK, one.absorber, Method::Simulation).with_error(f64::NAN),
+            "absorber": scale.quantity(&of::PEAK, one.absorber, Method::Simulation).with_error(f64::NAN),
             "damper": exact(&of::DAMPER_PEAK, one.damped),
         })
     };
@@ -99,7 +97,7 @@ fn told<'a>(
 ) -> impl Iterator<Item = (&'static str, Quantity)> + 'a {
     TOLD.into_iter().filter_map(|(name, subject)| {
         let kind = subject.kind_under(study.realisations.len())?;
-        let [value, error] = of_records(&case.scales(), study, subject);
+        let [value, error] = of_records(&case.units(), study, subject);
         Some((name, Quantity::new(kind, value, Method::Simulation).with_error(error)))
     })
 }
@@ -109,7 +107,7 @@ pub(super) fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
     let (simulated, exact) = (Method::Simulation, Method::ClosedForm);
     let length =
-        |kind: &'static Kind, value: Measured, method| scale.length_with(kind, value, method);
+        |kind: &'static Kind, value: Measured, method| scale.quantity_with(kind, value, method);
     let plain = |kind: &'static Kind, value| Quantity::new(kind, value, simulated);
     let shown = study.shown().map(|(_, worst)| worst);
     let mut all: Vec<Quantity> = told(case, study).map(|(_, told)| told).collect();

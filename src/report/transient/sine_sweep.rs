@@ -10,8 +10,8 @@ use crate::excitation::SweepRate;
 use crate::flights::Passage;
 use crate::linear::reduction_db;
 use crate::method::Method;
+use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::quantity::{Kind, Quantity};
 use crate::report::document::{Scale, Word};
 use crate::transient::{ByRate, Jump, SweepStart, SweepStudy};
 
@@ -20,14 +20,14 @@ pub(super) use figure::figures;
 /// What its page has beside what all have.
 pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
     let scale = Scale::of(case);
-    let length = |kind, value| scale.length(kind, value, Method::Simulation);
+    let length = |kind, value| scale.quantity(kind, value, Method::Simulation);
     let start = |(w, found): &SweepStart| {
         json!({
-            "absorber": scale.length(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
+            "absorber": scale.quantity(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
             "peak": length(&of::PEAK, found.peak()[1]),
             "at": scale.frequency(found.peak()[0], Method::Simulation),
             "impacts": Quantity::new(&of::IMPACT_COUNT, found.impacts as f64, Method::Simulation),
-            "impact_speed": scale.velocity(&of::IMPACT_SPEED, [found.impact_speed, 0.0], Method::Simulation),
+            "impact_speed": scale.quantity(&of::IMPACT_SPEED, found.impact_speed, Method::Simulation),
         })
     };
     let jump = |jump: &Jump| {
@@ -71,11 +71,8 @@ fn rate(rate: SweepRate) -> Quantity {
 pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
-    let at = |kind: &'static Kind, passage: &Passage, method| Quantity {
-        kind,
-        ..scale.frequency(passage.peak()[0], method)
-    };
-    let peak = |kind, passage: &Passage, method| scale.length(kind, passage.peak()[1], method);
+    let at = |kind, passage: &Passage, method| scale.quantity(kind, passage.peak()[0], method);
+    let peak = |kind, passage: &Passage, method| scale.quantity(kind, passage.peak()[1], method);
     let (exact, simulated) = (Method::ClosedForm, Method::Simulation);
     let (sweep, damped) = (&study.sweep, &study.damped.1);
     let mut all = vec![
@@ -88,10 +85,10 @@ pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
         at(&of::BARE_PEAK_FREQUENCY, &study.alone, exact),
         peak(&of::DAMPER_PEAK, damped, exact),
         at(&of::DAMPER_PEAK_FREQUENCY, damped, exact),
-        scale.length(&of::DAMPER_STROKE, damped.stroke, exact),
+        scale.quantity(&of::DAMPER_STROKE, damped.stroke, exact),
         peak(&of::RETURN_PEAK, &study.back, simulated),
         at(&of::RETURN_PEAK_FREQUENCY, &study.back, simulated),
-        scale.length(&of::LEAST_PEAK, study.least(), simulated),
+        scale.quantity(&of::LEAST_PEAK, study.least(), simulated),
     ];
     if let Some((_, worst)) = study.worst() {
         let (largest, speed) =
@@ -103,9 +100,9 @@ pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
                 .with_error(level(peak) - level(peak + error))
         };
         all.extend([
-            scale.length_with(&of::PEAK, largest, simulated),
+            scale.quantity_with(&of::PEAK, largest, simulated),
             at(&of::PEAK_FREQUENCY, worst, simulated),
-            scale.velocity(&of::IMPACT_SPEED, speed, simulated),
+            scale.quantity_with(&of::IMPACT_SPEED, speed, simulated),
             Quantity::new(&of::IMPACT_COUNT, worst.impacts as f64, simulated),
             change(&of::REDUCTION_DB, &study.alone),
             change(&of::REDUCTION_DB_TMD, damped),

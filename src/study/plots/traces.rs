@@ -207,9 +207,9 @@ impl Transfer {
             return Ok(None);
         }
         let periods = Periods::of(&trace);
-        let scales = case.scales();
-        let length = match scales.physical {
-            true => ((Self::SECONDS / scales.time(system.period())) as usize).clamp(1, 200),
+        let units = case.units();
+        let length = match units.physical {
+            true => ((Self::SECONDS / units.time(system.period())) as usize).clamp(1, 200),
             false => Self::REDUCED,
         };
         let window = periods.typical(length);

@@ -46,20 +46,20 @@ pub(super) fn boundaries(
 /// Those of closed form and exact orbits themselves, over frequency and clearance.
 fn computed(swept: &Swept, plane: Plane) -> Option<Vec<Layer>> {
     let axes = [plane.x.parameter, plane.y.parameter];
-    let (system, scales) = (swept.case.system(), swept.case.scales());
+    let (system, units) = (swept.case.system(), swept.case.units());
     let gamma = system.forcing_per_clearance();
     if axes != [Parameter::Frequency, Parameter::Clearance] || gamma == 0.0 {
         return None;
     }
     // A reduced case's frequencies are ratios to its own.
-    let natural = scales.frequency(1.0) / plane.x.unit.size;
+    let natural = units.frequency(1.0) / plane.x.unit.size;
     let (edges, top) = (plane.x.edges(), *plane.y.edges().last()?);
     let [first, last] = [edges[0], edges[edges.len() - 1]].map(|edge| edge / natural);
     let detuning = |ratio: f64| (ratio - 1.0) / system.mass_ratio();
     let manifold = Manifold::of(system.restitution());
     let borders = Borders::over(&system, &manifold, (detuning(first), detuning(last)));
     let shown = |ratio: f64, over_clearance: f64| {
-        [ratio * natural, scales.length(over_clearance) / plane.y.unit.size]
+        [ratio * natural, units.length(over_clearance) / plane.y.unit.size]
     };
     let place = |detuning: f64, at: f64| {
         let [x, y] = shown(1.0 + system.mass_ratio() * detuning, gamma / at);
@@ -75,7 +75,7 @@ fn computed(swept: &Swept, plane: Plane) -> Option<Vec<Layer>> {
 /// Where the stable exact orbit begins and ends, at some frequencies.
 fn exact(swept: &Swept, shown: &dyn Fn(f64, f64) -> [f64; 2]) -> Option<Layer> {
     let point = |at: &StabilityLimit| {
-        let clearance = swept.case.scales().length(at.limit.clearance);
+        let clearance = swept.case.units().length(at.limit.clearance);
         let place = swept.units().text(&CLEARANCE, clearance);
         let [x, y] = shown(at.frequency_ratio, at.limit.clearance);
         let words = format!("{} of the exact orbit at {place}", at.limit.kind.words());

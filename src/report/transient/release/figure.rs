@@ -7,7 +7,6 @@ use serde_json::Value;
 use crate::case::Case;
 use crate::flights::STEPS;
 use crate::quantity::{Dimension, catalogue as of};
-use crate::report::document::Scale;
 use crate::report::figure::{Axis, Figure, Layer, Panel, Role, Rule};
 use crate::report::transient::{DAMPER, THEORY};
 use crate::transient::DecayStudy;
@@ -22,8 +21,7 @@ pub fn figures(case: &Case, study: &DecayStudy, facts: &Value) -> Vec<Figure> {
 }
 
 fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
-    let (scale, scales) = (Scale::of(case), case.scales());
-    let units = scale.units();
+    let units = case.units();
     let (worst, found) = (study.worst()?, study.slowest_start.as_ref()?);
     let shown = [worst.oscillations, study.bare.min(3.0 * worst.oscillations)]
         .into_iter()
@@ -31,11 +29,11 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
         .fold(0.0, f64::max);
     let shown =
         if shown > 0.0 { 1.05 * shown } else { found.amplitudes.len() as f64 / f64::from(STEPS) };
-    let seconds = |oscillations: f64| scales.time(TAU * oscillations);
+    let seconds = |oscillations: f64| units.time(TAU * oscillations);
     let time_unit = units.axis_unit(&of::TIME, seconds(shown)).size;
-    let length_unit = units.unit(Dimension::Length, scales.length(study.from)).size;
+    let length_unit = units.unit(Dimension::Length, units.length(study.from)).size;
     let at = |[oscillations, amplitude]: [f64; 2]| {
-        [seconds(oscillations) / time_unit, scales.length(amplitude) / length_unit]
+        [seconds(oscillations) / time_unit, units.length(amplitude) / length_unit]
     };
     let lowest = 0.5 * study.level;
     let line = |points: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
@@ -55,7 +53,7 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
     let x = Axis::linear(units.axis_label(&of::TIME, seconds(shown)));
     let x = x.with_range(0.0, seconds(shown) / time_unit);
     let [bottom, top] = [lowest, 1.2 * study.from].map(|one| at([0.0, one])[1]);
-    let y = Axis::log(units.axis_label(&of::OSCILLATOR_AMPLITUDE, scales.length(study.from)));
+    let y = Axis::log(units.axis_label(&of::OSCILLATOR_AMPLITUDE, units.length(study.from)));
     let level = |value: f64| Rule::Horizontal(at([0.0, value])[1]);
     let mut panel = Panel::new(x, y.with_range(bottom, top))
         .with(Layer::rule(level(study.level), Role::Guide).labelled("at rest"))

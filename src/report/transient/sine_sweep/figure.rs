@@ -5,7 +5,6 @@ use serde_json::Value;
 use crate::case::Case;
 use crate::excitation::SweepRate;
 use crate::quantity::{Dimension, catalogue as of};
-use crate::report::document::Scale;
 use crate::report::figure::{Axis, Color, Dash, Figure, Layer, MarkedPoint, Panel, Role, Style};
 use crate::report::transient::DAMPER;
 use crate::transient::SweepStudy;
@@ -30,8 +29,7 @@ pub fn figures(case: &Case, study: &SweepStudy, facts: &Value) -> Vec<Figure> {
 }
 
 fn envelope(case: &Case, study: &SweepStudy) -> Panel {
-    let (scale, scales) = (Scale::of(case), case.scales());
-    let units = scale.units();
+    let units = case.units();
     let [from, to] = [study.sweep.from, study.sweep.to];
     let highest = from.max(to);
     let peak = |passage: &crate::flights::Passage| passage.peak()[1];
@@ -39,9 +37,9 @@ fn envelope(case: &Case, study: &SweepStudy) -> Panel {
     let own = there.map_or(0.0, peak);
     let largest = own.max(peak(&study.back)).max(peak(&study.alone));
     let frequency_unit = units.axis_unit(&of::EXCITATION_FREQUENCY, highest).size;
-    let length_unit = units.unit(Dimension::Length, scales.length(largest)).size;
+    let length_unit = units.unit(Dimension::Length, units.length(largest)).size;
     let at = |[ratio, length]: [f64; 2]| {
-        [scales.frequency(ratio) / frequency_unit, scales.length(length) / length_unit]
+        [units.frequency(ratio) / frequency_unit, units.length(length) / length_unit]
     };
     let line = |envelope: &[[f64; 2]]| {
         // The largest of what shares a pixel.
@@ -58,7 +56,7 @@ fn envelope(case: &Case, study: &SweepStudy) -> Panel {
     };
     let x = Axis::linear(units.axis_label(&of::EXCITATION_FREQUENCY, highest));
     let x = x.with_range(from.min(to) / frequency_unit, highest / frequency_unit);
-    let y = Axis::linear(units.axis_label(&of::PEAK, scales.length(largest)));
+    let y = Axis::linear(units.axis_label(&of::PEAK, units.length(largest)));
     let y = y.with_range(0.0, 1.1 * at([0.0, largest])[1]);
     let [own_name, back_name] = if from > to { ["down", "up"] } else { ["up", "down"] };
     let mut panel = Panel::new(x, y)
@@ -83,8 +81,7 @@ fn envelope(case: &Case, study: &SweepStudy) -> Panel {
 }
 
 fn rates(case: &Case, study: &SweepStudy) -> Panel {
-    let (scale, scales) = (Scale::of(case), case.scales());
-    let units = scale.units();
+    let units = case.units();
     let size = |rate: SweepRate| match rate {
         SweepRate::Linear(rate) => (&of::SWEEP_RATE, rate),
         SweepRate::Octaves(rate) => (&of::OCTAVE_RATE, rate),
@@ -93,11 +90,11 @@ fn rates(case: &Case, study: &SweepStudy) -> Panel {
     let kind = size(study.sweep.rate).0;
     let rate_unit = units.axis_unit(kind, fastest).size;
     let largest = study.by_rate.iter().flat_map(|one| one.peaks.map(|peak| peak[1]));
-    let largest = scales.length(largest.fold(0.0, f64::max));
+    let largest = units.length(largest.fold(0.0, f64::max));
     let length_unit = units.unit(Dimension::Length, largest).size;
     let line = |k: usize| -> Vec<[f64; 2]> {
         let point = |one: &crate::transient::ByRate| {
-            [size(one.sweep.rate).1 / rate_unit, scales.length(one.peaks[k][1]) / length_unit]
+            [size(one.sweep.rate).1 / rate_unit, units.length(one.peaks[k][1]) / length_unit]
         };
         study.by_rate.iter().map(point).collect()
     };

@@ -1,4 +1,4 @@
-//! The dimensionless system of a design, and the [`Scales`] between its units and dimensionless numbers.
+//! The dimensionless system of a design, and the units that lead back.
 //!
 //! Lengths are divided by the clearance `b`, time by `1/omega0` with `omega0 = sqrt(k1/m1)`,
 //! energies by `m1 omega0^2 b^2`. With `eps = m2/m1`:
@@ -9,33 +9,9 @@
 
 use super::{Design, Physical};
 use crate::excitation::{Release, Scene, SineSweep, Transient};
-use crate::quantity::Dimension;
+use crate::quantity::Units;
 use crate::quantity::units::STANDARD_GRAVITY;
 use crate::system::{Cavity, Excitation, InvalidParameter, Parameters, Scales, System};
-
-impl Scales {
-    /// The unit of [`Scales::clearance`], [`Scales::forcing`] and [`Scales::length`]: "m", or "1" for a
-    /// reduced design's own.
-    pub fn length_unit(&self) -> &'static str {
-        Dimension::Length.symbol(self.physical)
-    }
-
-    /// The inclination in rad of a cavity along which gravity accelerates by so much over `b omega0^2`; none where that is
-    /// more than gravity.
-    pub fn inclination(&self, along: f64) -> Option<f64> {
-        let sine = self.acceleration(along) / STANDARD_GRAVITY.size;
-        (sine.abs() <= 1.0).then(|| libm::asin(sine))
-    }
-
-    /// The coefficient of friction in a cavity by the accelerations of gravity along it and of friction, over
-    /// `b omega0^2`; none where gravity does not press on it.
-    pub fn friction(&self, accelerations: [f64; 2]) -> Option<f64> {
-        let [sine, friction] =
-            accelerations.map(|one| self.acceleration(one) / STANDARD_GRAVITY.size);
-        let coefficient = friction / ((1.0 - sine) * (1.0 + sine)).sqrt();
-        coefficient.is_finite().then_some(coefficient)
-    }
-}
 
 impl Design {
     /// The dimensionless system.
@@ -44,18 +20,17 @@ impl Design {
     /// [`InvalidParameter`] when values, each valid by itself, combine to a number that a double
     /// cannot hold, or when the design did not come from [`Case::parse`](super::Case::parse).
     pub fn system(&self) -> Result<System, InvalidParameter> {
-        let scales = self.scales();
-        let forcing_per_clearance = scales.forcing / scales.clearance;
-        let omega0 = scales.natural_frequency;
+        let units = self.units();
+        let forcing_per_clearance = self.forcing() / units.clearance;
         match self {
             Self::Physical(p) => System::new(Parameters {
                 mass_ratio: p.absorber_mass_kg / p.mass_kg,
-                damping: p.damping_n_s_per_m / (p.absorber_mass_kg * omega0),
+                damping: p.damping_n_s_per_m / (p.absorber_mass_kg * units.natural_frequency),
                 restitution: p.restitution,
-                frequency_ratio: scales.frequency_ratio(p.frequency_hz),
+                frequency_ratio: units.frequency_ratio(p.frequency_hz),
                 forcing_per_clearance,
                 excitation: p.excitation,
-                cavity: cavity(p, &scales),
+                cavity: cavity(p, &units),
             }),
             Self::Reduced(r) => {
                 let system = System::new(Parameters {
@@ -78,10 +53,7 @@ impl Design {
 
     /// What is not steady vibration in it.
     pub fn transient(&self) -> Option<Transient> {
-        match self {
-            Self::Physical(physical) => physical.transient,
-            Self::Reduced(reduced) => reduced.transient,
-        }
+        *self.clone().common().transient
     }
 
     /// How the oscillator is set in motion, where nothing drives it.
@@ -115,37 +87,39 @@ impl Design {
         }
     }
 
-    /// What turns the system's results back into this design's units.
-    pub fn scales(&self) -> Scales {
+    /// The units of its results.
+    pub fn units(&self) -> Units {
+        let scales = match self {
+            Self::Physical(p) => Scales {
+                natural_frequency: p.natural_frequency_rad_per_s(),
+                oscillator_mass: p.mass_kg,
+                physical: true,
+                clearance: p.clearance_m,
+            },
+            Self::Reduced(r) => Scales { clearance: r.clearance, ..Scales::REDUCED },
+        };
+        scales.into()
+    }
+
+    /// `G`, the reduced forcing, in metres or the design's own unit.
+    pub fn forcing(&self) -> f64 {
         match self {
             Self::Physical(p) => {
                 let displacement = match p.excitation {
                     Excitation::BaseDisplacement => p.amplitude,
                     Excitation::Force => p.amplitude / p.stiffness_n_per_m,
                 };
-                Scales {
-                    physical: true,
-                    clearance: p.clearance_m,
-                    natural_frequency: p.natural_frequency_rad_per_s(),
-                    oscillator_mass: p.mass_kg,
-                    forcing: displacement / (p.absorber_mass_kg / p.mass_kg),
-                }
+                displacement / (p.absorber_mass_kg / p.mass_kg)
             }
-            Self::Reduced(r) => Scales {
-                physical: false,
-                clearance: r.clearance,
-                natural_frequency: 1.0,
-                oscillator_mass: 1.0,
-                forcing: r.forcing,
-            },
+            Self::Reduced(r) => r.forcing,
         }
     }
 }
 
 /// Gravity and friction in a cavity, over `b omega0^2`.
-fn cavity(physical: &Physical, scales: &Scales) -> Cavity {
+fn cavity(physical: &Physical, units: &Units) -> Cavity {
     let Physical { inclination_rad, friction, restitution_difference, .. } = *physical;
-    let unit = scales.acceleration(1.0);
+    let unit = units.acceleration(1.0);
     // A level cavity is level even where the unit is too small for a number.
     let over_unit =
         |share: f64| if share == 0.0 { 0.0 } else { STANDARD_GRAVITY.size * share / unit };
