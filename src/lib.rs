@@ -27,10 +27,6 @@ pub mod criteria;
 pub mod diff;
 pub mod digest;
 pub mod evidence;
-pub mod excitation;
-pub mod flights;
-pub mod linear;
-pub mod method;
 pub mod optimize;
 pub mod quantity;
 pub mod report;
@@ -42,6 +38,6 @@ pub mod validation;
 
 pub(crate) use vinesink_core::numerics;
 pub use vinesink_core::{
-    analysis, bifurcation, cavity, dissipation, equations, executor, motions, operation_count,
-    orbits, regimes, simulation, symbolic, system,
+    analysis, bifurcation, cavity, dissipation, equations, excitation, executor, flights, linear,
+    method, motions, operation_count, orbits, regimes, simulation, symbolic, system,
 };

@@ -76,7 +76,11 @@ pub mod bifurcation;
 pub mod cavity;
 pub mod dissipation;
 pub mod equations;
+pub mod excitation;
 pub mod executor;
+pub mod flights;
+pub mod linear;
+pub mod method;
 pub mod motions;
 #[doc(hidden)]
 pub mod names;

@@ -155,7 +155,7 @@ pub struct Stretch {
     /// Phase of the system of [`Self::system`] at its beginning; at its end it is `2 pi`.
     pub begins: f64,
     /// What its phase at the end is ahead of a whole period.
-    pub(crate) lead: f64,
+    pub lead: f64,
 }
 
 impl Stretch {

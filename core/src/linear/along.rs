@@ -60,13 +60,15 @@ fn near_resonance(band: &Band) -> Vec<f64> {
 }
 
 /// A band with its systems at even places, at which many amplitudes are asked for.
-pub(crate) struct Along<'a> {
-    pub(crate) band: &'a Band,
+pub struct Along<'a> {
+    /// The band.
+    pub band: &'a Band,
     systems: Vec<(f64, System)>,
 }
 
 impl<'a> Along<'a> {
-    pub(crate) fn of(band: &'a Band) -> Self {
+    /// Its systems at even places and closer ones around resonance.
+    pub fn of(band: &'a Band) -> Self {
         let system = |at: f64| Some((at, band.system(at).ok()?));
         let mut all: Vec<f64> = places(band.range, PIECES).collect();
         all.extend(near_resonance(band));
@@ -75,7 +77,7 @@ impl<'a> Along<'a> {
     }
 
     /// Where an amplitude is largest, and that amplitude.
-    pub(crate) fn largest(&self, amplitude: impl Fn(&System) -> f64) -> (f64, f64) {
+    pub fn largest(&self, amplitude: impl Fn(&System) -> f64) -> (f64, f64) {
         let there = |at: f64| self.band.system(at).ok().map(|system| amplitude(&system));
         let [from, to] = self.band.range;
         let tried = self.systems.iter().map(|(at, system)| (*at, amplitude(system)));
@@ -106,7 +108,8 @@ impl<'a> Along<'a> {
         best
     }
 
-    pub(crate) fn damped(&self, damper: TunedMassDamper) -> Damped {
+    /// Largest amplitude and stroke with a tuned mass damper, over the clearance.
+    pub fn damped(&self, damper: TunedMassDamper) -> Damped {
         let (at, amplitude) = self.largest(|system| damper.amplitude(system));
         let (_, stroke) = self.largest(|system| damper.stroke(system));
         Damped { amplitude, at, stroke }

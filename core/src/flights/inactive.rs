@@ -28,8 +28,8 @@ const SWINGS_WATCHED: u64 = 100;
 const PLACES_WATCHED: u64 = 32;
 
 /// Places of a resting absorber that no wall reaches while the structure swings alone: what its first swing to either side
-/// leaves. Where gravity or friction moves it, a share of [`PLACES_WATCHED`] places, by simulation.
-pub(crate) fn inactive(system: &System, start: &State) -> Inactive {
+/// leaves. Where gravity or friction moves it, a share of the places that are watched, by simulation.
+pub fn inactive(system: &System, start: &State) -> Inactive {
     if start.y_velocity != 0.0 {
         return Inactive::default();
     }

@@ -9,7 +9,7 @@
 use crate::executor::{Executor, map};
 
 /// Something that is read of an outcome, whose largest value counts; NaN where the outcome does not count.
-pub(crate) type Measure<'a, T> = &'a (dyn Fn(&T) -> f64 + Sync);
+pub type Measure<'a, T> = &'a (dyn Fn(&T) -> f64 + Sync);
 
 /// Places that are chosen together.
 const ROUND: usize = 4;
@@ -18,7 +18,7 @@ const CLOSEST: f64 = 1e-4;
 
 /// So many even places of the absorber, as relative displacements; an even number has not the middle, which theory
 /// looks after.
-pub(crate) fn even(count: u64) -> impl ExactSizeIterator<Item = f64> + Clone {
+pub fn even(count: u64) -> impl ExactSizeIterator<Item = f64> + Clone {
     (0..count as usize).map(move |k| (2 * k + 1) as f64 / count as f64 - 1.0)
 }
 
@@ -45,7 +45,7 @@ pub struct Places<'a> {
 }
 
 /// Outcomes from places, in the order in which they were flown.
-pub(crate) fn survey<T: Send + Sync, E: Send + Sync>(
+pub fn survey<T: Send + Sync, E: Send + Sync>(
     places: Places<'_>,
     measures: &[Measure<'_, T>],
     outcome: impl Fn(f64) -> Result<T, E> + Sync,

@@ -18,7 +18,8 @@ pub struct Passage {
 }
 
 impl Passage {
-    pub(crate) fn new(count: u64, stroke: f64) -> Self {
+    /// Nothing yet, of so many periods.
+    pub fn new(count: u64, stroke: f64) -> Self {
         let envelope = Vec::with_capacity(count as usize);
         Self { envelope, impacts: 0, impact_speed: 0.0, residual: 0.0, stroke }
     }
@@ -30,7 +31,7 @@ impl Passage {
     }
 
     /// The largest displacement of a stretch.
-    pub(crate) fn passed(&mut self, stretch: &Stretch, peak: f64) {
+    pub fn passed(&mut self, stretch: &Stretch, peak: f64) {
         match self.envelope.last_mut() {
             Some(last) if !stretch.first => last[1] = last[1].max(peak),
             _ => self.envelope.push([stretch.of_period, peak]),

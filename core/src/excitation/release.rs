@@ -30,12 +30,12 @@ impl Release {
     }
 
     /// The amplitude with which the structure begins, over the clearance.
-    pub(crate) fn amplitude(&self, scales: &Scales) -> f64 {
+    pub fn amplitude(&self, scales: &Scales) -> f64 {
         amplitude(&self.state(scales, 0.0))
     }
 
     /// The state in which an absorber at a relative displacement `w` begins.
-    pub(crate) fn state(&self, scales: &Scales, w: f64) -> State {
+    pub fn state(&self, scales: &Scales, w: f64) -> State {
         let x = scales.over_clearance(self.displacement);
         let velocity = self.velocity + self.impulse / scales.oscillator_mass;
         let speed = scales.velocity(1.0);
@@ -45,6 +45,6 @@ impl Release {
 }
 
 /// The amplitude of a structure in a state.
-pub(crate) fn amplitude(state: &State) -> f64 {
+pub fn amplitude(state: &State) -> f64 {
     libm::hypot(state.x, state.x_velocity)
 }

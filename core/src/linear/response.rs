@@ -37,24 +37,27 @@ pub struct Response {
 }
 
 /// Measures a motion between states that are so near that it is a cubic in between.
-pub(crate) struct Meter {
-    pub(crate) found: Response,
+pub struct Meter {
+    /// What was measured so far.
+    pub found: Response,
     /// Mass of the absorber or damper over the structure's, and `eps lambda`.
     mass_ratio: f64,
     damping: f64,
-    pub(crate) time: f64,
+    /// Fast time that has passed.
+    pub time: f64,
     square: f64,
 }
 
 impl Meter {
-    pub(crate) fn new(mass_ratio: f64, damping: f64) -> Self {
+    /// Of an absorber or damper with a mass over the structure's, and `eps lambda`.
+    pub fn new(mass_ratio: f64, damping: f64) -> Self {
         let mut found = Response::default();
         found.trace.push([0.0, 0.0]);
         Self { found, mass_ratio, damping, time: 0.0, square: 0.0 }
     }
 
     /// The base changes its velocity.
-    pub(crate) fn jump(&mut self, piece: &Piece, state: &mut State) {
+    pub fn jump(&mut self, piece: &Piece, state: &mut State) {
         let before = state.energy(self.mass_ratio);
         state.x_velocity += piece.jump;
         state.y_velocity += piece.jump;
@@ -62,7 +65,7 @@ impl Meter {
     }
 
     /// The motion between two times of a piece.
-    pub(crate) fn moved(&mut self, piece: &Piece, [from, to]: [f64; 2], states: [&State; 2]) {
+    pub fn moved(&mut self, piece: &Piece, [from, to]: [f64; 2], states: [&State; 2]) {
         let duration = to - from;
         let x = Cubic::of(duration, states.map(|state| [state.x, state.x_velocity]));
         let against =
@@ -85,13 +88,14 @@ impl Meter {
     }
 
     /// A piece has come to its end.
-    pub(crate) fn passed(&mut self, piece: &Piece, state: &State) {
+    pub fn passed(&mut self, piece: &Piece, state: &State) {
         self.time += piece.duration;
         self.found.trace.push([self.time, state.x]);
         self.found.stored = state.energy(self.mass_ratio);
     }
 
-    pub(crate) fn finished(mut self) -> Response {
+    /// What was measured.
+    pub fn finished(mut self) -> Response {
         self.found.rms = if self.time > 0.0 { (self.square / self.time).sqrt() } else { 0.0 };
         self.found
     }

@@ -27,7 +27,7 @@ impl Passage {
 
     /// The same for so many periods at the most, and its duration; `told` hears of every impact, its time that since the
     /// start.
-    pub(crate) fn follow_telling(
+    pub fn follow_telling(
         system: &System,
         scales: &Scales,
         sweep: &SineSweep,

@@ -6,19 +6,21 @@ pub const STEPS: u32 = 16;
 /// The time after which an amplitude stays at a level or below it: where it jumps below, or on an exponential between two
 /// times at which it is seen.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Settling {
+pub struct Settling {
     level: f64,
     last: [f64; 2],
     /// Infinite while it is above.
-    pub(crate) time: f64,
+    pub time: f64,
 }
 
 impl Settling {
-    pub(crate) fn to(level: f64) -> Self {
+    /// To a level.
+    pub fn to(level: f64) -> Self {
         Self { level, last: [0.0, 0.0], time: 0.0 }
     }
 
-    pub(crate) fn see(&mut self, time: f64, amplitude: f64) {
+    /// An amplitude at a time, in the order of times.
+    pub fn see(&mut self, time: f64, amplitude: f64) {
         if amplitude > self.level {
             self.time = f64::INFINITY;
         } else if self.time.is_infinite() {

@@ -36,7 +36,7 @@ impl Predicted {
     pub const SMALLEST: f64 = 0.05;
 
     /// No prediction.
-    pub(crate) fn none(system: &System) -> Self {
+    pub fn none(system: &System) -> Self {
         let residual = FreeDecay::of(system).residual_amplitude();
         Self { path: Vec::new(), oscillations: None, residual, method: Method::Theory }
     }

@@ -6,12 +6,12 @@ use std::f64::consts::{PI, TAU};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
+use crate::names;
 use crate::system::Scales;
-use vinesink_core::names;
 
 names! { name:
     /// What a record, or a spectrum, is of.
-    #[derive(schemars::JsonSchema)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     pub enum RecordQuantity {
         /// The acceleration of the base.
         BaseAcceleration = "base-acceleration",
@@ -88,7 +88,7 @@ impl Record {
     }
 
     /// A value, dimensionless: displacement of the base, else `f` of [`Piece`].
-    pub(crate) fn reduced(&self, scales: &Scales, value: f64) -> f64 {
+    pub fn reduced(&self, scales: &Scales, value: f64) -> f64 {
         let acceleration = scales.acceleration(1.0);
         match self.quantity {
             RecordQuantity::BaseAcceleration => -value / acceleration,

@@ -110,7 +110,7 @@ impl Ringdown {
     }
 
     /// The same; `told` hears of every impact.
-    pub(crate) fn follow_telling(
+    pub fn follow_telling(
         system: &System,
         start: State,
         level: f64,

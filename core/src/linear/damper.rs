@@ -41,7 +41,7 @@ impl TunedMassDamper {
     }
 
     /// The same damper on a structure whose natural frequency is `factor` times as high.
-    pub(crate) fn on_detuned(&self, factor: f64) -> Self {
+    pub fn on_detuned(&self, factor: f64) -> Self {
         Self { tuning: self.tuning / factor, ..*self }
     }
 

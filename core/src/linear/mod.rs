@@ -12,15 +12,15 @@ mod passage;
 mod response;
 mod settling;
 
-pub(crate) use along::Along;
+pub use along::Along;
 pub use along::{Damped, bare_along};
 pub use damper::TunedMassDamper;
 pub use motion::{Linear, driven, released, swept};
 pub use passage::Passage;
-pub(crate) use response::Meter;
+pub use response::Meter;
 pub use response::Response;
 pub use settling::STEPS;
-pub(crate) use settling::Settling;
+pub use settling::Settling;
 
 use std::f64::consts::TAU;
 
@@ -32,7 +32,7 @@ pub fn bare_amplitude(system: &System) -> f64 {
 }
 
 /// Oscillations in which the structure alone comes to a share of its amplitude; infinite without damping.
-pub(crate) fn bare_decay(system: &System, share: f64) -> f64 {
+pub fn bare_decay(system: &System, share: f64) -> f64 {
     // C = C0 exp(-eps lambda tau/2).
     -2.0 * libm::log(share) / (system.mass_ratio() * system.damping() * TAU)
 }

@@ -16,7 +16,7 @@ mod sine_sweep;
 
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use release::Release;
-pub(crate) use release::amplitude;
+pub use release::amplitude;
 pub use sine_sweep::{SineSweep, Stretch, SweepRate};
 
 use crate::system::Parameter;
@@ -53,7 +53,7 @@ impl Transient {
 
     /// The numbers that a parameter is in it: how far and how fast a structure is let go, how hard it is struck, how
     /// fast it is swept.
-    pub(crate) fn numbers(&mut self, parameter: Parameter) -> Vec<&mut f64> {
+    pub fn numbers(&mut self, parameter: Parameter) -> Vec<&mut f64> {
         use Parameter as P;
         let (struck, shock) = match self {
             Self::Release(of) => (of.impulse > 0.0, of.impulse > 0.0 || of.absorber_velocity > 0.0),

@@ -156,7 +156,7 @@ pub fn follow(system: &System, pieces: &[Piece], w: f64) -> Result<Response, Dri
 }
 
 /// The same from a state; `told` hears of every impact as it is seen from the base, its time that since the start.
-pub(crate) fn follow_from(
+pub fn follow_from(
     system: &System,
     pieces: &[Piece],
     start: State,

@@ -13,11 +13,11 @@ mod ringdown;
 mod sweep;
 mod theory;
 
-pub(crate) use driven::follow_from;
+pub use driven::follow_from;
 pub use driven::{DrivenError, follow};
 pub use inactive::Inactive;
-pub(crate) use inactive::inactive;
-pub(crate) use places::{Measure, Places, even, survey};
+pub use inactive::inactive;
+pub use places::{Measure, Places, even, survey};
 pub use places::{share_above, with_closer, worst_of_places};
 pub use ringdown::Ringdown;
 pub use theory::Predicted;
