@@ -106,7 +106,7 @@ impl Record {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
     /// Frequency in Hz, ascending, and density in the squared unit of the quantity per Hz: straight between two of
-    /// them on logarithmic units, nothing outside.
+    /// them on logarithmic scales, nothing outside.
     pub corners: Vec<[f64; 2]>,
     /// Seconds.
     pub duration: f64,
