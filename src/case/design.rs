@@ -220,3 +220,24 @@ impl Input {
         row.map(|row| row.parameter).or(rate)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+
+    /// A key that is misspelt here would be found in no table.
+    #[test]
+    fn every_row_has_its_key_and_gives_back_what_is_set() {
+        let reduced = "title = 't'\nsource = 's'\n[reduced]\nmass_ratio = 0.01\ndamping = 1.5\nrestitution = 0.6\n\
+                       clearance = 1.0\nforcing = 4.0\nfrequency_ratio = 0.99";
+        for text in [Case::starting_text("t"), reduced.to_owned()] {
+            let design = Case::parse("a case", &text).expect("valid").design;
+            for row in design.writing().rows {
+                assert!(design.schema(row.parameter).is_some(), "{:?}", row.place);
+                let set = design.with(row.parameter, 0.25).value(row.parameter);
+                assert!((set.expect("a number") / 0.25 - 1.0).abs() < 1e-12, "{:?}", row.place);
+            }
+        }
+    }
+}

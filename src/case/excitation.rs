@@ -47,7 +47,7 @@ pub(super) struct ExcitationTable {
     #[schemars(example = "quake.csv")]
     pub(super) file: Option<String>,
     /// One-sided power spectral density instead of a file: frequencies in Hz that ascend, each with the density there
-    /// in the squared SI unit of the quantity per Hz; straight in between on logarithmic units, nothing outside.
+    /// in the squared SI unit of the quantity per Hz; straight in between on logarithmic scales, nothing outside.
     #[schemars(extend("minItems" = 2, "x-ascending" = true, "items" = corner()))]
     #[schemars(example = vec![[0.5, 0.02], [5.0, 0.02]])]
     pub(super) spectrum: Option<Vec<[f64; 2]>>,

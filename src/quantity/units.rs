@@ -513,4 +513,30 @@ mod tests {
         let least = units.with_error(&of::REDUCTION_DB, 2.0, 0.8, Digits::Decimals(1));
         assert_eq!(least, "+2.0 dB (\u{2212}0.8 dB)");
     }
+
+    /// By hand: m1 = 2 kg, omega0 = 3 rad/s, b = 5 m.
+    #[test]
+    fn each_dimension_has_its_unit() {
+        let own = Units { oscillator_mass: 2.0, natural_frequency: 3.0, ..Units::physical(5.0) };
+        for (dimension, one) in [
+            (Dimension::Length, 5.0),
+            (Dimension::Time, 1.0 / 3.0),
+            (Dimension::Frequency, 3.0 / TAU),
+            (Dimension::FrequencyRate, 9.0 / TAU),
+            (Dimension::Velocity, 15.0),
+            (Dimension::Acceleration, 45.0),
+            (Dimension::Mass, 2.0),
+            (Dimension::Stiffness, 18.0),
+            (Dimension::Damping, 6.0),
+            (Dimension::Force, 90.0),
+            (Dimension::Energy, 450.0),
+            (Dimension::Power, 1350.0),
+            (Dimension::Impulse, 30.0),
+            (Dimension::Share, 1.0),
+        ] {
+            let found = own.number(dimension, 1.0);
+            assert!((found / one - 1.0).abs() < 1e-15, "{dimension:?} {found}");
+            assert_eq!(Units::reduced().number(dimension, 0.7), 0.7, "{dimension:?}");
+        }
+    }
 }

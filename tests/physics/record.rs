@@ -365,7 +365,7 @@ fn a_seed_names_its_records() {
     assert_eq!(first(&short), first(&short));
     assert_ne!(first(&short), first(&Spectrum { seed: 8, ..short.clone() }));
     assert_ne!(first(&short)[0], first(&short)[1]);
-    // Straight on logarithmic units: 1/10 over a decade.
+    // Straight on logarithmic scales: 1/10 over a decade.
     assert!((short.density(0.1_f64.sqrt()) / 0.3 - 0.1_f64.sqrt()).abs() < 1e-12);
 }
 

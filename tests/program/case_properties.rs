@@ -179,7 +179,7 @@ fn numbers(design: &Design) -> ([f64; 11], Excitation) {
     }
 }
 
-/// The design of a system at some units: the inverse of [`Design::system`].
+/// The design of a system in some units: the inverse of [`Design::system`].
 fn restored(units: &Units, system: &System) -> Design {
     let forcing = units.length(system.forcing_per_clearance());
     let (clearance, restitution) = (units.clearance, system.restitution());

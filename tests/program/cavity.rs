@@ -246,7 +246,7 @@ fn reports_say_what_the_cavity_is() {
     assert!(found.contains("| Absorber inclination | – | 0.5 deg |"), "{found}");
 }
 
-/// Other numbers of a design leave the angle and the coefficient, whatever the units become.
+/// Other numbers of a design leave the angle and the coefficient, whatever the scales become.
 #[test]
 fn gravity_and_friction_stay_when_the_scales_change() {
     let case = parsed(TILTED);

@@ -26,7 +26,7 @@ impl Ranges {
     /// Those of clearance, frequency and forcing.
     pub(super) fn of(study: &CaseStudy) -> Vec<Self> {
         let clearance = in_clearance(study);
-        // The response of an ideal cavity units with the forcing: k times the clearance does what 1/k times the forcing
+        // The response of an ideal cavity scales with the forcing: k times the clearance does what 1/k times the forcing
         // does. What a cavity that is not ideal does was followed.
         let inverse = |[low, high]: &Range| [high, low].map(|end| end.map(f64::recip));
         let forcing = clearance.iter();
