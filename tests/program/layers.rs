@@ -72,7 +72,17 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "criteria",
-        &["band", "case", "linear", "method", "motions", "system", "transient", "validation"],
+        &[
+            "band",
+            "case",
+            "linear",
+            "method",
+            "motions",
+            "quantity",
+            "system",
+            "transient",
+            "validation",
+        ],
     ),
     (
         "evidence",
@@ -170,6 +180,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "motions",
             "numerics",
             "orbits",
+            "quantity",
             "simulation",
             "system",
         ],
