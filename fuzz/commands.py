@@ -4,8 +4,8 @@ or else say how long it will take, and in 1 GB.
 
     fuzz/commands.py target/release/vinesink 1000 [SEED]
 
-Numbers are moved by many powers of ten, keys dropped, doubled and exchanged between the shipped cases. The same seed gives
-the same cases. What is found is left in fuzz/target/commands.
+Characters are replaced, numbers moved by many powers of ten, keys dropped, doubled and exchanged between the shipped
+cases. The same seed gives the same cases. What is found is left in fuzz/target/commands.
 """
 
 import random
@@ -22,6 +22,8 @@ CASES = sorted(path.read_text() for path in (ROOT / "cases").glob("*.toml") if "
 RECORD = (ROOT / "cases" / "tower-record.csv").read_bytes()
 NUMBER = re.compile(r"(?<![\w.])-?\d+(\.\d+)?(e-?\d+)?(?![\w.])")
 AWKWARD = ["0", "-1", "1", "1e308", "1e-308", "1e9", "1e-9", "0.999999999", "nan", "inf", "1e400"]
+TYPED = 0.7  # Of all cases; few of them are read.
+TYPES = [" ", "=", '"', "[", "]", "{", "#", "\\", ".", "0", "9", "e", "-", "a", "\n", "\0", "\u00b5", "\u202e", "mm", ""]
 KEY = re.compile(r"(?!title|source)\w+ *=")
 FOUND = ROOT / "fuzz" / "target" / "commands"
 PATIENCE, KILLED, MEMORY = 5.0, 5.5, 1 << 30
@@ -41,7 +43,14 @@ def moved(random, text):
 
 
 def changed(random):
-    lines = random.choice(CASES).splitlines()
+    text = random.choice(CASES)
+    if random.random() < TYPED:
+        letters = list(text)
+        for _ in range(random.choice([1, 2, 5, 20])):
+            at = random.randrange(len(letters))
+            letters[at : at + random.choice([0, 1, 1, 1, 30])] = random.choice(TYPES)
+        return "".join(letters)
+    lines = text.splitlines()
     for _ in range(random.choice([1, 2, 3, 5, 8])):
         at = random.randrange(len(lines))
         kind = random.random()
@@ -98,7 +107,7 @@ def main():
         Path(folder, "tower-record.csv").write_bytes(RECORD)
         for number in range(count):
             text = changed(random.Random(seed * 1_000_003 + number))
-            Path(folder, "case.toml").write_text(text)
+            Path(folder, "case.toml").write_text(text, encoding="utf-8")
             for command in ("analyze", "check"):
                 problem, code, seconds = asked(program, command, folder)
                 codes[code] = codes.get(code, 0) + 1
@@ -107,7 +116,7 @@ def main():
                     wrong += 1
                     FOUND.mkdir(parents=True, exist_ok=True)
                     kept = FOUND / f"{command}-{seed}-{number}.toml"
-                    kept.write_text(text)
+                    kept.write_text(text, encoding="utf-8")
                     print(f"{kept}: {command} {problem}", flush=True)
                 if code == 2:
                     break  # Nobody reads it.
