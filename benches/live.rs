@@ -21,7 +21,7 @@ use std::time::{Duration, Instant};
 use chromium::{Browser, Page, View};
 use serde_json::{Value, json};
 use vinesink::case::{Case, Rounding};
-use vinesink::report::{document, figure, figures, template};
+use vinesink::report::{figure, figures, template};
 use vinesink::simulation::{Simulation, Trace};
 use vinesink::study::CaseStudy;
 use vinesink::study::plots::Plot;
@@ -126,7 +126,7 @@ fn frame(k: u32) -> f64 {
     let changed = case.rewritten("case.toml", CASE, &design, Rounding::Nearest).expect("valid");
     let sketch = CaseStudy::sketch(&changed.case.system()).expect("a theory");
     let drawn = figures::all(&changed.case, &sketch, &[Plot::Manifold]);
-    for figure in template::worded(drawn, &document::units(&changed.case)).expect("words") {
+    for figure in template::worded(drawn, &changed.case.units()).expect("words") {
         black_box(figure::draw(&figure).expect("a drawing"));
     }
     begin.elapsed().as_secs_f64() * 1e3

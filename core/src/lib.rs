@@ -51,6 +51,7 @@
 //! | [`simulation`] | one trajectory, or many side by side, from event to event | [`Simulation::new`](simulation::Simulation::new) |
 //! | [`regimes`] | what a trajectory does, and what to call it | [`classify`](regimes::classify) |
 //! | [`motions`] | every long-term motion of a system, found and identified once | [`motions`](motions::motions) |
+//! | [`excitation`], [`linear`], [`flights`] | what is not steady: a release, a sweep, a record; alone, with a tuned mass damper, with the absorber | [`flights::follow`], [`linear::swept`] |
 //! | [`cavity`] | the theory where the cavity is tilted, rubs, or has unequal ends | [`CavityTheory::new`](cavity::CavityTheory::new) |
 //! | [`dissipation`] | what the absorber takes in every regime, and the slow flow with it | [`DissipationCurve::of`](dissipation::DissipationCurve::of) |
 //!

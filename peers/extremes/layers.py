@@ -207,17 +207,19 @@ def bands(parameters):
         for left, right in zip(edges, edges[1:]):
             parts += (right - left) * state
             state = not state
-        return parts / (high - low)
+        return parts / (high - low), len(edges) - 2
 
     with mp.workdps(40):
         width, (least, most) = BANDS
         # The program is given frequency ratios in doubles.
         low, high = (mp.mpf(max(float(1 + sign * width * eps), 1e-3)) for sign in (-1, 1))
-        # An end of a stretch is known to a rounding of the frequency ratio.
-        known = 8 * ULP / (high - low)
-        of_frequency = share(low, high, lambda one: Slow(eps, damping, restitution, one, forcing))
-        of_amplitude = share(least, most, lambda one: Slow(eps, damping, restitution, omega, one * forcing))
-        return {"z3-frequency": (of_frequency, known), "z3-amplitude": (of_amplitude, 8 * ULP)}
+        of_frequency, ends = share(low, high, lambda one: Slow(eps, damping, restitution, one, forcing))
+        of_amplitude, others = share(least, most, lambda one: Slow(eps, damping, restitution, omega, one * forcing))
+        # Each end of a stretch is known to a rounding of the frequency ratio, or of the factor.
+        return {
+            "z3-frequency": (of_frequency, 8 * ULP * ends / (high - low)),
+            "z3-amplitude": (of_amplitude, 8 * ULP * others),
+        }
 
 
 # --- Free decay: an integral over the amplitude ----------------------------------------------------------------------

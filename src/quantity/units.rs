@@ -517,7 +517,8 @@ mod tests {
     /// By hand: m1 = 2 kg, omega0 = 3 rad/s, b = 5 m.
     #[test]
     fn each_dimension_has_its_unit() {
-        let own = Units { oscillator_mass: 2.0, natural_frequency: 3.0, ..Units::physical(5.0) };
+        let own = Scales { oscillator_mass: 2.0, natural_frequency: 3.0, ..*Units::physical(5.0) };
+        let own = Units::from(own);
         for (dimension, one) in [
             (Dimension::Length, 5.0),
             (Dimension::Time, 1.0 / 3.0),
