@@ -223,7 +223,6 @@ impl Input {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::case::Case;
 
     /// A key that is misspelt here would be found in no table.
