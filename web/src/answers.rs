@@ -146,7 +146,7 @@ fn change(text: &str, values: &BTreeMap<String, f64>) -> Result<Value, Value> {
 }
 
 fn drawn(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Result<Vec<Figure>, Value> {
-    template::worded(figures::all(case, study, plots), &document::units(case)).map_err(words)
+    template::worded(figures::all(case, study, plots), &case.units()).map_err(words)
 }
 
 /// A figure for the page, and where its panels are.
@@ -197,7 +197,7 @@ fn study(case: &Case) -> Result<Value, Value> {
         answers: None,
         figures: &figures,
     });
-    let report = template::render("report.md", &document::units(case), &document).map_err(words)?;
+    let report = template::render("report.md", &case.units(), &document).map_err(words)?;
     let first_screen = report.split("<img ").next().unwrap_or_default();
     // The map is the page's own.
     let others = figures.into_iter().filter(|figure| figure.name != "map");

@@ -2,8 +2,6 @@
 
 use serde_json::{Value, json};
 use vinesink::case::{Case, Design};
-use vinesink::quantity::Units;
-use vinesink::report::document;
 use vinesink::study::plots::window;
 use vinesink::system::Parameter;
 
@@ -43,7 +41,7 @@ fn range(case: &Case, parameter: Parameter, value: f64) -> ([f64; 2], bool) {
 
 /// The sliders of a case: value and range in SI, the value's words, and the unit of its field.
 pub fn controls(case: &Case) -> Value {
-    let units: Units = document::units(case);
+    let units = case.units();
     let one = |parameter: Parameter| {
         let kind = case.design.kind(parameter);
         let value = case.design.value(parameter)?;
