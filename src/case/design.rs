@@ -117,11 +117,14 @@ static REDUCED: Writing = Writing {
     } },
 };
 
-/// What both kinds of design hold alike.
-pub(super) struct Common<'d> {
-    pub excitation: Excitation,
-    pub restitution_difference: &'d mut f64,
-    pub transient: &'d mut Option<Transient>,
+/// What both kinds of design hold under one name.
+macro_rules! held {
+    ($design:expr, $of:ident => $what:expr) => {
+        match $design {
+            Design::Physical($of) => $what,
+            Design::Reduced($of) => $what,
+        }
+    };
 }
 
 impl Design {
@@ -135,24 +138,17 @@ impl Design {
         if self.is_physical() { &PHYSICAL } else { &REDUCED }
     }
 
-    pub(super) fn common(&mut self) -> Common<'_> {
-        macro_rules! of {
-            ($held:ident, $difference:expr) => {
-                Common {
-                    excitation: $held.excitation,
-                    restitution_difference: $difference,
-                    transient: &mut $held.transient,
-                }
-            };
-        }
-        match self {
-            Self::Physical(held) => of!(held, &mut held.restitution_difference),
-            Self::Reduced(held) => of!(held, &mut held.cavity.restitution_difference),
-        }
+    /// What is not steady vibration in it.
+    pub fn transient(&self) -> Option<Transient> {
+        held!(self, of => of.transient)
+    }
+
+    pub(super) fn transient_mut(&mut self) -> Option<&mut Transient> {
+        held!(self, of => of.transient.as_mut())
     }
 
     fn excitation(&self) -> Excitation {
-        self.clone().common().excitation
+        held!(self, of => of.excitation)
     }
 
     /// The row of a parameter; none of what is a part of the start, or what the design has not.

@@ -10,7 +10,7 @@
 use super::{Design, Physical};
 use crate::excitation::{Release, Scene, SineSweep, Transient};
 use crate::quantity::Units;
-use crate::quantity::units::STANDARD_GRAVITY;
+use crate::quantity::unit::STANDARD_GRAVITY;
 use crate::system::{Cavity, Excitation, InvalidParameter, Parameters, Scales, System};
 
 impl Design {
@@ -49,11 +49,6 @@ impl Design {
                 }
             }
         }
-    }
-
-    /// What is not steady vibration in it.
-    pub fn transient(&self) -> Option<Transient> {
-        *self.clone().common().transient
     }
 
     /// How the oscillator is set in motion, where nothing drives it.

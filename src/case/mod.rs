@@ -293,6 +293,13 @@ impl Case {
         self.design.units()
     }
 
+    /// Places of the absorber from which a case that is not driven steadily is flown; none for one that is.
+    pub fn absorber_places(&self) -> Option<u64> {
+        let records = self.recording.as_ref().map_or(1, Recording::count);
+        let usual = self.design.transient()?.places(records);
+        Some(self.simulation.starts.unwrap_or(usual.into()))
+    }
+
     /// The text of a commented case to start from, with the given title.
     pub fn starting_text(title: &str) -> String {
         let quoted = toml::Value::from(title).to_string();

@@ -25,7 +25,7 @@ impl Design {
     pub fn with(mut self, parameter: Parameter, value: f64) -> Self {
         if let Some(row) = self.row(parameter).filter(|_| self.holds(parameter)) {
             (row.set)(&mut self, value);
-        } else if let Some(transient) = self.common().transient {
+        } else if let Some(transient) = self.transient_mut() {
             // None are numbers of the design itself.
             transient.numbers(parameter).into_iter().for_each(|number| *number = value);
         }
@@ -83,13 +83,19 @@ impl Design {
 
     /// Restitution at the wall `x - y = +b` less that at `x - y = -b`.
     pub fn restitution_difference(&self) -> f64 {
-        *self.clone().common().restitution_difference
+        match self {
+            Self::Physical(of) => of.restitution_difference,
+            Self::Reduced(of) => of.cavity.restitution_difference,
+        }
     }
 
     /// The design with restitutions further apart, their mean as it is.
     #[must_use]
     pub fn with_restitutions_apart(mut self, by: f64) -> Self {
-        let difference = self.common().restitution_difference;
+        let difference = match &mut self {
+            Self::Physical(of) => &mut of.restitution_difference,
+            Self::Reduced(of) => &mut of.cavity.restitution_difference,
+        };
         *difference += by.copysign(*difference);
         self
     }

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::value::nearest;
 use crate::quantity::Dimension;
-use crate::quantity::units::Unit;
+use crate::quantity::unit::Unit;
 
 /// Why a text is not the quantity it should be.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

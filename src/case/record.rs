@@ -8,7 +8,7 @@ use super::reader::{Reader, Table};
 use crate::digest::sha256;
 use crate::excitation::{Record, RecordQuantity, Spectrum};
 use crate::quantity::Dimension;
-use crate::quantity::units::Unit;
+use crate::quantity::unit::Unit;
 
 /// What drives the oscillator, where that is a record or noise.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,9 +7,9 @@ use std::time::Instant;
 use clap::Args;
 use miette::{Result, miette};
 use vinesink::answer::trajectory::flown_while;
-use vinesink::case::{Case, Objective, Recording};
+use vinesink::case::{Case, Objective};
 use vinesink::excitation::Scene;
-use vinesink::flights::with_closer;
+use vinesink::flights::{seconds_of, with_closer};
 use vinesink::motions::{Effort, SettlingTime, longest_window};
 use vinesink::optimize::Task;
 use vinesink::study::deviations::{self, Deviation};
@@ -170,11 +170,7 @@ impl Work {
     /// quarter to four times the rate, eight times as long as one; some records for other structures.
     pub fn transient(case: &Case) -> Option<Self> {
         let Flown { records, periods } = Flown::of(case)?;
-        let usual = {
-            let count = case.recording.as_ref().map_or(1, Recording::count);
-            case.design.transient()?.places(count).into()
-        };
-        let even = case.simulation.starts.unwrap_or(usual);
+        let even = case.absorber_places()?;
         let flights = match case.design.scene() {
             Scene::Sweep => with_closer(even) + 8 * even.min(SweepStudy::STARTS_BESIDE.into()),
             Scene::Record if records == 1 => with_closer(even) + RecordStudy::FLIGHTS_OF_SPECTRUM,
@@ -274,7 +270,7 @@ impl Work {
 
     /// Of a structure that is not driven steadily.
     fn flights(case: &Case, trajectories: Vec<(u64, &'static str)>, periods: u64) -> Self {
-        let each = case.design.scene().seconds();
+        let each = seconds_of(case.design.scene());
         Self { trajectories, periods: periods as f64, of: PERIODS, oscillations: 1.0, each }
     }
 

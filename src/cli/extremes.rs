@@ -15,8 +15,7 @@ use super::progress::Progress;
 ///
 /// Writes OUT/extremes.md: what each run costs, how well it closes its energy balance, how far it is
 /// from a reference that shares no code with it, and what is flagged or refused and why; the same of
-/// theory, decay, exact orbits, their limits and dampers. Exits with 1 if anything that is trusted is
-/// wrong.
+/// every other layer. Exits with 1 if anything that is trusted is wrong.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {

@@ -5,6 +5,7 @@
 
 pub mod catalogue;
 pub mod numbers;
+pub mod unit;
 pub mod units;
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};

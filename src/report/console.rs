@@ -66,8 +66,8 @@ impl Analysed<'_> {
         let scale = Scale::of(case);
         let point = |point: &ManifoldPoint| {
             [
-                scale.quantity(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
-                scale.quantity(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
+                scale.units.quantity(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
+                scale.units.quantity(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
             ]
         };
         // Where saddle-node and Hopf meet.
@@ -154,7 +154,7 @@ impl Analysed<'_> {
 
 /// An exact symmetric orbit.
 fn orbit(scale: &Scale, orbit: &SymmetricOrbit) -> Value {
-    let length = |value: f64| scale.quantity(&of::PEAK, value, ExactOrbit).value;
+    let length = |value: f64| scale.units.quantity(&of::PEAK, value, ExactOrbit).value;
     let found = &orbit.orbit;
     json!({
         "impact_displacement": length(orbit.impact_displacement),
@@ -211,7 +211,7 @@ impl Simulated<'_> {
     /// `classification`, `energetics` and `orbit` are the evidence: per m1, lengths over the clearance, fast time.
     pub fn document(&self) -> Value {
         let scale = Scale::of(self.case);
-        let energy = |value: f64| scale.quantity(&of::WORK, value, Simulation).value;
+        let energy = |value: f64| scale.units.quantity(&of::WORK, value, Simulation).value;
         let (measured, told) = (self.measured, self.motion());
         let balance = &measured.energy;
         let mut document = json!({

@@ -10,7 +10,7 @@ use super::{Plan, Point};
 use crate::case::{Case, RecordSource, Recorded, Recording};
 use crate::excitation::{Record, Transient};
 use crate::executor::Serial;
-use crate::flights::{Places, Predicted, with_closer};
+use crate::flights::{Places, Predicted, seconds_of, with_closer};
 use crate::linear::{TunedMassDamper, bare_decay, reduction_db, swept};
 use crate::transient::{DecayStudy, RecordStudy, SweepStart, SweepStudy, followed, worst};
 
@@ -99,7 +99,7 @@ impl Subject {
             return 0.0;
         };
         let (places, units) = (with_closer(places(plan).into()) as f64, &point.units);
-        let each = point.design.scene().seconds();
+        let each = seconds_of(point.design.scene());
         match of {
             Transient::Release(release) => {
                 let flown = places * followed(bare_decay(system, self.decay_level)) * each;

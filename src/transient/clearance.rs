@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use super::record_study::{flown, over_records};
-use super::{DecayStudy, DecayTime, Measured, RecordStudy, SweepStudy, counted};
+use super::{DecayStudy, DecayTime, Measured, SweepStudy, counted};
 use crate::case::{Case, Design, Recording, Rounding};
 use crate::excitation::{Record, Release, SineSweep, Transient};
 use crate::executor::{Executor, Serial, map};
@@ -50,7 +50,7 @@ pub struct Best {
 /// many as are judged by a study, the case's own among them.
 pub fn looked_at(records: usize) -> [[u32; 2]; 2] {
     let closer = |starts: u32| if records > 1 { starts } else { with_closer(starts.into()) as u32 };
-    let judged = closer(RecordStudy::usual_places(records));
+    let judged = closer(Transient::places_under(records));
     let [between, beside] = CLEARANCES_OF_ROUND;
     [[between + beside, screened(records)], [JUDGED, judged]]
 }
@@ -68,9 +68,7 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<Best> {
     let records = case.recording.as_ref().map_or_else(Vec::new, Recording::records);
     let own = case.design.clearance();
     let bounds = case.optimize.clearance.unwrap_or(CLEARANCES.map(|factor| factor * own));
-    let count = case.recording.as_ref().map_or(1, Recording::count);
-    let usual = u64::from(transient.places(count));
-    let judged_by = case.simulation.starts.unwrap_or(usual);
+    let judged_by = case.absorber_places()?;
     let value = |clearance: f64, places: Places<'_>| {
         let design = case.design.with(Parameter::Clearance, clearance);
         let found = match &transient {

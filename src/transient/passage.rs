@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use super::{Measured, counted};
 use crate::case::Case;
-use crate::excitation::{SineSweep, Transient};
+use crate::excitation::SineSweep;
 use crate::executor::{Executor, map};
 use crate::flights::{Passage, Places, even, survey, worst_of_places};
 use crate::linear::{TunedMassDamper, bare_amplitude, swept};
@@ -70,8 +70,6 @@ pub struct SweepStudy {
 }
 
 impl SweepStudy {
-    /// Places of the absorber unless the case says how many.
-    pub const STARTS: u32 = Transient::PLACES;
     /// At most so many for each other rate, and for the other direction.
     pub const STARTS_BESIDE: u32 = 16;
 
@@ -81,8 +79,7 @@ impl SweepStudy {
     /// [`StartError`] where the motion is so large that rounding hides the walls.
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
         let sweep = case.design.sine_sweep()?;
-        let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-        let places = starts.unwrap_or(Self::STARTS);
+        let places = u32::try_from(case.absorber_places()?).unwrap_or(u32::MAX);
         let (system, units) = (case.system(), case.units());
         Some(Self::of(&system, &units, &sweep, places, case.count_inactive, executor))
     }

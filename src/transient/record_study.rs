@@ -3,7 +3,7 @@
 
 use super::counted;
 use crate::case::Case;
-use crate::excitation::{Piece, Record, Transient};
+use crate::excitation::{Piece, Record};
 use crate::executor::{Executor, map};
 use crate::flights::{
     DrivenError, Measure, Places, Response, even, follow, survey, worst_of_places,
@@ -75,11 +75,6 @@ impl RecordStudy {
     /// Flights of one record for its response spectrum.
     pub const FLIGHTS_OF_SPECTRUM: u64 = FREQUENCIES as u64 * FLIGHTS_OF_FREQUENCY as u64;
 
-    /// Places of the absorber under each of so many records, unless the case says how many.
-    pub const fn usual_places(records: usize) -> u32 {
-        Transient::places_under(records)
-    }
-
     /// Studies a case that is driven by a record; none for another.
     ///
     /// # Errors
@@ -87,8 +82,7 @@ impl RecordStudy {
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, DrivenError>> {
         let recording = case.recording.as_ref()?;
         let records = recording.records();
-        let usual = Self::usual_places(records.len());
-        let places = case.simulation.starts.unwrap_or(usual.into());
+        let places = case.absorber_places()?;
         let study = Self::of(&case.system(), &case.units(), &records, places, executor);
         Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
     }

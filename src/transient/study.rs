@@ -3,7 +3,7 @@
 
 use super::Measured;
 use crate::case::Case;
-use crate::excitation::{Release, Transient, amplitude};
+use crate::excitation::{Release, amplitude};
 use crate::executor::{Executor, Serial};
 use crate::flights::{Inactive, Places, Predicted, Ringdown, inactive, survey, worst_of_places};
 use crate::linear::{Linear, STEPS, TunedMassDamper, bare_decay, released};
@@ -61,9 +61,6 @@ pub struct DecayStudy {
 const LONGEST: f64 = 20_000.0;
 
 impl DecayStudy {
-    /// Places of the absorber unless the case says how many.
-    pub const STARTS: u32 = Transient::PLACES;
-
     /// Studies a release down to a share of its amplitude, the absorber at so many even places of its cavity.
     ///
     /// # Errors
@@ -120,8 +117,8 @@ impl DecayStudy {
     /// # Errors
     /// As [`Self::of`].
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
-        let starts = case.simulation.starts.and_then(|starts| u32::try_from(starts).ok());
-        Self::of_case_from(case, starts.unwrap_or(Self::STARTS), executor)
+        let places = u32::try_from(case.absorber_places()?).unwrap_or(u32::MAX);
+        Self::of_case_from(case, places, executor)
     }
 
     /// About how many oscillations a start of a case is followed for; none for a case that is not released.

@@ -15,8 +15,7 @@ mod release;
 mod sine_sweep;
 
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
-pub use release::Release;
-pub use release::amplitude;
+pub use release::{Release, amplitude};
 pub use sine_sweep::{SineSweep, Stretch, SweepRate};
 
 use crate::system::Parameter;
@@ -88,16 +87,6 @@ pub enum Scene {
 }
 
 impl Scene {
-    /// Seconds for an oscillation on the way to rest, a period of a sweep or a piece of a record from one place of the
-    /// absorber, measured in the release profile on one core of an ARM server: 2.8, 1.6 and 0.3 us with some impacts each.
-    pub const fn seconds(self) -> f64 {
-        match self {
-            Self::Release => 3e-6,
-            Self::Steady | Self::Sweep => 1.6e-6,
-            Self::Record => 0.4e-6,
-        }
-    }
-
     /// "a structure that is ...".
     pub const fn words(self) -> &'static str {
         match self {

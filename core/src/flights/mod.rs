@@ -13,15 +13,13 @@ mod ringdown;
 mod sweep;
 mod theory;
 
-pub use driven::follow_from;
-pub use driven::{DrivenError, follow};
-pub use inactive::Inactive;
-pub use inactive::inactive;
-pub use places::{Measure, Places, even, survey};
-pub use places::{share_above, with_closer, worst_of_places};
+pub use driven::{DrivenError, follow, follow_from};
+pub use inactive::{Inactive, inactive};
+pub use places::{Measure, Places, even, share_above, survey, with_closer, worst_of_places};
 pub use ringdown::Ringdown;
 pub use theory::Predicted;
 
+use crate::excitation::Scene;
 pub use crate::linear::{Passage, Response, STEPS};
 use crate::system::{InvalidParameter, Parameters, System};
 
@@ -32,4 +30,14 @@ fn unforced(system: &System, step: f64) -> Result<System, InvalidParameter> {
         frequency_ratio: std::f64::consts::TAU / step,
         ..system.parameters()
     })
+}
+
+/// Seconds for an oscillation on the way to rest, a period of a sweep or a piece of a record from one place of the
+/// absorber, measured in the release profile on one core of an ARM server: 2.8, 1.6 and 0.3 us with some impacts each.
+pub const fn seconds_of(scene: Scene) -> f64 {
+    match scene {
+        Scene::Release => 3e-6,
+        Scene::Steady | Scene::Sweep => 1.6e-6,
+        Scene::Record => 0.4e-6,
+    }
 }

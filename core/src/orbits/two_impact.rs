@@ -92,11 +92,10 @@ pub struct TwoImpactOrbits {
 /// [`OrbitError::NoSteadyMotion`] for an undamped oscillator driven at its natural frequency,
 /// [`OrbitError::Singular`] for one driven at a whole part of it.
 pub fn two_impact_orbits(system: &System) -> Result<TwoImpactOrbits, OrbitError> {
-    let (mut orbits, mut undecided) = (Vec::new(), Vec::new());
     let pair = Pair::of(system)?;
-    orbits.extend(symmetric_orbits(system)?.into_iter().map(|found| found.orbit));
-    let (roots, open) = pair.cycles(system.cavity().is_symmetric());
-    undecided.extend(open);
+    let symmetric = symmetric_orbits(system)?.into_iter();
+    let mut orbits: Vec<Orbit> = symmetric.map(|found| found.orbit).collect();
+    let (roots, mut undecided) = pair.cycles(system.cavity().is_symmetric());
     for s in roots {
         let orbit = pair.converged(s).and_then(|found| found.orbit(Origin::ClosedForm).ok());
         undecided.extend(orbit.is_none().then_some([s, s]));

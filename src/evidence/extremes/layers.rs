@@ -332,10 +332,6 @@ fn damper(system: &System) -> Answer {
     (values.map(|(name, value)| (name.to_owned(), value)).into(), Vec::new())
 }
 
-/// Lengths over the clearance, fast time.
-const UNITS: Scales =
-    Scales { physical: false, clearance: 1.0, natural_frequency: 1.0, oscillator_mass: 1.0 };
-
 /// The state in which a structure is let go, its impacts that are compared, of which an almost plastic one is the last that
 /// a reference without sustained contact knows, and the fast time in which they happen: rounding adds up beyond.
 const LET_GO: State = State { x: 1.5, x_velocity: 0.0, y: 1.25, y_velocity: 0.0 };
@@ -372,11 +368,11 @@ const SWEEP: SineSweep =
 
 fn sweep(system: &System) -> Result<Answer, String> {
     // A cavity that nobody reaches the end of.
-    let wide = 10.0 * swept(system, None, &UNITS, &SWEEP).peak()[1].max(1.0);
+    let wide = 10.0 * swept(system, None, &Scales::REDUCED, &SWEEP).peak()[1].max(1.0);
     let in_wide = system.with_clearance_scaled(wide).map_err(|error| error.to_string())?;
-    let flown = Passage::follow(&in_wide, &UNITS, &SWEEP, State::AT_REST);
+    let flown = Passage::follow(&in_wide, &Scales::REDUCED, &SWEEP, State::AT_REST);
     let flown = flown.map_err(|error| error.to_string())?;
-    let alone = swept(system, None, &UNITS, &SWEEP).peak()[1];
+    let alone = swept(system, None, &Scales::REDUCED, &SWEEP).peak()[1];
     let values = [("alone", alone), ("flown", wide * flown.peak()[1])];
     Ok((values.map(|(name, value)| (name.to_owned(), value)).into(), Vec::new()))
 }
@@ -387,7 +383,7 @@ const LINES: [[f64; 2]; 6] =
 
 fn record(system: &System) -> Result<Answer, String> {
     let record = Record { quantity: RecordQuantity::Force, samples: LINES.into() };
-    let pieces = record.pieces(&UNITS, Record::LONGEST);
+    let pieces = record.pieces(&Scales::REDUCED, Record::LONGEST);
     let flown = follow(system, &pieces, 0.0).map_err(|error| error.to_string())?;
     let values = [("alone", driven(system, None, &pieces).peak), ("flown", flown.peak)];
     Ok((values.map(|(name, value)| (name.to_owned(), value)).into(), Vec::new()))

@@ -26,10 +26,10 @@ pub fn inactive(
     let peak = motion.facts().peak;
     let of = method(motion);
     let mut told = json!({
-        "peak": scale.quantity_with(&of::INACTIVE_PEAK, [peak.value, peak.error], of),
+        "peak": scale.units.quantity_with(&of::INACTIVE_PEAK, [peak.value, peak.error], of),
         "at": at,
         "share": Quantity::new(&of::INACTIVE_SHARE, rest.share, of),
-        "within": scale.quantity(&of::CLEARANCE, rest.share, of),
+        "within": scale.units.quantity(&of::CLEARANCE, rest.share, of),
         "why_not": motion.why_not(counts),
     });
     // Held or sliding; else it floats in the middle of its cavity.
@@ -51,7 +51,7 @@ pub(in crate::report) struct Absorber<'a> {
 /// A tuned mass damper of the absorber's mass: at a single excitation, or along a band, where both devices are
 /// also held against a structure whose frequency is off.
 pub(in crate::report) fn damper(scale: &Scale, rivals: &Rivals, along: Option<&Absorber>) -> Value {
-    let length = |kind, value| scale.quantity(kind, value, ClosedForm);
+    let length = |kind, value| scale.units.quantity(kind, value, ClosedForm);
     let Rivals { damper, damped, detuned, .. } = rivals;
     let absorber = |k: usize| along.and_then(|one| one.detuned.get(k)?.as_ref());
     let reach = |worst: &Worst| worst.peak.value + worst.peak.error;
@@ -119,7 +119,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
     let steady = steady.and_then(|(at, here)| Some((at, largest(here, Motion::is_one_to_one)?)));
     let orbit = steady.map(|(at, motion)| {
         let (of, errors) = (motion.facts().peak, method(motion));
-        let peak = scale.quantity_with(&of::PEAK, [of.value, of.error], errors);
+        let peak = scale.units.quantity_with(&of::PEAK, [of.value, of.error], errors);
         json!({ "peak": peak, "at": place(at), "change": change([of.value, of.error], errors) })
     });
     let resting = motions.rest_at().and_then(|at| Some((at, motions.at(at)?.rest()?)));
@@ -127,7 +127,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
         resting.and_then(|(at, one)| inactive(scale, one, Some(place(at)), survey.count_rest));
     let (worst_motion, detuned) = (worst_motion.as_ref(), survey.detuned.as_slice());
     let absorber = Absorber { over: band.over, worst: worst_motion, detuned };
-    let bare_peak = scale.quantity(&of::BARE_PEAK, bare, ClosedForm);
+    let bare_peak = scale.units.quantity(&of::BARE_PEAK, bare, ClosedForm);
     let (gap_at, gap) = survey.smallest_gap();
     let gap = Quantity::new(&of::GAP, gap, ExactOrbit).with_error(ROOT_OF_ROUNDING * gap);
     let areas = survey.zones().iter().map(|zone| {
@@ -168,7 +168,7 @@ fn largest(motions: &Motions, is_one: impl Fn(&Motion) -> bool) -> Option<&Motio
 
 fn peak(scale: &Scale, worst: &Worst) -> Quantity {
     let peak = worst.peak;
-    scale.quantity_with(&of::PEAK, [peak.value, peak.error], method(&worst.motion))
+    scale.units.quantity_with(&of::PEAK, [peak.value, peak.error], method(&worst.motion))
 }
 
 /// Places at which several motions with impacts coexist; none where nothing was simulated.

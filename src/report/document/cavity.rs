@@ -23,8 +23,8 @@ pub fn cavity(scale: &Scale, exact: &FullSystem) -> Option<Value> {
     let points = theory.fixed_points(&Forcing::of(system));
     let place = |point: ManifoldPoint| {
         [
-            scale.quantity(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
-            scale.quantity(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
+            scale.units.quantity(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
+            scale.units.quantity(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
         ]
     };
     let orbits = exact.two_impact_orbits();
@@ -43,7 +43,7 @@ pub fn cavity(scale: &Scale, exact: &FullSystem) -> Option<Value> {
 }
 
 fn point(scale: &Scale, point: &FixedPoint) -> Value {
-    let length = |kind, value| scale.quantity(kind, value, Theory);
+    let length = |kind, value| scale.units.quantity(kind, value, Theory);
     let number = |kind, value| Quantity::new(kind, value, Theory);
     let motion = &point.motion;
     json!({
@@ -66,9 +66,9 @@ fn orbit(scale: &Scale, map: &ImpactMap, orbit: &Orbit) -> Value {
     let period: f64 = durations.iter().sum();
     json!({
         "flight_share": number(&of::FLIGHT_SHARE, durations[0] / period),
-        "peak": scale.quantity(&of::PEAK, peaks.displacement, ExactOrbit),
+        "peak": scale.units.quantity(&of::PEAK, peaks.displacement, ExactOrbit),
         // The larger of both.
-        "impact_speed": scale.quantity(&of::IMPACT_SPEED, impact_speed, ExactOrbit),
+        "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, impact_speed, ExactOrbit),
         // Over a whole period.
         "multiplier": rounded(number(&of::SPECTRAL_RADIUS, orbit.radius_per_period())),
         "leading": orbit.multipliers.leading(),

@@ -36,7 +36,7 @@ fn finding(scale: &Scale, finding: &Finding, method: Method, error: f64) -> Valu
     match finding {
         Finding::Length(value) => {
             let errors = [*value, error * value.abs()];
-            json!({ "number": scale.quantity_with(&of::CLAIMED_LENGTH, errors, method), "outcome": null })
+            json!({ "number": scale.units.quantity_with(&of::CLAIMED_LENGTH, errors, method), "outcome": null })
         }
         Finding::Angle(value) => {
             let angle = Quantity::new(&of::CLAIMED_ANGLE, *value, method).with_error(error);

@@ -58,7 +58,7 @@ pub fn deviations(scale: &Scale, case: &Case, found: &Deviations) -> Value {
 
 fn peak(scale: &Scale, motion: &Motion) -> Quantity {
     let peak = motion.facts().peak;
-    scale.quantity_with(&of::PEAK, [peak.value, peak.error], method(motion))
+    scale.units.quantity_with(&of::PEAK, [peak.value, peak.error], method(motion))
 }
 
 fn row(scale: &Scale, case: &Case, rig: &Rig) -> Value {

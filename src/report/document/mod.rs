@@ -123,14 +123,14 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
     let system = &study.analysis.system;
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
     let mut all = vec![
-        scale.quantity(&of::CLEARANCE, 1.0, Method::Given),
+        scale.units.quantity(&of::CLEARANCE, 1.0, Method::Given),
         given(&of::RESTITUTION, system.restitution()),
         given(&of::MASS_RATIO, system.mass_ratio()),
         scale.amplitude(1.0, Method::Given),
         scale.frequency(system.frequency_ratio(), Method::Given),
-        scale.quantity(&of::BARE_PEAK, study.rivals.bare.1, Method::ClosedForm),
-        scale.quantity(&of::DAMPER_PEAK, study.rivals.damped.amplitude, Method::ClosedForm),
-        scale.quantity(&of::DAMPER_STROKE, study.rivals.damped.stroke, Method::ClosedForm),
+        scale.units.quantity(&of::BARE_PEAK, study.rivals.bare.1, Method::ClosedForm),
+        scale.units.quantity(&of::DAMPER_PEAK, study.rivals.damped.amplitude, Method::ClosedForm),
+        scale.units.quantity(&of::DAMPER_STROKE, study.rivals.damped.stroke, Method::ClosedForm),
     ];
     let mass = case.design.value(Parameter::AbsorberMass);
     all.extend(mass.map(|mass| given(&of::ABSORBER_MASS, mass)));
@@ -141,7 +141,7 @@ fn quantities(scale: &Scale, case: &Case, study: &CaseStudy) -> BTreeMap<&'stati
     } else if let Some(peak) = study.exact.attracting_peak() {
         let bare = study.rivals.bare.1;
         let change = 20.0 * libm::log10(peak / bare);
-        all.push(scale.quantity(&of::PEAK, peak, Method::ExactOrbit));
+        all.push(scale.units.quantity(&of::PEAK, peak, Method::ExactOrbit));
         all.push(Quantity::new(&of::CHANGE_DB, change, Method::ExactOrbit));
     }
     all.into_iter().map(|one| (one.kind.id, one)).collect()

@@ -217,7 +217,8 @@ fn doubts(motion: &Measured) -> Vec<Value> {
 
 /// The numbers of a motion that have a unit of the case, by their key.
 fn numbers(scale: &Scale, facts: &Facts, method: Method) -> [(&'static str, Quantity); 4] {
-    let length = |kind, of: motions::Value| scale.quantity_with(kind, [of.value, of.error], method);
+    let length =
+        |kind, of: motions::Value| scale.units.quantity_with(kind, [of.value, of.error], method);
     let Facts { peak, rms, impacts_per_period: impacts, impact_speed: speed, .. } = *facts;
     let impacts =
         Quantity::new(&of::IMPACTS_PER_PERIOD, impacts.value, method).with_error(impacts.error);
@@ -227,7 +228,7 @@ fn numbers(scale: &Scale, facts: &Facts, method: Method) -> [(&'static str, Quan
         ("impacts_per_period", impacts),
         (
             "impact_speed",
-            scale.quantity_with(&of::IMPACT_SPEED, [speed.value, speed.error], method),
+            scale.units.quantity_with(&of::IMPACT_SPEED, [speed.value, speed.error], method),
         ),
     ]
 }
@@ -278,7 +279,7 @@ fn energy(scale: &Scale, motion: &Measured, system: &System) -> Value {
     let energetics = &motion.energetics;
     let error = error_of_averages(motion);
     let energy = |kind, value: f64| {
-        let energy = scale.quantity(kind, value, Simulation);
+        let energy = scale.units.quantity(kind, value, Simulation);
         energy.with_error(error * energy.value.abs())
     };
     let mut told = json!({

@@ -57,19 +57,9 @@ impl Scale {
         of.kind.dimension.symbol(self.units.physical)
     }
 
-    /// [`Units::quantity`].
-    pub fn quantity(&self, kind: &'static Kind, value: f64, method: Method) -> Quantity {
-        self.units.quantity(kind, value, method)
-    }
-
-    /// [`Units::quantity_with`].
-    pub fn quantity_with(&self, kind: &'static Kind, of: [f64; 2], method: Method) -> Quantity {
-        self.units.quantity_with(kind, of, method)
-    }
-
     /// An excitation frequency, of its ratio to the natural one.
     pub fn frequency(&self, ratio: f64, method: Method) -> Quantity {
-        self.quantity(self.frequency, ratio, method)
+        self.units.quantity(self.frequency, ratio, method)
     }
 
     /// An excitation amplitude over the case's.

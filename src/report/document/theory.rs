@@ -96,7 +96,7 @@ impl Facts<'_> {
     /// A fixed point of the slow flow.
     fn point(&self, point: &FixedPoint) -> Value {
         let number = |kind, value| Quantity::new(kind, value, Theory);
-        let length = |kind, value| self.scale.quantity(kind, value, Theory);
+        let length = |kind, value| self.scale.units.quantity(kind, value, Theory);
         json!({
             "oscillator_amplitude": length(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude),
             "absorber_amplitude": length(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude),
@@ -119,12 +119,12 @@ impl Facts<'_> {
     /// An exact symmetric orbit; its largest multiplier is that of half a period.
     fn orbit(&self, orbit: &SymmetricOrbit) -> Value {
         let found = &orbit.orbit;
-        let length = |kind, value| self.scale.quantity(kind, value, ExactOrbit);
+        let length = |kind, value| self.scale.units.quantity(kind, value, ExactOrbit);
         let number = |kind, value| Quantity::new(kind, value, ExactOrbit);
         json!({
             "impact_displacement": length(&of::IMPACT_DISPLACEMENT, orbit.impact_displacement),
             "peak": length(&of::PEAK, orbit.peaks.displacement),
-            "impact_speed": self.scale.quantity(&of::IMPACT_SPEED, orbit.impact_speed, ExactOrbit),
+            "impact_speed": self.scale.units.quantity(&of::IMPACT_SPEED, orbit.impact_speed, ExactOrbit),
             "phase": number(&of::IMPACT_PHASE, orbit.phase),
             "multiplier": rounded(number(&of::SPECTRAL_RADIUS, found.multipliers.spectral_radius())),
             "leading": found.multipliers.leading(),
@@ -138,7 +138,7 @@ impl Facts<'_> {
 
     /// Boundaries in clearance by theory and exactly, by ascending clearance.
     fn boundaries(&self) -> Vec<Value> {
-        let length = |factor, method| self.scale.quantity(&of::BOUNDARY, factor, method);
+        let length = |factor, method| self.scale.units.quantity(&of::BOUNDARY, factor, method);
         let node = self.analysis.boundaries.saddle_node.map(|node| node.branch);
         let told = self.errors.iter().map(|one| {
             let of_theory = one.kind == Bifurcation::SaddleNode && one.theory.is_some();
@@ -194,13 +194,13 @@ impl Facts<'_> {
             "kind": kind,
             "at": self.clearance(factor),
             "change": change(factor),
-            "theory": theory.map(|at| self.scale.quantity(&of::CLEARANCE, at, Theory)),
+            "theory": theory.map(|at| self.scale.units.quantity(&of::CLEARANCE, at, Theory)),
             "theory_error": error.map(theory_error),
         })
     }
 
     fn clearance(&self, factor: f64) -> Quantity {
-        self.scale.quantity(&of::CLEARANCE, factor, ExactOrbit)
+        self.scale.units.quantity(&of::CLEARANCE, factor, ExactOrbit)
     }
 
     /// What several starts do at another clearance: how many end in steady 1:1 resonance, their share with the
@@ -210,14 +210,14 @@ impl Facts<'_> {
         let reach = wilson(probe.steady, probe.starts).map(|end| (end - share).abs());
         let share = Quantity::new(&of::START_SHARE, share, Simulation);
         json!({
-            "clearance": self.scale.quantity(&of::CLEARANCE, probe.factor, Simulation),
+            "clearance": self.scale.units.quantity(&of::CLEARANCE, probe.factor, Simulation),
             "change": change(probe.factor),
             "starts": probe.starts,
             "steady": probe.steady,
             "steady_share": share.with_error(reach[0].max(reach[1])),
             "other": probe.other,
             // The largest of a few short runs: nothing is known of its error.
-            "other_peak": self.scale.quantity_with(&of::PEAK, [probe.other_peak, f64::NAN], Simulation),
+            "other_peak": self.scale.units.quantity_with(&of::PEAK, [probe.other_peak, f64::NAN], Simulation),
         })
     }
 
@@ -232,7 +232,7 @@ impl Facts<'_> {
         let level = 20.0 * libm::log10(best.peak / bare);
         Some(json!({
             "clearance": rounded(self.clearance(best.factor)),
-            "peak": rounded(self.scale.quantity(&of::PEAK, best.peak, ExactOrbit)),
+            "peak": rounded(self.scale.units.quantity(&of::PEAK, best.peak, ExactOrbit)),
             "change": Quantity::new(&of::CHANGE_DB, level, ExactOrbit),
             // Whether that is worth calling a reduction.
             "reduces": best.peak <= bare * (1.0 - NOTICEABLE),

@@ -89,8 +89,8 @@ impl<'a> Scene<'a> {
         };
         let motions = found(&scale, study, case.count_inactive);
         let known = json!({
-            "frequency": scale.quantity(&of::EXCITATION_FREQUENCY, system.frequency_ratio(), Method::Given),
-            "clearance": scale.quantity(&of::CLEARANCE, 1.0, Method::Given),
+            "frequency": scale.units.quantity(&of::EXCITATION_FREQUENCY, system.frequency_ratio(), Method::Given),
+            "clearance": scale.units.quantity(&of::CLEARANCE, 1.0, Method::Given),
             // Units of lengths over the clearance and of frequency ratios.
             "b": scale.units.length(1.0),
             "f0": scale.units.frequency(1.0),

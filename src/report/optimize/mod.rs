@@ -280,7 +280,7 @@ fn places(over: BandOver, found: &Optimization) -> Vec<serde_json::Value> {
         let peak = |motion: &Motion| {
             let Value { value, error } = motion.facts().peak;
             let error = if amplitude { error } else { 0.0 };
-            scale.quantity_with(&catalogue::PEAK, [value, error], method(motion))
+            scale.units.quantity_with(&catalogue::PEAK, [value, error], method(motion))
         };
         let largest = |is_one: &dyn Fn(&Motion) -> bool| {
             let alike = here.iter().filter(|motion| is_one(motion));

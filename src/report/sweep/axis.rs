@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::case::{Case, SweepAxis};
 use crate::method::Method;
-use crate::quantity::units::Unit;
+use crate::quantity::unit::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
 use crate::report::figure::{Axis, Scale, edges};
 use crate::system::Parameter;

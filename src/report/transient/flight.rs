@@ -21,12 +21,12 @@ pub fn flight(case: &Case, flight: &Flight) -> Value {
         "format": "vinesink/flight@1",
         "title": case.title,
         "start": [start.x, start.x_velocity, start.y, start.y_velocity],
-        "absorber": scale.quantity(&of::RELATIVE_DISPLACEMENT, place, Method::Given),
-        "duration": scale.quantity(&of::TIME, flight.duration, simulated),
-        "peak": scale.quantity(&of::PEAK, flight.peak, simulated),
+        "absorber": scale.units.quantity(&of::RELATIVE_DISPLACEMENT, place, Method::Given),
+        "duration": scale.units.quantity(&of::TIME, flight.duration, simulated),
+        "peak": scale.units.quantity(&of::PEAK, flight.peak, simulated),
         "impacts": Quantity::new(&of::IMPACT_COUNT, flight.impacts as f64, simulated),
-        "impact_speed": scale.quantity(&of::IMPACT_SPEED, flight.impact_speed, simulated),
-        "decay_time": flight.settles.map(|time| scale.quantity(&of::DECAY_TIME, time, simulated)),
+        "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, flight.impact_speed, simulated),
+        "decay_time": flight.settles.map(|time| scale.units.quantity(&of::DECAY_TIME, time, simulated)),
         "share": case.decay_level,
     })
 }

@@ -23,11 +23,11 @@ pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
     let places = study.realisations.first().map_or(&[][..], |first| &first.places);
     let place = |(w, found): &(f64, Response)| {
         json!({
-            "absorber": scale.quantity(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
-            "peak": scale.quantity(&of::PEAK, found.peak, Method::Simulation),
-            "rms": scale.quantity(&of::RMS, found.rms, Method::Simulation),
+            "absorber": scale.units.quantity(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
+            "peak": scale.units.quantity(&of::PEAK, found.peak, Method::Simulation),
+            "rms": scale.units.quantity(&of::RMS, found.rms, Method::Simulation),
             "impacts": Quantity::new(&of::IMPACT_COUNT, found.impacts as f64, Method::Simulation),
-            "impact_speed": scale.quantity(&of::IMPACT_SPEED, found.impact_speed, Method::Simulation),
+            "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, found.impact_speed, Method::Simulation),
         })
     };
     for (name, told) in told(case, study) {
@@ -40,13 +40,13 @@ pub(super) fn add(case: &Case, study: &RecordStudy, facts: &mut Value) {
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     facts["sample"] = sample(study.even, places.len());
     facts["places"] = places.into_iter().map(place).collect();
-    let exact = |kind, peak| scale.quantity(kind, peak, Method::ClosedForm);
-    let natural = |ratio: f64| scale.quantity(&of::STRUCTURE_FREQUENCY, ratio, Method::Given);
+    let exact = |kind, peak| scale.units.quantity(kind, peak, Method::ClosedForm);
+    let natural = |ratio: f64| scale.units.quantity(&of::STRUCTURE_FREQUENCY, ratio, Method::Given);
     let point = |one: &SpectrumPoint| {
         json!({
             "frequency": natural(one.ratio),
             "bare": exact(&of::BARE_PEAK, one.bare),
-            "absorber": scale.quantity(&of::PEAK, one.absorber, Method::Simulation).with_error(f64::NAN),
+            "absorber": scale.units.quantity(&of::PEAK, one.absorber, Method::Simulation).with_error(f64::NAN),
             "damper": exact(&of::DAMPER_PEAK, one.damped),
         })
     };
@@ -106,8 +106,9 @@ pub(super) fn quantities(case: &Case, study: &RecordStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
     let (simulated, exact) = (Method::Simulation, Method::ClosedForm);
-    let length =
-        |kind: &'static Kind, value: Measured, method| scale.quantity_with(kind, value, method);
+    let length = |kind: &'static Kind, value: Measured, method| {
+        scale.units.quantity_with(kind, value, method)
+    };
     let plain = |kind: &'static Kind, value| Quantity::new(kind, value, simulated);
     let shown = study.shown().map(|(_, worst)| worst);
     let mut all: Vec<Quantity> = told(case, study).map(|(_, told)| told).collect();

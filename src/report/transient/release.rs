@@ -28,7 +28,7 @@ pub(super) fn add(case: &Case, study: &DecayStudy, document: &mut Value) {
         worst_rows(&study.starts, |start| start.oscillations, |start| row(&scale, start));
     document["sample"] = sample(study.even, study.starts.len());
     // The lowest and the highest place of an absorber that no wall reaches.
-    let place = |w| scale.quantity(&of::RELATIVE_DISPLACEMENT, w, Method::ClosedForm);
+    let place = |w| scale.units.quantity(&of::RELATIVE_DISPLACEMENT, w, Method::ClosedForm);
     document["inactive"] = json!(study.inactive.places.map(|ends| ends.map(place)));
     // Share of the first amplitude that counts as rest.
     document["share"] = case.decay_level.into();
@@ -36,21 +36,21 @@ pub(super) fn add(case: &Case, study: &DecayStudy, document: &mut Value) {
 
 fn row(scale: &Scale, decay: &Decay) -> Value {
     json!({
-        "absorber": scale.quantity(&of::RELATIVE_DISPLACEMENT, decay.place, Method::Given),
+        "absorber": scale.units.quantity(&of::RELATIVE_DISPLACEMENT, decay.place, Method::Given),
         "time": time(scale, &of::DECAY_TIME, decay.oscillations, Method::Simulation),
         "impacts": Quantity::new(&of::IMPACT_COUNT, decay.impacts as f64, Method::Simulation),
-        "impact_speed": scale.quantity(&of::IMPACT_SPEED, decay.impact_speed, Method::Simulation),
+        "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, decay.impact_speed, Method::Simulation),
         "impact_share": Quantity::new(&of::IMPACT_ENERGY_SHARE, decay.impact_share, Method::Simulation),
     })
 }
 
 /// A time in oscillations of the structure.
 fn time(scale: &Scale, kind: &'static Kind, oscillations: f64, method: Method) -> Quantity {
-    scale.quantity(kind, TAU * oscillations, method)
+    scale.units.quantity(kind, TAU * oscillations, method)
 }
 
 fn time_with(scale: &Scale, kind: &'static Kind, time: Measured, method: Method) -> Quantity {
-    scale.quantity_with(kind, time.map(|oscillations| TAU * oscillations), method)
+    scale.units.quantity_with(kind, time.map(|oscillations| TAU * oscillations), method)
 }
 
 pub(super) fn quantities(case: &Case, study: &DecayStudy) -> Vec<Quantity> {
@@ -59,12 +59,12 @@ pub(super) fn quantities(case: &Case, study: &DecayStudy) -> Vec<Quantity> {
     let (_, damped) = &study.damped;
     let simulated = Method::Simulation;
     let mut all = vec![
-        scale.quantity(&of::INITIAL_AMPLITUDE, study.from, Method::Given),
-        scale.quantity(&of::DECAY_LEVEL, study.level, Method::Given),
+        scale.units.quantity(&of::INITIAL_AMPLITUDE, study.from, Method::Given),
+        scale.units.quantity(&of::DECAY_LEVEL, study.level, Method::Given),
         time(&scale, &of::BARE_DECAY_TIME, study.bare, Method::ClosedForm),
         time(&scale, &of::DAMPER_DECAY_TIME, damped.settles, Method::ClosedForm),
-        scale.quantity(&of::DAMPER_STROKE, damped.stroke, Method::ClosedForm),
-        scale.quantity(&of::RESIDUAL_AMPLITUDE, theory.residual, Method::ClosedForm),
+        scale.units.quantity(&of::DAMPER_STROKE, damped.stroke, Method::ClosedForm),
+        scale.units.quantity(&of::RESIDUAL_AMPLITUDE, theory.residual, Method::ClosedForm),
     ];
     if let Some(oscillations) = theory.oscillations {
         // Of first order in the mass ratio, and more below the end of capture: nobody knows how much.
@@ -81,11 +81,11 @@ pub(super) fn quantities(case: &Case, study: &DecayStudy) -> Vec<Quantity> {
         let (peak, speed) =
             (study.largest(|start| start.peak), study.largest(|start| start.impact_speed));
         all.extend([
-            scale.quantity_with(&of::PEAK, peak, simulated),
+            scale.units.quantity_with(&of::PEAK, peak, simulated),
             time_with(&scale, &of::DECAY_TIME, decay.oscillations, decided),
             time_with(&scale, &of::ACTIVE_DECAY_TIME, slowest, simulated),
             time(&scale, &of::FASTEST_DECAY_TIME, study.fastest(), simulated),
-            scale.quantity_with(&of::IMPACT_SPEED, speed, simulated),
+            scale.units.quantity_with(&of::IMPACT_SPEED, speed, simulated),
             Quantity::new(&of::IMPACT_COUNT, worst.impacts as f64, simulated),
             Quantity::new(&of::IMPACT_ENERGY_SHARE, worst.impact_share, simulated),
         ]);

@@ -20,14 +20,14 @@ pub(super) use figure::figures;
 /// What its page has beside what all have.
 pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
     let scale = Scale::of(case);
-    let length = |kind, value| scale.quantity(kind, value, Method::Simulation);
+    let length = |kind, value| scale.units.quantity(kind, value, Method::Simulation);
     let start = |(w, found): &SweepStart| {
         json!({
-            "absorber": scale.quantity(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
+            "absorber": scale.units.quantity(&of::RELATIVE_DISPLACEMENT, *w, Method::Given),
             "peak": length(&of::PEAK, found.peak()[1]),
             "at": scale.frequency(found.peak()[0], Method::Simulation),
             "impacts": Quantity::new(&of::IMPACT_COUNT, found.impacts as f64, Method::Simulation),
-            "impact_speed": scale.quantity(&of::IMPACT_SPEED, found.impact_speed, Method::Simulation),
+            "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, found.impact_speed, Method::Simulation),
         })
     };
     let jump = |jump: &Jump| {
@@ -71,8 +71,10 @@ fn rate(rate: SweepRate) -> Quantity {
 pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
-    let at = |kind, passage: &Passage, method| scale.quantity(kind, passage.peak()[0], method);
-    let peak = |kind, passage: &Passage, method| scale.quantity(kind, passage.peak()[1], method);
+    let at =
+        |kind, passage: &Passage, method| scale.units.quantity(kind, passage.peak()[0], method);
+    let peak =
+        |kind, passage: &Passage, method| scale.units.quantity(kind, passage.peak()[1], method);
     let (exact, simulated) = (Method::ClosedForm, Method::Simulation);
     let (sweep, damped) = (&study.sweep, &study.damped.1);
     let mut all = vec![
@@ -85,10 +87,10 @@ pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
         at(&of::BARE_PEAK_FREQUENCY, &study.alone, exact),
         peak(&of::DAMPER_PEAK, damped, exact),
         at(&of::DAMPER_PEAK_FREQUENCY, damped, exact),
-        scale.quantity(&of::DAMPER_STROKE, damped.stroke, exact),
+        scale.units.quantity(&of::DAMPER_STROKE, damped.stroke, exact),
         peak(&of::RETURN_PEAK, &study.back, simulated),
         at(&of::RETURN_PEAK_FREQUENCY, &study.back, simulated),
-        scale.quantity(&of::LEAST_PEAK, study.least(), simulated),
+        scale.units.quantity(&of::LEAST_PEAK, study.least(), simulated),
     ];
     if let Some((_, worst)) = study.worst() {
         let (largest, speed) =
@@ -100,9 +102,9 @@ pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
                 .with_error(level(peak) - level(peak + error))
         };
         all.extend([
-            scale.quantity_with(&of::PEAK, largest, simulated),
+            scale.units.quantity_with(&of::PEAK, largest, simulated),
             at(&of::PEAK_FREQUENCY, worst, simulated),
-            scale.quantity_with(&of::IMPACT_SPEED, speed, simulated),
+            scale.units.quantity_with(&of::IMPACT_SPEED, speed, simulated),
             Quantity::new(&of::IMPACT_COUNT, worst.impacts as f64, simulated),
             change(&of::REDUCTION_DB, &study.alone),
             change(&of::REDUCTION_DB_TMD, damped),
