@@ -1,4 +1,4 @@
-//! The report of a case under steady excitation, from what is known of it to its files.
+//! The report of a case, from what is known of it to its files.
 //!
 //! For the program itself: this module may change at any time.
 
@@ -10,7 +10,7 @@ use crate::executor::Executor;
 use crate::report::document::{self, Source};
 use crate::report::figure::Figure;
 use crate::report::render::{self, Files, RenderError};
-use crate::report::{equations, figures, template};
+use crate::report::{equations, figures, template, transient};
 use crate::study::fidelity::Plan;
 use crate::study::plots::Plot;
 use crate::study::{CaseStudy, StudyError};
@@ -50,6 +50,10 @@ impl Report {
         executor: &dyn Executor,
     ) -> Result<Self, ReportError> {
         let answer = Answer::of(case, Asked::Report, plan, executor)?;
+        if let Some(study) = &answer.transient {
+            let (document, figures) = transient::drawn(name, case, study, &answer.judged)?;
+            return Ok(Self { answer, figures, document });
+        }
         let figures = drawn(case, answer.studied()?)?;
         let document = document::document(&Source {
             name,
@@ -67,6 +71,9 @@ impl Report {
     /// # Errors
     /// [`ReportError`] says which part cannot be rendered.
     pub fn files(&self, case: &Case) -> Result<Files, ReportError> {
+        if let Some(study) = &self.answer.transient {
+            return Ok(transient::files(case, study, &self.document, &self.figures)?);
+        }
         let equations = equations::groups(case, self.answer.studied()?);
         let units = case.units();
         Ok(render::files(&self.document, &equations, &units, &self.figures)?)

@@ -27,6 +27,7 @@ pub mod criteria;
 pub mod diff;
 pub mod digest;
 pub mod evidence;
+pub mod measure;
 pub mod optimize;
 pub mod quantity;
 pub mod report;

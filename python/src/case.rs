@@ -19,7 +19,6 @@ use vinesink::report::transient as page;
 use vinesink::store::Reach;
 use vinesink::study::fidelity::Plan;
 use vinesink::system::State;
-use vinesink::transient::{DecayStudy, Study};
 
 use crate::simulate::{self, Impacts, Wanted};
 use crate::work::{self, Work, refused};
@@ -140,8 +139,8 @@ impl Case {
     ) -> PyResult<(String, Columns<'py>, [f64; 4])> {
         if !self.steady() {
             let text = work::done(py, progress, |work| {
-                let study = Study::of_case(&self.inner, work).transpose().map_err(refused)?;
-                json(&study.map(|study| page::document(&self.stem, &self.inner, &study, &[])))
+                let answer = Answer::of(&self.inner, Asked::Motions, None, work);
+                json(&self.unsteady(&answer.map_err(refused)?))
             })?;
             return Ok((text, PyDict::new(py), [f64::NAN; 4]));
         }
@@ -233,14 +232,19 @@ impl Case {
         Wanted { effort: Effort { periods, discard, ..asked }, start: initial.map(simulate::state) }
     }
 
+    /// What becomes of a structure that is not driven steadily; none of another.
+    fn unsteady(&self, answer: &Answer) -> Option<serde_json::Value> {
+        let study = answer.transient.as_ref()?;
+        Some(page::document(&self.stem, &self.inner, study, &[]))
+    }
+
     fn analysed(&self, work: &Work) -> PyResult<serde_json::Value> {
         let case = &self.inner;
-        if let Some(study) = DecayStudy::by_theory(case) {
-            return Ok(page::document(&self.stem, case, &Study::Release(Box::new(study)), &[]));
-        }
-        self.needs_steady("an analysis is")?;
         let plan = Plan::of_case(case, None).map_err(refused)?;
         let answer = Answer::of(case, Asked::Analysis, plan.as_ref(), work).map_err(refused)?;
+        if let Some(document) = self.unsteady(&answer) {
+            return Ok(document);
+        }
         let none = || refused("the case was not analysed");
         Ok(Analysed::of(case, &answer).ok_or_else(none)?.document())
     }

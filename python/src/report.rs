@@ -6,21 +6,14 @@ use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use vinesink::case::Case;
 use vinesink::case_report::Report;
-use vinesink::criteria;
 use vinesink::report::render::{self, Files};
-use vinesink::report::transient as page;
 use vinesink::store;
 use vinesink::study::fidelity::Plan;
-use vinesink::transient::Study;
 
 use crate::work::{Work, refused};
 
 /// The files, and whether simulations are to be trusted and what was asked of accuracy holds.
 pub fn rendered(case: &Case, name: &str, work: &Work) -> PyResult<(Files, bool)> {
-    if let Some(study) = Study::of_case(case, work).transpose().map_err(refused)? {
-        let judged = criteria::judge_transient(case, &study);
-        return Ok((page::files(name, case, &study, &judged).map_err(refused)?, true));
-    }
     let plan = Plan::of_case(case, None).map_err(refused)?;
     let report = Report::of(name, case, plan.as_ref(), work).map_err(refused)?;
     let holds = report.answer.trusted() && report.answer.exact_enough();

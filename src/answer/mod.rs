@@ -1,5 +1,5 @@
-//! What every command knows of a case under steady excitation, put together in one place: the long-term motions, what is
-//! known along its range, its criteria, its study. `simulate`, `analyze`, `check`, `report`, `optimize`, the Python package
+//! What every command knows of a case, put together in one place: the long-term motions, what is known along its range, its
+//! study, or what becomes of a structure that is not driven steadily; and its criteria. `simulate`, `analyze`, `check`, `report`, `optimize`, the Python package
 //! and the live page read it from here, so that no two of them can differ.
 //!
 //! For the program itself: this module may change at any time.
@@ -11,6 +11,7 @@ use crate::analysis::Analysis;
 use crate::band::Survey;
 use crate::case::{Case, ExtraFigure};
 use crate::criteria::{self, Judged};
+use crate::excitation::Scene;
 use crate::executor::Executor;
 use crate::motions::{Effort, Measured, Motions, Place, measured, motions};
 use crate::orbits::FullSystem;
@@ -18,6 +19,7 @@ use crate::simulation::ImpactLog;
 use crate::study::fidelity::{Answers, Plan};
 use crate::study::{CaseStudy, StudyError};
 use crate::system::System;
+use crate::transient::Study;
 
 /// What is asked of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +62,8 @@ pub struct Answer {
     pub study: Option<CaseStudy>,
     /// Which layer answers, where accuracy was asked for.
     pub answers: Option<Answers>,
+    /// What becomes of a structure that is not driven steadily, and nothing above but its criteria; none of another.
+    pub transient: Option<Study>,
 }
 
 impl Theory {
@@ -93,6 +97,9 @@ impl Answer {
         effort: Effort,
         on: &dyn Executor,
     ) -> Result<Self, StudyError> {
+        if case.design.scene() != Scene::Steady {
+            return Self::transient(case, asked, effort, on);
+        }
         let system = case.system();
         let studies = matches!(asked, Asked::Study | Asked::Report);
         let judges = matches!(asked, Asked::Criteria | Asked::Report) && !case.criteria.is_empty();
@@ -128,7 +135,9 @@ impl Answer {
         });
         let theory = (asked == Asked::Analysis).then(|| Theory::of(&system)).transpose()?;
         let motions = found;
-        let mut answer = Self { effort, motions, survey, judged, theory, study, answers: None };
+        let (answers, transient) = (None, None);
+        let mut answer =
+            Self { effort, motions, survey, judged, theory, study, answers, transient };
         if let Some(plan) = plan {
             let found = answer.motions.as_ref().filter(|_| plan.needs_simulation());
             let doubts = match answer.main(case, &mut Measured::log())? {
@@ -140,11 +149,23 @@ impl Answer {
         Ok(answer)
     }
 
-    /// That of a case which is not driven steadily: its criteria alone.
-    pub fn judged(case: &Case, judged: Vec<Judged>) -> Self {
-        let effort = case.effort();
+    /// That of a case which is not driven steadily; an analysis is of theory alone.
+    fn transient(
+        case: &Case,
+        asked: Asked,
+        effort: Effort,
+        on: &dyn Executor,
+    ) -> Result<Self, StudyError> {
+        let found = match asked {
+            Asked::Analysis => Study::by_theory(case),
+            _ => Study::of_case(case, on).transpose()?,
+        };
+        let found = found.ok_or(StudyError::NotSteady(case.design.scene().words()))?;
+        let judges = matches!(asked, Asked::Criteria | Asked::Report);
+        let judged = if judges { criteria::judge_transient(case, &found) } else { Vec::new() };
         let (motions, survey, theory, study, answers) = (None, None, None, None, None);
-        Self { effort, motions, survey, judged, theory, study, answers }
+        let transient = Some(found);
+        Ok(Self { effort, motions, survey, judged, theory, study, answers, transient })
     }
 
     /// The main motion measured in full, its impacts kept in `log`; none where nothing was simulated.

@@ -11,14 +11,14 @@ use super::reader::{Reader, Table, kind};
 use super::schema::add_names;
 use super::value::Place;
 use crate::excitation::Scene;
-use crate::quantity::catalogue as of;
-use crate::quantity::{Dimension, ErrorKind, Kind};
+use crate::measure::{Device, Measure};
+use crate::quantity::Dimension;
 use vinesink_core::names;
 
 names! { key:
-    /// What a criterion is about. Over a band the worst place of it counts.
+    /// Keys of the table, each for a measure. Over a band the worst place of it counts.
     #[derive(schemars::JsonSchema)]
-    pub enum Subject {
+    enum Subject {
         /// Share of the band in area Z3 of the theory, strips included.
         Z3Share = "z3_share",
         /// Share of the band with a stable symmetric 1:1 orbit.
@@ -59,70 +59,37 @@ pub enum Relation {
 /// One line of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
-    /// What it is about.
-    pub subject: Subject,
+    /// Its key in the table.
+    pub key: &'static str,
+    /// What it is about, of the structure with the absorber.
+    pub measure: Measure,
     /// How it is measured.
     pub relation: Relation,
-    /// Against what, in the unit of [`Subject::kind`]; 1 for true.
+    /// Against what, in SI or the units of a reduced case; 1 for true.
     pub limit: f64,
     /// As its author wrote it, without quotes.
     pub as_written: String,
 }
 
 impl Subject {
-    /// Whether it is about the motions that can happen, which only simulation finds.
-    pub fn is_of_motions(self) -> bool {
-        !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
-    }
-
-    /// Whether it makes sense of a structure that is subjected to this.
-    pub fn is_for(self, scene: Scene) -> bool {
+    fn measure(self) -> Measure {
         match self {
-            Self::DecayTime => scene == Scene::Release,
-            Self::PeakDisplacement | Self::ImpactVelocity => true,
-            Self::RmsDisplacement => matches!(scene, Scene::Steady | Scene::Record),
-            Self::ReductionDb | Self::ReductionDbTmd => scene != Scene::Release,
-            _ => scene == Scene::Steady,
+            Self::Z3Share => Measure::Z3Share,
+            Self::StableShare => Measure::StableShare,
+            Self::PeakDisplacement => Measure::Peak,
+            Self::RmsDisplacement => Measure::Rms,
+            Self::ReductionDb => Measure::ReductionDb,
+            Self::ReductionDbTmd => Measure::ReductionDbTmd,
+            Self::MarginClearance => Measure::MarginClearance,
+            Self::ImpactVelocity => Measure::ImpactSpeed,
+            Self::ImpactsPerPeriod => Measure::ImpactsPerPeriod,
+            Self::NoCoexistence => Measure::NoCoexistence,
+            Self::DecayTime => Measure::DecayTime,
         }
     }
 
-    /// Whether it compares the largest displacement with another.
-    pub fn is_reduction(self) -> bool {
-        matches!(self, Self::ReductionDb | Self::ReductionDbTmd)
-    }
-
-    /// The kind of its value; none where it is yes or no.
-    pub fn kind(self) -> Option<&'static Kind> {
-        Some(match self {
-            Self::Z3Share => &of::Z3_SHARE,
-            Self::StableShare => &of::STABLE_SHARE,
-            Self::PeakDisplacement => &of::PEAK,
-            Self::RmsDisplacement => &of::RMS,
-            Self::ReductionDb => &of::REDUCTION_DB,
-            Self::ReductionDbTmd => &of::REDUCTION_DB_TMD,
-            Self::MarginClearance => &of::GAP,
-            Self::ImpactVelocity => &of::IMPACT_SPEED,
-            Self::ImpactsPerPeriod => &of::IMPACTS_PER_PERIOD,
-            Self::DecayTime => &of::DECAY_TIME,
-            Self::NoCoexistence => return None,
-        })
-    }
-
-    /// The same under so many records: of one the worst place of the absorber decides, of several the mean.
-    pub fn kind_under(self, records: usize) -> Option<&'static Kind> {
-        Some(match (self, records) {
-            (Self::RmsDisplacement, 1) => &of::LARGEST_RMS,
-            (Self::PeakDisplacement, 2..) => &of::MEAN_PEAK,
-            (Self::ReductionDb, 2..) => &of::MEAN_REDUCTION_DB,
-            (Self::ReductionDbTmd, 2..) => &of::MEAN_REDUCTION_DB_TMD,
-            (Self::ImpactVelocity, 2..) => &of::MEAN_IMPACT_SPEED,
-            _ => return self.kind(),
-        })
-    }
-
-    /// Whether it is then the worst of what was seen, which may be worse and not better.
-    pub fn is_worst(self, records: usize) -> bool {
-        self.kind_under(records).is_some_and(|kind| kind.error == ErrorKind::Bound)
+    fn dimension(self) -> Option<Dimension> {
+        self.measure().kind(Device::Absorber).map(|kind| kind.dimension)
     }
 }
 
@@ -152,7 +119,7 @@ const DECAY_LEVEL: f64 = 0.1;
 fn with_subjects(schema: &mut Schema) {
     add_names::<Subject>(schema, |key| {
         let subject = Subject::of_name(key).unwrap_or(Subject::NoCoexistence);
-        let (example, plain) = match subject.kind().map(|kind| kind.dimension) {
+        let (example, plain) = match subject.dimension() {
             _ if subject == Subject::MarginClearance => (json!(">= 10 %"), Value::Null),
             Some(Dimension::Length) => (json!("<= 3 mm"), json!("<= 0.3")),
             Some(Dimension::Velocity) => (json!("<= 0.5 m/s"), json!("<= 1.5")),
@@ -196,10 +163,10 @@ fn criterion(
     design: &Design,
 ) -> Option<Criterion> {
     let (key, value) = (subject.key(), table.value(subject.key())?);
-    let scene = design.scene();
-    if !subject.is_for(scene) {
+    let (scene, measure) = (design.scene(), subject.measure());
+    if !measure.is_of(scene) {
         let what = scene.words();
-        let other = [Scene::Steady, Scene::Release].into_iter().find(|one| subject.is_for(*one));
+        let other = [Scene::Steady, Scene::Release].into_iter().find(|one| measure.is_of(*one));
         let other = other.unwrap_or(Scene::Steady).words();
         let message = format!("`{key}` has no meaning for a structure that is {what}");
         let expected = format!("expected criteria of a structure that is {what}");
@@ -213,7 +180,7 @@ fn criterion(
     }
     let as_written = reader.as_written(value.span());
     let place = Place { alone: false, ..reader.place(table, key, value) };
-    let found = match (value.get_ref(), subject.kind().map(|kind| kind.dimension)) {
+    let found = match (value.get_ref(), subject.dimension()) {
         (DeValue::Boolean(flag), None) => Ok((Relation::Equal, f64::from(u8::from(*flag)))),
         (DeValue::String(text), Some(of)) => match relation_of(text) {
             Some((relation, sign)) => {
@@ -229,7 +196,7 @@ fn criterion(
         (other, _) => Err(format!("is {}", kind(other))),
     };
     match found {
-        Ok((relation, limit)) => Some(Criterion { subject, relation, limit, as_written }),
+        Ok((relation, limit)) => Some(Criterion { key, measure, relation, limit, as_written }),
         Err(problem) => {
             refuse(reader, &place, subject, &problem);
             None

@@ -40,7 +40,7 @@ use toml::de::DeTable;
 
 pub use band::{BandOver, BandSettings};
 pub(crate) use criteria::AREAS_ARE_IDEAL;
-pub use criteria::{Criterion, Relation, Subject};
+pub use criteria::{Criterion, Relation};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use optimize::{Objective, OptimizeSettings};

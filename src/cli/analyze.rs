@@ -7,10 +7,9 @@ use vinesink::method::Method;
 use vinesink::report::console::Analysed;
 use vinesink::study::fidelity::Plan;
 
-use super::budget::{self, ANALYSIS, Work};
+use super::budget::{self, Work};
 use super::case_file::{self, OneCase};
 use super::parallel::Parallel;
-use super::transient;
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -38,23 +37,20 @@ Examples:
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
     let case = case_file::read(path, *reading)?;
-    if let Some(done) = transient::analyze(&arguments.one, &case)? {
-        return Ok(done);
+    if case.design.release().is_none() {
+        case_file::steady(&case, path, "an analysis")?;
     }
-    transient::steady(&case, path, "an analysis")?;
     let plan = Plan::of_case(&case, arguments.fidelity).into_diagnostic()?;
-    let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);
-    let effort = case.effort();
-    let mut work = vec![Work::trajectory(&case, ANALYSIS)];
-    if simulates {
-        work.extend(Work::motions(&case, &effort));
-    }
+    let work = Work::of(&case, Asked::Analysis, plan.as_ref());
     long.allows(path, &case, &work)?;
     let progress = budget::progress("analysis", &case, &work, 0.0);
     let answer = Answer::of(&case, Asked::Analysis, plan.as_ref(), &Parallel)
         .into_diagnostic()
         .wrap_err_with(|| format!("{} cannot be analysed", path.display()))?;
     drop(progress);
+    if arguments.one.print_transient(&case, &answer)? {
+        return Ok(true);
+    }
     let none = || miette!("{} was not analysed", path.display());
     let found = Analysed::of(&case, &answer).ok_or_else(none)?;
     arguments.one.print(|| found.text(), || found.document())?;

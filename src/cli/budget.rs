@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use clap::Args;
 use miette::{Result, miette};
+use vinesink::answer::Asked;
 use vinesink::answer::trajectory::flown_while;
 use vinesink::case::{Case, Objective};
 use vinesink::excitation::Scene;
@@ -13,6 +14,7 @@ use vinesink::flights::{seconds_of, with_closer};
 use vinesink::motions::{Effort, SettlingTime, longest_window};
 use vinesink::optimize::Task;
 use vinesink::study::deviations::{self, Deviation};
+use vinesink::study::fidelity;
 use vinesink::sweep::{Plan, Point};
 use vinesink::system::{State, System};
 use vinesink::transient::{DecayStudy, RELEASES, RecordStudy, SweepStudy, looked_at};
@@ -57,7 +59,7 @@ const PATIENCE: [u64; 2] = [20, 32];
 const RECOGNITION: u64 = 200;
 /// Periods of an analysis: 350 tell area Z1 from Z2 where closed form cannot, and the exact orbits with their
 /// boundaries take as long as 450, 7 s at a frequency ratio of 1e-4.
-pub const ANALYSIS: u64 = 800;
+const ANALYSIS: u64 = 800;
 /// Trajectories and periods of a figure that the case asks for: a diagram has 120 values, up and down.
 const FIGURE: [u64; 2] = [240, 350];
 /// Periods of the best answer of a trade-off.
@@ -112,12 +114,13 @@ pub fn seconds(work: &[Work]) -> f64 {
     work.iter().map(Work::seconds).sum()
 }
 
-/// Progress of work on a case that cannot be counted, with so many seconds besides. How long it will be is estimated when it
+/// Progress of work on a case that cannot be counted, with so many seconds besides; flights that are not steady can. How long it will be is estimated when it
 /// is told: the constants above are of ordinary motions, and chattering, or a transient that is stiff, takes ten times as
 /// long.
-pub fn progress(name: &str, case: &Case, work: &[Work], besides: f64) -> Progress {
+pub fn progress(name: &str, case: &Case, work: &[Work], besides: f64) -> Option<Progress> {
     let (expected, system) = (seconds(work), case.system());
-    Progress::estimated(name, move || besides + expected * slowness(&system))
+    let steady = case.design.scene() == Scene::Steady;
+    steady.then(|| Progress::estimated(name, move || besides + expected * slowness(&system)))
 }
 
 /// Seconds in which a trajectory is flown to see how long it takes, and impacts after which it is looked at again.
@@ -149,6 +152,43 @@ pub struct Work {
 }
 
 impl Work {
+    /// All that is done to answer for a case, by the layers that a plan needs, or all of them.
+    pub fn of(case: &Case, asked: Asked, plan: Option<&fidelity::Plan>) -> Vec<Self> {
+        let simulates = plan.is_none_or(fidelity::Plan::needs_simulation);
+        if case.design.scene() != Scene::Steady {
+            let flown = Self::transient(case).filter(|_| asked != Asked::Analysis);
+            return flown.into_iter().collect();
+        }
+        let mut work = Vec::new();
+        if asked == Asked::Analysis {
+            work.push(Self::trajectory(case, ANALYSIS));
+        }
+        if simulates {
+            work.extend(Self::motions(case, &case.effort()));
+        }
+        if simulates && asked == Asked::Report {
+            work.push(Self::figures(case));
+            work.extend(case.report.deviations.then(|| Self::deviations(case)));
+        }
+        let along = match asked {
+            Asked::Criteria => !case.criteria.is_empty(),
+            Asked::Report => !case.criteria.is_empty() || (simulates && case.band.is_some()),
+            _ => false,
+        };
+        if along {
+            work.extend(Self::criteria(case));
+        }
+        work
+    }
+
+    /// Looking for all that a case can do.
+    pub fn search(case: &Case, effort: &Effort) -> Vec<Self> {
+        match Self::transient(case) {
+            Some(flown) => vec![flown],
+            None => Self::motions(case, effort).into(),
+        }
+    }
+
     /// Looking for all long-term motions of a case.
     pub fn motions(case: &Case, effort: &Effort) -> [Self; 2] {
         let each_start = effort.left_out(&case.system()) + effort.periods.min(RECOGNITION);

@@ -7,9 +7,12 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, NamedSource, Report, Result, miette};
 use serde::Serialize;
+use vinesink::answer::Answer;
 use vinesink::case::Case;
 use vinesink::case_input::{self, CaseInputError};
+use vinesink::excitation::Scene;
 use vinesink::method::Method;
+use vinesink::report::transient;
 use vinesink::store::Reach;
 
 use super::budget::Long;
@@ -45,7 +48,42 @@ impl Reading {
     }
 }
 
+/// Refuses a case that is not driven steadily where a command is about steady vibration.
+pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {
+    match case.design.scene() {
+        Scene::Steady => Ok(()),
+        other => Err(miette!(
+            help = "name a case whose excitation is base-displacement or force",
+            "{}: its structure is {}, and {what} is about one that is driven steadily",
+            path.display(),
+            other.words()
+        )),
+    }
+}
+
+/// Refuses options that are about steady vibration for a case that is not, by their names where they were given.
+pub fn without(case: &Case, path: &Path, given: &[(&str, bool)]) -> Result<()> {
+    let option = given.iter().find(|(_, given)| *given);
+    match (case.design.scene(), option) {
+        (Scene::Steady, _) | (_, None) => Ok(()),
+        (other, Some((option, _))) => Err(miette!(
+            help = format!("leave out {option}: the case itself says what becomes of it"),
+            "{}: {option} has no meaning for a structure that is {}",
+            path.display(),
+            other.words()
+        )),
+    }
+}
+
 impl OneCase {
+    /// Prints what became of a structure that is not driven steadily; whether it is one.
+    pub fn print_transient(&self, case: &Case, answer: &Answer) -> Result<bool> {
+        let Some(study) = &answer.transient else { return Ok(false) };
+        let document = transient::document(&name(&self.path)?, case, study, &[]);
+        self.print(|| transient::text(case, study, &document), || &document)?;
+        Ok(true)
+    }
+
     /// Prints a result, only that document made which is asked for.
     pub fn print<E: Error + Send + Sync + 'static, J: Serialize>(
         &self,

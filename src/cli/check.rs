@@ -13,8 +13,8 @@ use vinesink::report::render::RenderError;
 
 use super::budget::{self, Long, Work};
 use super::case_file::{self, Reading};
+use super::output;
 use super::parallel::Parallel;
-use super::{output, transient};
 
 /// Hold each case against its criteria
 ///
@@ -107,14 +107,7 @@ fn checked(path: &Path, arguments: &Arguments, failures: &mut Vec<Report>) -> Ch
 fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
     let Arguments { long, reading, .. } = *arguments;
     let case = case_file::read(path, reading)?;
-    if let Some(judged) = transient::judged(&case, path, long)? {
-        let answer = Answer::judged(&case, judged);
-        return Ok((case, answer));
-    }
-    let mut work = Vec::from(Work::motions(&case, &case.effort()));
-    if !case.criteria.is_empty() {
-        work.extend(Work::criteria(&case));
-    }
+    let work = Work::of(&case, Asked::Criteria, None);
     long.allows(path, &case, &work)?;
     let _progress = budget::progress("check", &case, &work, 0.0);
     let answer = Answer::of(&case, Asked::Criteria, None, &Parallel).into_diagnostic()?;

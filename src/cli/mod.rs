@@ -21,7 +21,6 @@ mod schema;
 mod simulate;
 mod sweep;
 mod tradeoff;
-mod transient;
 
 use std::process::ExitCode;
 

@@ -5,15 +5,20 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::case::{Case, Objective};
+use vinesink::answer::Asked;
+use vinesink::case::{Case, Objective, Rounding};
+use vinesink::case_report::Report;
+use vinesink::criteria;
+use vinesink::excitation::Scene;
 use vinesink::optimize::{Optimization, Task};
-use vinesink::report::optimize as page;
+use vinesink::report::{optimize as page, transient as clearance};
 use vinesink::store;
+use vinesink::transient::best_clearance;
 
 use super::budget::Work;
 use super::case_file::{self, Format, OneCase};
 use super::parallel::Parallel;
-use super::{index, output, transient};
+use super::{index, output};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
@@ -75,7 +80,7 @@ fn objectives() -> impl TypedValueParser<Value = Objective> {
 }
 
 pub fn run(arguments: Arguments) -> Result<bool> {
-    let OneCase { path, format, long, reading } = &arguments.one;
+    let OneCase { path, long, reading, .. } = &arguments.one;
     let (case, text) = case_file::read_with_text(path, *reading)?;
     if let Some(new) = &arguments.write {
         store::must_be_new(new)?;
@@ -89,11 +94,9 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     }
     let given =
         [("--objective", arguments.objective.is_some()), ("--out", arguments.out.is_some())];
-    transient::without(&case, path, &given)?;
-    if let Some(done) =
-        transient::optimize(&arguments.one, &case, &text, arguments.write.as_deref())?
-    {
-        return Ok(done);
+    case_file::without(&case, path, &given)?;
+    if case.design.scene() != Scene::Steady {
+        return arguments.clearance(&case, &text);
     }
     let task = Task::of(&case, arguments.objective).map_err(|error| {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
@@ -108,12 +111,46 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         None => None,
     };
     arguments.one.print(|| page::summary(&case, &found), || page::document(&case, &found))?;
-    match (written, format) {
-        (Some(line), Format::Text) => output::print(format!("\n{line}\n"))?,
-        (Some(line), Format::Json) => output::complain(&line),
-        (None, _) => {}
+    if let Some(line) = written {
+        arguments.tell(&line, "\n")?;
     }
     Ok(found.succeeds())
+}
+
+impl Arguments {
+    /// The clearance that serves a structure best which is not driven steadily, written into a new file where that is asked
+    /// for.
+    fn clearance(&self, case: &Case, text: &str) -> Result<bool> {
+        let path = &self.one.path;
+        self.one.long.allows(path, case, &Work::clearances(case))?;
+        let found = best_clearance(case, &Parallel);
+        let best = found.ok_or_else(|| miette!("{} is driven steadily", path.display()))?;
+        let name = path.display().to_string();
+        // A larger one might leave the absorber of a released structure where no wall reaches it; and in a sweep, or under a
+        // record, the absorber is lost above the best, where the displacement rises to that of the structure alone.
+        let written =
+            case.rewritten(&name, text, &best.design, Rounding::Down).into_diagnostic()?;
+        self.one.long.allows(path, &written.case, &Work::of(&written.case, Asked::Report, None))?;
+        let report = Report::of(&case_file::name(path)?, &written.case, None, &Parallel);
+        let report = report.into_diagnostic()?;
+        let document = clearance::optimum(case, &best, &report.document);
+        self.one.print(|| clearance::optimum_text(case, &document), || &document)?;
+        let found = document["answer"] == "found";
+        if let Some(new) = self.write.as_ref().filter(|_| found) {
+            store::write_new(new, written.text.as_bytes())?;
+            self.tell(&format!("written: {}", new.display()), "")?;
+        }
+        Ok(found && criteria::all_hold(&report.answer.judged))
+    }
+
+    /// What is said beside the result, after a text before it.
+    fn tell(&self, line: &str, before: &str) -> Result<()> {
+        match self.one.format {
+            Format::Text => output::print(format!("{before}{line}\n"))?,
+            Format::Json => output::complain(line),
+        }
+        Ok(())
+    }
 }
 
 /// Writes the absorber that was asked for, if it meets all criteria and is better than the case's own, and says what

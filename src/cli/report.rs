@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{Context as _, IntoDiagnostic, Result, miette};
+use vinesink::answer::Asked;
 use vinesink::case::Case;
 use vinesink::case_report::Report;
 use vinesink::excitation::Scene;
@@ -17,7 +18,7 @@ use vinesink::study::fidelity::Plan;
 use super::budget::{self, Long, Work};
 use super::case_file::{self, Reading};
 use super::parallel::Parallel;
-use super::{index, output, transient};
+use super::{index, output};
 
 /// Write the design report of each case
 ///
@@ -167,23 +168,8 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
 
 /// The files of a report, and whether it is exact enough and to be trusted.
 fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Result<(Files, bool)> {
-    if let Some(files) = transient::report(case, path, name, arguments.long)? {
-        return Ok((files, true));
-    }
     let plan = Plan::of_case(case, arguments.fidelity).into_diagnostic()?;
-    let simulates = plan.as_ref().is_none_or(Plan::needs_simulation);
-    let mut work = Vec::new();
-    if simulates {
-        work.extend(Work::motions(case, &case.effort()));
-        work.push(Work::figures(case));
-    }
-    let deviates = simulates && case.report.deviations;
-    if deviates {
-        work.push(Work::deviations(case));
-    }
-    if !case.criteria.is_empty() || (simulates && case.band.is_some()) {
-        work.extend(Work::criteria(case));
-    }
+    let work = Work::of(case, Asked::Report, plan.as_ref());
     arguments.long.allows(path, case, &work)?;
     let _progress = budget::progress(name, case, &work, ORDINARY);
     let report = Report::of(name, case, plan.as_ref(), &Parallel).into_diagnostic()?;

@@ -8,15 +8,18 @@ use miette::{IntoDiagnostic, Result, miette};
 use vinesink::answer::trajectory::{Impact, ImpactLog, followed};
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
+use vinesink::excitation::Scene;
 use vinesink::motions::{Effort, Measured};
 use vinesink::report::console::Simulated;
+use vinesink::report::transient as page;
 use vinesink::store;
 use vinesink::system::State;
+use vinesink::transient::Flight;
 
 use super::budget::Work;
 use super::case_file::{self, OneCase};
 use super::parallel::Parallel;
-use super::{budget, output, transient};
+use super::{budget, output};
 
 /// Simulate a case directly, impact by impact
 ///
@@ -60,18 +63,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
     let case = case_file::read(path, *reading)?;
     let Arguments { periods, discard, initial, impacts, .. } = &arguments;
-    transient::without(&case, path, &[("--discard", discard.is_some())])?;
-    if periods.is_some() || initial.is_some() || impacts.is_some() {
-        let mut log = ImpactLog::default();
-        let mut told = |impact: &Impact| log.impacts.push(*impact);
-        if transient::flight(&arguments.one, &case, *initial, *periods, &mut told)? {
-            if let Some(file) = impacts {
-                store::write_file(file, csv(&log.impacts).as_bytes())?;
-            }
-            return Ok(true);
-        }
-    } else if let Some(done) = transient::simulate(&arguments.one, &case)? {
-        return Ok(done);
+    case_file::without(&case, path, &[("--discard", discard.is_some())])?;
+    let one_flight = periods.is_some() || initial.is_some() || impacts.is_some();
+    if case.design.scene() != Scene::Steady && one_flight {
+        return arguments.flight(&case);
     }
     let effort = arguments.effort(&case);
     let work = match arguments.initial {
@@ -79,7 +74,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             let left_out = effort.left_out(&case.system());
             vec![Work::trajectory(&case, left_out.saturating_add(effort.periods))]
         }
-        None => Vec::from(Work::motions(&case, &effort)),
+        None => Work::search(&case, &effort),
     };
     long.allows(path, &case, &work)?;
     let progress = budget::progress("simulating", &case, &work, 0.0);
@@ -94,6 +89,9 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         None => {
             let answer = Answer::with(&case, Asked::Motions, None, effort, &Parallel);
             let answer = answer.into_diagnostic()?;
+            if arguments.one.print_transient(&case, &answer)? {
+                return Ok(true);
+            }
             let main = answer.main(&case, &mut log).into_diagnostic()?;
             let none = || miette!("no start led anywhere; ask for more than 0 starts");
             (main.ok_or_else(none)?, Some(answer))
@@ -114,6 +112,31 @@ pub fn run(arguments: Arguments) -> Result<bool> {
 }
 
 impl Arguments {
+    /// One flight of a structure that is not driven steadily, from a chosen start or from that of the worst place, under the
+    /// first record.
+    fn flight(&self, case: &Case) -> Result<bool> {
+        let start = match self.initial {
+            Some(start) => start,
+            None => {
+                self.one.long.allows(&self.one.path, case, &Work::search(case, &case.effort()))?;
+                let answer = Answer::of(case, Asked::Motions, None, &Parallel).into_diagnostic()?;
+                let study = answer.transient.as_ref();
+                let start = study.and_then(|study| Flight::worst_start(case, study));
+                start.ok_or_else(|| miette!("no start was flown; ask for more than 0 starts"))?
+            }
+        };
+        let mut log = ImpactLog::default();
+        let mut told = |impact: &Impact| log.impacts.push(*impact);
+        let flown = Flight::of_case(case, start, self.periods, &mut told).transpose();
+        let none = || miette!("{} is driven steadily", self.one.path.display());
+        let document = page::flight(case, &flown.into_diagnostic()?.ok_or_else(none)?);
+        self.one.print(|| page::flight_text(case, &document), || &document)?;
+        if let Some(file) = &self.impacts {
+            store::write_file(file, csv(&log.impacts).as_bytes())?;
+        }
+        Ok(true)
+    }
+
     fn effort(&self, case: &Case) -> Effort {
         let asked = case.effort();
         Effort {

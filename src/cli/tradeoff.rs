@@ -16,7 +16,6 @@ use super::case_file::{self, Format, OneCase};
 use super::index;
 use super::parallel::Parallel;
 use super::progress::Progress;
-use super::transient;
 
 /// Measure how much accuracy each layer gives for how much work
 ///
@@ -51,7 +50,7 @@ const LONG_ENOUGH: f64 = 0.2;
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long, reading } = &arguments.one;
     let case = case_file::read(path, *reading)?;
-    transient::steady(&case, path, "a trade-off")?;
+    case_file::steady(&case, path, "a trade-off")?;
     let system = case.system();
     let effort = TradeoffEffort { search: case.effort(), ..TradeoffEffort::default() };
     let [starts, motion] = Work::motions(&case, &effort.search);

@@ -7,17 +7,15 @@
 //! decided.
 
 mod scope;
-mod transient;
 
 use crate::band::{Survey, SurveySettings};
-use crate::case::{Case, Criterion, Relation, Subject};
-use crate::linear::reduction_db;
+use crate::case::{Case, Criterion, Relation};
+use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::{Along, Extreme, Fact, Kind, Motion, RestKind, Value};
-use crate::quantity::Units;
+use crate::transient::Study;
 
 use scope::Scope;
-pub use transient::{judge_release, judge_sweep, judge_transient, of_records};
 
 /// Distance from a count that still is that count: as regimes are told apart.
 const SAME_COUNT: f64 = 0.01;
@@ -74,23 +72,21 @@ const ROUNDING: f64 = 1e-9;
 
 /// Whether criteria can only be judged with simulation.
 pub fn needs_simulation(criteria: &[Criterion]) -> bool {
-    criteria.iter().any(|one| one.subject.is_of_motions())
+    criteria.iter().any(|one| one.measure.is_of_motions())
 }
 
 /// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst
 /// value is known to the error that `[accuracy]` asks for.
 pub fn settings(case: &Case) -> SurveySettings {
-    let fact = |subject| match subject {
-        Subject::PeakDisplacement | Subject::ReductionDb | Subject::ReductionDbTmd => {
-            Some(Fact::Peak)
-        }
-        Subject::RmsDisplacement => Some(Fact::Rms),
-        Subject::ImpactVelocity => Some(Fact::ImpactSpeed),
+    let fact = |measure| match measure {
+        Measure::Peak | Measure::ReductionDb | Measure::ReductionDbTmd => Some(Fact::Peak),
+        Measure::Rms => Some(Fact::Rms),
+        Measure::ImpactSpeed => Some(Fact::ImpactSpeed),
         _ => None,
     };
-    let sides = case.criteria.iter().filter_map(|one| Some((fact(one.subject)?, one)));
+    let sides = case.criteria.iter().filter_map(|one| Some((fact(one.measure)?, one)));
     let extremes = sides.flat_map(|(of, one)| {
-        let larger_is_worse = (one.relation == Relation::AtMost) != one.subject.is_reduction();
+        let larger_is_worse = (one.relation == Relation::AtMost) != one.measure.against().is_some();
         let both = one.relation == Relation::Equal;
         let wanted =
             |least: bool| (both || least != larger_is_worse).then_some(Extreme { of, least });
@@ -122,16 +118,16 @@ impl Criterion {
     /// Whether the error could turn what holds or not. The worst value seen may be worse, and not better.
     fn is_open(&self, room: f64, error: f64, records: usize) -> bool {
         let within = error > 0.0 && room.abs() <= error;
-        let worst = self.subject.is_worst(records);
+        let worst = self.measure.is_worst(records);
         let against =
-            if self.subject.is_reduction() { Relation::AtLeast } else { Relation::AtMost };
+            if self.measure.against().is_some() { Relation::AtLeast } else { Relation::AtMost };
         within && (room >= 0.0 || !(worst && self.relation == against))
     }
 
     /// A value that is known of the whole range, or of a motion that has settled.
     fn judged(&self, found: Option<f64>, error: f64, decided_by: Method) -> Judged {
         // What is about motions holds if it does so with its error.
-        let counts = self.subject.is_of_motions() && self.relation != Relation::Equal;
+        let counts = self.measure.is_of_motions() && self.relation != Relation::Equal;
         let margin = found.map(|found| self.room(found));
         Judged {
             criterion: self.clone(),
@@ -160,7 +156,7 @@ impl Judged {
 
 /// Judges the criterion on the peak, if a case has one, by one motion at the case's own excitation.
 pub fn judge_peak(case: &Case, motion: &Motion) -> Option<Judged> {
-    let asked = |one: &&Criterion| one.subject == Subject::PeakDisplacement;
+    let asked = |one: &&Criterion| one.measure == Measure::Peak;
     let Value { value, error } = motion.facts().peak;
     let [peak, error] = [value, error].map(|one| case.units().length(one));
     let asked = case.criteria.iter().find(asked)?;
@@ -172,37 +168,21 @@ pub fn all_hold(judged: &[Judged]) -> bool {
     judged.iter().all(|one| one.holds == Some(true))
 }
 
-/// What a motion has of a subject, in the unit of the criterion, and its error; `peak` is its peak with the error that it has
-/// along a band. A reduction is `against` an amplitude.
-fn of_motion(
-    subject: Subject,
-    motion: &Motion,
-    peak: Value,
-    against: f64,
-    units: &Units,
-) -> Option<[f64; 2]> {
-    let facts = motion.facts();
-    let pair = |of: Value| [of.value, of.error];
-    let peak = pair(peak);
-    let length = |value: [f64; 2]| value.map(|one| units.length(one));
-    let decibels = || {
-        if against.is_infinite() {
-            // Anything is less than what has no limit: that says nothing.
-            return None;
-        }
-        let [peak, error] = peak;
-        Some([reduction_db(peak, against), 20.0 * libm::log10(1.0 + error / peak)])
+/// Judges every criterion of a case that is not driven steadily.
+pub fn judge_transient(case: &Case, study: &Study) -> Vec<Judged> {
+    let units = case.units();
+    let inactive = match study {
+        Study::Release(study) => Some(study.inactive.share),
+        _ => None,
     };
-    Some(match subject {
-        Subject::PeakDisplacement => length(peak),
-        Subject::RmsDisplacement => length(pair(facts.rms)),
-        Subject::ReductionDb | Subject::ReductionDbTmd => decibels()?,
-        Subject::ImpactVelocity => pair(facts.impact_speed).map(|speed| units.velocity(speed)),
-        Subject::ImpactsPerPeriod => pair(facts.impacts_per_period),
-        Subject::Z3Share
-        | Subject::StableShare
-        | Subject::MarginClearance
-        | Subject::NoCoexistence
-        | Subject::DecayTime => return None,
-    })
+    let judge = |criterion: &Criterion| {
+        let Some(found) = study.quantity(&units, criterion.measure, Device::Absorber) else {
+            return criterion.judged(None, 0.0, Method::Simulation);
+        };
+        let judged = criterion.judged(Some(found.value), found.error, found.method);
+        // What is not simulated is the structure alone, where no wall reaches the absorber.
+        let inactive = inactive.filter(|_| found.method == Method::ClosedForm);
+        Judged { inactive, ..judged }.under(study.records())
+    };
+    case.criteria.iter().map(judge).collect()
 }

@@ -1,8 +1,9 @@
 //! What a survey says of each criterion.
 
-use super::{Judged, ROUNDING, method, of_motion, of_stability};
+use super::{Judged, ROUNDING, method, of_stability};
 use crate::band::{Survey, theory};
-use crate::case::{Criterion, Subject};
+use crate::case::Criterion;
+use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::Motion;
 use crate::quantity::Units;
@@ -21,23 +22,23 @@ impl Scope<'_> {
     /// Judges one criterion.
     pub(super) fn judge(&self, criterion: &Criterion) -> Judged {
         let motions = &self.survey.motions;
-        match criterion.subject {
-            Subject::Z3Share => self.z3_share(criterion),
-            Subject::StableShare => {
+        match criterion.measure {
+            Measure::Z3Share => self.z3_share(criterion),
+            Measure::StableShare => {
                 // All and nothing have no end that could be off.
                 let ends = motions.stability().len() > 1;
                 let error = if ends { ROUNDING } else { 0.0 };
                 let share = motions.stable_share();
                 criterion.judged(Some(share), error, of_stability(motions))
             }
-            Subject::MarginClearance => {
+            Measure::MarginClearance => {
                 let (at, found) = self.survey.smallest_gap();
                 let judged = criterion.judged(Some(found), ROUNDING, Method::ExactOrbit);
                 Judged { at: self.place(at), ..judged }
             }
             // Where nothing was simulated, nothing is known of motions.
             _ if !motions.simulated() => criterion.judged(None, 0.0, Method::Simulation),
-            Subject::NoCoexistence => self.one_motion(criterion),
+            Measure::NoCoexistence => self.one_motion(criterion),
             _ => self.worst(criterion),
         }
     }
@@ -116,13 +117,12 @@ impl Scope<'_> {
         (at, index, motion): (f64, usize, &'m Motion),
     ) -> Option<(Judged, &'m Motion)> {
         let peak = self.survey.motions.peak_of(motion);
-        let against = match criterion.subject {
-            Subject::ReductionDb => self.survey.bare().1,
-            Subject::ReductionDbTmd => self.survey.rivals().damped.amplitude,
+        let against = match criterion.measure.against() {
+            Some(Device::Without) => self.survey.bare().1,
+            Some(Device::Damper) => self.survey.rivals().damped.amplitude,
             _ => f64::NAN,
         };
-        let subject = criterion.subject;
-        let [found, error] = of_motion(subject, motion, peak, against, &self.units)?;
+        let [found, error] = criterion.measure.of_motion(motion, peak, against, &self.units)?;
         let judged = criterion.judged(Some(found), error, method(motion));
         let inactive = motion.rest().map(|rest| rest.share);
         Some((Judged { at: self.place(at), motion: Some(index), inactive, ..judged }, motion))

@@ -4,9 +4,10 @@
 use super::OptimizeError;
 use super::task::Task;
 use crate::band::{Survey, Worst};
-use crate::case::{self, Objective, Relation, Rewritten, Rounding, Subject};
+use crate::case::{self, Objective, Relation, Rewritten, Rounding};
 use crate::criteria::{self, Judged};
 use crate::executor::Executor;
+use crate::measure::Measure;
 
 /// A judged absorber. Lengths in the units of its design.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,9 +92,9 @@ fn violation(judged: &Judged) -> f64 {
         Relation::Equal => margin.abs(),
         _ => judged.error - margin,
     };
-    match judged.criterion.subject {
-        Subject::ReductionDb | Subject::ReductionDbTmd => missed / DOUBLE_DB,
-        Subject::NoCoexistence => 1.0,
+    match judged.criterion.measure {
+        Measure::ReductionDb | Measure::ReductionDbTmd => missed / DOUBLE_DB,
+        Measure::NoCoexistence => 1.0,
         _ => missed / judged.criterion.limit.max(f64::MIN_POSITIVE),
     }
 }

@@ -9,6 +9,7 @@ use super::template::render;
 use crate::answer::Answer;
 use crate::case::Case;
 use crate::criteria::{Judged, all_hold};
+use crate::measure::Device;
 use crate::motions::Motions;
 use crate::quantity::Units;
 
@@ -132,11 +133,11 @@ pub fn junit(cases: &[Checked]) -> Result<String, RenderError> {
 /// A criterion in SI, or in the units of a reduced case: 1 and 0 for true and false, null where nothing could be
 /// measured; where in the band it is worst as a text, empty where that says nothing, and as a number.
 fn row(case: &Case, units: &Units, judged: &Judged) -> Value {
-    let kind = judged.criterion.subject.kind();
+    let kind = judged.criterion.measure.kind(Device::Absorber);
     let at = place(case, judged);
     let unit = at.map(|at| at.kind.dimension.symbol(units.physical));
     let mut row = json!({
-        "name": judged.criterion.subject.key(),
+        "name": judged.criterion.key,
         "asked": judged.criterion.as_written,
         "found": judged.found,
         "unit": kind.map_or("1", |kind| kind.dimension.symbol(units.physical)),

@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::StudyError;
 use super::estimate::{self, Estimate, ORBIT_ROUNDING};
 use crate::case::{AccuracySettings, Case};
+use crate::excitation::Scene;
 use crate::method::Method;
 use crate::motions::{Kind, Motions};
 use crate::operation_count;
@@ -162,6 +163,9 @@ impl Plan {
     /// # Errors
     /// As [`Plan::of`].
     pub fn of_case(case: &Case, forced: Option<Method>) -> Result<Option<Self>, StudyError> {
+        if case.design.scene() != Scene::Steady {
+            return Ok(None);
+        }
         let demand = case.accuracy.as_ref().map(AccuracyTarget::of);
         let demand = demand.or(forced.map(AccuracyTarget::of_layer));
         demand.map(|demand| Self::of(&case.system(), demand, forced)).transpose()

@@ -17,6 +17,7 @@ use crate::analysis::{Analysis, AnalysisError};
 use crate::band::{Band, Rivals, Survey};
 use crate::case::Case;
 use crate::executor::Executor;
+use crate::flights::DrivenError;
 use crate::motions::{DiagramError, Effort, Measured, Motion, Motions, at_rest, measured};
 use crate::orbits::FullSystem;
 use crate::simulation::StartError;
@@ -60,6 +61,12 @@ pub enum StudyError {
     /// A parameter cannot be swept.
     #[error(transparent)]
     Diagram(#[from] DiagramError),
+    /// What becomes of a structure that is not driven steadily cannot be followed.
+    #[error(transparent)]
+    Driven(#[from] DrivenError),
+    /// Something that is about steady vibration was asked of a structure that is not driven steadily.
+    #[error("its structure is {0}, and an analysis is about one that is driven steadily")]
+    NotSteady(&'static str),
 }
 
 /// Everything that is known about a case.

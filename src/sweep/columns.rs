@@ -5,8 +5,7 @@ use super::{Plan, Point};
 use crate::analysis::{Area, Strip};
 use crate::case::Recorded;
 use crate::motions::Motion;
-use crate::quantity::catalogue as of;
-use crate::quantity::{Dimension, Kind};
+use crate::quantity::Dimension;
 use crate::regimes::Regime;
 
 /// A value of a column.
@@ -94,42 +93,6 @@ impl Direction {
 /// Columns of a section: displacements at the end of so many excitation periods.
 pub const SECTION: usize = 16;
 
-/// What a column of numbers holds; `None` for words and flags.
-pub const fn kind(recorded: Recorded) -> Option<&'static Kind> {
-    Some(match recorded {
-        Recorded::TheoryPeak => &of::THEORY_PEAK,
-        Recorded::BoundaryDistance => &of::BOUNDARY_DISTANCE,
-        Recorded::BareAmplitude => &of::BARE_PEAK,
-        Recorded::OrbitPeak => &of::ORBIT_PEAK,
-        Recorded::OrbitMultiplier => &of::SPECTRAL_RADIUS,
-        Recorded::ImpactsPerPeriod => &of::IMPACTS_PER_PERIOD,
-        Recorded::Peak => &of::PEAK,
-        Recorded::Rms => &of::RMS,
-        Recorded::ReductionDb => &of::REDUCTION_DB,
-        Recorded::Efficiency => &of::EFFICIENCY,
-        Recorded::ImpactSpeed => &of::IMPACT_SPEED,
-        Recorded::RepeatsAfter => &of::REPEATS_AFTER,
-        Recorded::Lyapunov => &of::LYAPUNOV_EXPONENT,
-        Recorded::Section => &of::SECTION,
-        Recorded::ShareOfStarts => &of::START_SHARE,
-        Recorded::LargestPeak => &of::LARGEST_PEAK,
-        Recorded::Motions => &of::MOTIONS,
-        Recorded::BareDecayTime => &of::BARE_DECAY_TIME,
-        Recorded::DamperDecayTime => &of::DAMPER_DECAY_TIME,
-        Recorded::TheoryDecayTime => &of::THEORY_DECAY_TIME,
-        Recorded::InactiveShare => &of::INACTIVE_SHARE,
-        Recorded::BarePeak => &of::BARE_PEAK,
-        Recorded::DamperPeak => &of::DAMPER_PEAK,
-        Recorded::BareRms => &of::BARE_RMS,
-        Recorded::DamperRms => &of::DAMPER_RMS,
-        Recorded::DecayTime => &of::DECAY_TIME,
-        Recorded::PeakFrequency => &of::PEAK_FREQUENCY,
-        Recorded::Impacts => &of::IMPACT_COUNT,
-        Recorded::ReductionDbTmd => &of::REDUCTION_DB_TMD,
-        Recorded::Area | Recorded::Regime | Recorded::OrbitReached => return None,
-    })
-}
-
 /// The columns of a sweep, empty.
 pub fn empty(plan: &Plan) -> Vec<Column> {
     let mut columns = vec![Column::empty("point".to_owned(), "1", Storage::Whole)];
@@ -139,8 +102,8 @@ pub fn empty(plan: &Plan) -> Vec<Column> {
     }));
     let physical = plan.design.is_physical();
     for (recorded, direction) in recorded(plan) {
-        let unit = kind(recorded).map_or("", |kind| kind.dimension.symbol(physical));
-        let storage = match kind(recorded).map(|kind| kind.dimension) {
+        let unit = recorded.kind().map_or("", |kind| kind.dimension.symbol(physical));
+        let storage = match recorded.kind().map(|kind| kind.dimension) {
             Some(Dimension::Count) => Storage::Whole,
             Some(_) => Storage::Number,
             None if recorded == Recorded::OrbitReached => Storage::Flag,
@@ -212,7 +175,6 @@ fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
     let length = |over_clearance: f64| units.length(over_clearance);
     let motions = &found.motions;
     let main = || motions.main();
-    let facts_of = || motions.main().map(Motion::facts);
     // A point has no criteria of its own: what the case leaves out is not for it to say.
     let counting = || motions.counting(true).map(|(_, motion)| motion);
     match recorded {
@@ -226,12 +188,6 @@ fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
             let reached = |motion: &Motion| motion.is_one_to_one() && motion.reached().starts > 0;
             Some(f64::from(motions.iter().any(reached)))
         }
-        Recorded::ImpactsPerPeriod => Some(facts_of()?.impacts_per_period.value),
-        Recorded::Peak => Some(length(facts_of()?.peak.value)),
-        Recorded::Rms => Some(length(facts_of()?.rms.value)),
-        Recorded::ReductionDb => Some(20.0 * libm::log10(facts.bare()? / facts_of()?.peak.value)),
-        Recorded::Efficiency => facts_of()?.efficiency.map(|share| share.value),
-        Recorded::ImpactSpeed => Some(units.velocity(facts_of()?.impact_speed.value)),
         Recorded::RepeatsAfter => main()?.repeats_after().map(f64::from),
         Recorded::Lyapunov => found.section.exponent,
         Recorded::ShareOfStarts => {
@@ -243,7 +199,11 @@ fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
             peaks.max_by(f64::total_cmp).map(length)
         }
         Recorded::Motions => Some(counting().count() as f64).filter(|_| !motions.is_empty()),
-        _ => None,
+        other => {
+            let (main, bare) = (main()?, facts.bare().unwrap_or(f64::INFINITY));
+            let (of, peak) = (other.asked().0, main.facts().peak);
+            of.of_motion(main, peak, bare, units).map(|[value, _]| value)
+        }
     }
 }
 

@@ -18,7 +18,7 @@ use crate::case::{Case, Design, SweepSettings};
 use crate::digest::sha256;
 use crate::quantity::Units;
 use crate::system::{Parameter, State, System};
-use transient::Subject;
+use transient::Unsteady;
 
 /// Points of a chunk, at least: about half a second's work, so that little is lost with one, and a file of some
 /// hundred kilobytes, so that there are not too many of them.
@@ -45,7 +45,7 @@ pub struct Plan {
     /// Points of a chunk.
     points_per_chunk: u64,
     /// What else the case says where its structure is not driven steadily.
-    subject: Option<Subject>,
+    unsteady: Option<Unsteady>,
 }
 
 /// A point of the grid.
@@ -69,9 +69,9 @@ impl Plan {
     /// That of a case; `None` where it has no table `[sweep]`.
     pub fn of(case: &Case) -> Option<Self> {
         let settings = case.sweep.clone()?;
-        let (identity, subject) = (String::new(), Subject::of(case));
+        let (identity, unsteady) = (String::new(), Unsteady::of(case));
         let mut plan =
-            Self { design: case.design, settings, identity, points_per_chunk: 1, subject };
+            Self { design: case.design, settings, identity, points_per_chunk: 1, unsteady };
         let settings = &plan.settings;
         let size = settings.points().div_ceil(MANY_CHUNKS).next_power_of_two();
         let size = size.clamp(plan.fewest_points(), MOST_POINTS);
@@ -85,7 +85,7 @@ impl Plan {
         };
         let [name, version] = [env!("CARGO_PKG_NAME"), env!("CARGO_PKG_VERSION")];
         let mut named = format!("{name} {version} {} {}", plan.points_per_chunk, case.text_hash);
-        named.extend(plan.subject.iter().filter_map(Subject::digest));
+        named.extend(plan.unsteady.iter().filter_map(Unsteady::digest));
         plan.identity = sha256(named.as_bytes());
         Some(plan)
     }
@@ -95,7 +95,7 @@ impl Plan {
         let last = self.points().saturating_sub(1);
         let some = [0, last / 2, last].map(|number| self.seconds(&self.point(number)));
         let mean = some.into_iter().flatten().sum::<f64>() / some.len() as f64;
-        match self.subject {
+        match self.unsteady {
             Some(_) => ((CHUNK / mean) as u64).clamp(1, FEWEST_POINTS).next_power_of_two(),
             None => FEWEST_POINTS,
         }
@@ -103,7 +103,7 @@ impl Plan {
 
     /// About how many seconds a point takes where the structure is not driven steadily; none where it is.
     pub fn seconds(&self, point: &Point) -> Option<f64> {
-        self.subject.as_ref().map(|subject| subject.seconds(self, point))
+        self.unsteady.as_ref().map(|unsteady| unsteady.seconds(self, point))
     }
 
     /// Names the chunks: as [`Self::identity`], and of the sources that the program was built from. Two
@@ -148,7 +148,7 @@ impl Plan {
             |design: Design, (parameter, value): &(Parameter, f64)| design.with(*parameter, *value);
         let design = values.iter().fold(self.design, applied);
         let units = design.units();
-        let steady = self.subject.is_none();
+        let steady = self.unsteady.is_none();
         let start = follow::start(values.into_iter().filter(|_| steady), &units);
         Point { number, design, system: design.possible_system(), units, start, coordinates }
     }

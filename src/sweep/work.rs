@@ -22,9 +22,9 @@ const TRAJECTORIES: u64 = 256;
 /// [`StartError`] where a start is not finite.
 pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartError> {
     let mut results = columns::empty(plan);
-    if let Some(subject) = &plan.subject {
+    if let Some(unsteady) = &plan.unsteady {
         for point in numbers.map(|number| plan.point(number)) {
-            columns::push(&mut results, &point, subject.cells(plan, &point));
+            columns::push(&mut results, &point, unsteady.cells(plan, &point));
         }
         return Ok(results);
     }

@@ -5,12 +5,13 @@
 use std::f64::consts::TAU;
 
 use super::record_study::{flown, over_records};
-use super::{DecayStudy, DecayTime, Measured, SweepStudy, counted};
+use super::{DecayStudy, DecayTime, Measured, SweepStudy};
 use crate::case::{Case, Design, Recording, Rounding};
 use crate::excitation::{Record, Release, SineSweep, Transient};
 use crate::executor::{Executor, Serial, map};
-use crate::flights::{Places, inactive, with_closer, worst_of_places};
+use crate::flights::{Places, inactive, with_closer};
 use crate::linear::bare_decay;
+use crate::measure::Measure;
 use crate::system::Parameter;
 
 /// Clearances that are looked at between the bounds, and then beside the best.
@@ -174,8 +175,7 @@ fn slowest(
 fn swept(case: &Case, sweep: &SineSweep, design: &Design, places: Places<'_>) -> Option<Measured> {
     let (system, units) = (design.system().ok()?, design.units());
     let starts = SweepStudy::starts(&system, &units, sweep, places, case.count_inactive).ok()?;
-    let peaks: Vec<f64> = starts.iter().map(|(_, found)| found.peak()[1]).collect();
-    Some(worst_of_places(&peaks).map(|peak| units.length(peak)))
+    Some(starts.largest(Measure::Peak)?.map(|peak| units.length(peak)))
 }
 
 /// Largest displacement from the worst place of the absorber, mean over records.
@@ -187,10 +187,8 @@ fn shaken(
 ) -> Option<Measured> {
     let (system, units) = (design.system().ok()?, design.units());
     let of_record = |record: &Record| {
-        let found = flown(&system, &record.pieces(&units, Record::LONGEST), places).ok()?;
-        let counted = counted(&found, case.count_inactive, |(_, found)| found.impacts);
-        let peaks: Vec<f64> = counted.iter().map(|(_, found)| found.peak).collect();
-        Some(worst_of_places(&peaks))
+        let pieces = record.pieces(&units, Record::LONGEST);
+        flown(&system, &pieces, places, case.count_inactive).ok()?.largest(Measure::Peak)
     };
     let each = records.iter().map(of_record).collect::<Option<Vec<Measured>>>()?;
     Some(over_records(&each).map(|peak| units.length(peak)))

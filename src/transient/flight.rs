@@ -107,10 +107,10 @@ impl Flight {
         let at_rest = |w: f64| State { y: -w, ..State::AT_REST };
         match study {
             Study::Release(study) => {
-                Some(case.design.release()?.state(&case.units(), study.worst()?.place))
+                Some(case.design.release()?.state(&case.units(), study.worst()?.0))
             }
             Study::Sweep(study) => study.worst().map(|(w, _)| at_rest(*w)),
-            Study::Record(study) => study.worst_place().map(at_rest),
+            Study::Record(study) => study.first()?.worst().map(|(w, _)| at_rest(*w)),
         }
     }
 }

@@ -8,25 +8,30 @@
 //! simulated from places all over the cavity ([`crate::flights`]), and the worst counts. Beside it stand the structure
 //! alone and a tuned mass damper of the same mass ([`crate::linear`]), and theory ([`crate::flights::Predicted`]).
 
+mod ask;
 mod clearance;
 mod flight;
 mod passage;
 mod record_study;
+mod runs;
 mod study;
 
+pub use ask::Asked;
 pub use clearance::{Best, RELEASES, best_clearance, looked_at};
 pub use flight::Flight;
-pub(crate) use passage::worst;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
+pub use runs::{Run, Runs};
 pub(crate) use study::followed;
 pub use study::{Decay, DecayStudy, DecayTime};
 
 use crate::case::Case;
-use crate::excitation::Transient;
+use crate::excitation::{Record, Transient};
 use crate::executor::Executor;
-use crate::flights::DrivenError;
+use crate::flights::{DrivenError, Places, Predicted};
+use crate::quantity::Units;
 use crate::simulation::StartError;
+use crate::system::System;
 
 /// What became of a structure that is not driven steadily.
 #[derive(Debug, Clone)]
@@ -39,7 +44,59 @@ pub enum Study {
     Record(Box<RecordStudy>),
 }
 
+/// What a design is studied by beside its system and its units.
+#[derive(Clone, Copy)]
+pub struct Brief<'a> {
+    /// What its structure is subjected to.
+    pub transient: Transient,
+    /// The records that drive it, if any do.
+    pub records: &'a [Record],
+    /// Share of its first amplitude at which a released structure has come to rest.
+    pub decay_level: f64,
+    /// Whether an absorber that no wall reaches counts.
+    pub count_inactive: bool,
+    /// Whether theory is asked for as well, which may take longer than all starts.
+    pub theory: bool,
+}
+
 impl Study {
+    /// What becomes of a design from places of its absorber, beside its alternatives and nothing else.
+    ///
+    /// # Errors
+    /// As [`Self::of_case`].
+    pub fn brief(
+        system: &System,
+        units: &Units,
+        of: &Brief<'_>,
+        places: Places<'_>,
+    ) -> Result<Self, DrivenError> {
+        let inactive = of.count_inactive;
+        Ok(match &of.transient {
+            Transient::Release(release) => {
+                let share = of.decay_level;
+                let study = DecayStudy::without_theory(system, units, release, share, places)?;
+                let predicted = match of.theory {
+                    true => Predicted::of(system, study.from, study.level),
+                    false => Predicted::none(system),
+                };
+                Self::Release(Box::new(DecayStudy { count_inactive: inactive, predicted, ..study }))
+            }
+            Transient::Sweep(sweep) => {
+                let study = SweepStudy::brief(system, units, sweep, places, inactive)?;
+                Self::Sweep(Box::new(study))
+            }
+            Transient::Record(_) => {
+                let study = RecordStudy::brief(system, units, of.records, places, inactive)?;
+                Self::Record(Box::new(study))
+            }
+        })
+    }
+
+    /// What theory alone says of a case that is released; none for another.
+    pub fn by_theory(case: &Case) -> Option<Self> {
+        DecayStudy::by_theory(case).map(|study| Self::Release(Box::new(study)))
+    }
+
     /// Studies a case that is not driven steadily; none for another.
     ///
     /// # Errors
@@ -55,10 +112,4 @@ impl Study {
                 .map(|done| done.map(|study| Self::Record(Box::new(study)))),
         }
     }
-}
-
-/// Starts that count: where `inactive` is false those alone in which the absorber hits a wall, unless it never does.
-fn counted<T>(starts: &[T], inactive: bool, impacts: impl Fn(&T) -> u64) -> Vec<&T> {
-    let awake: Vec<&T> = starts.iter().filter(|start| inactive || impacts(start) > 0).collect();
-    if awake.is_empty() { starts.iter().collect() } else { awake }
 }

@@ -3,12 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use super::{Measured, counted};
+use super::Runs;
 use crate::case::Case;
 use crate::excitation::SineSweep;
 use crate::executor::{Executor, map};
-use crate::flights::{Passage, Places, even, survey, worst_of_places};
+use crate::flights::{Passage, Places, even, survey};
 use crate::linear::{TunedMassDamper, bare_amplitude, swept};
+use crate::measure::Measure;
 use crate::orbits::steady_orbit;
 use crate::quantity::Units;
 use crate::simulation::StartError;
@@ -48,10 +49,8 @@ pub struct SweepStudy {
     pub system: System,
     /// The sweep.
     pub sweep: SineSweep,
-    /// Every start, in the order in which they were flown, and how many of the first are at even places.
-    pub starts: Vec<SweepStart>,
-    /// Even places among them.
-    pub even: u64,
+    /// Every start.
+    pub starts: Runs<Passage>,
     /// The worst of the starts in the other direction.
     pub back: Passage,
     /// The structure alone.
@@ -95,14 +94,14 @@ impl SweepStudy {
         Passage::follow(system, units, sweep, start).map(|found| (w, found))
     }
 
-    /// From even places of the absorber and closer ones, without those that do not count.
-    pub(crate) fn starts(
+    /// From even places of the absorber and closer ones.
+    pub(super) fn starts(
         system: &System,
         units: &Units,
         sweep: &SineSweep,
         places: Places<'_>,
         inactive: bool,
-    ) -> Result<Vec<SweepStart>, StartError> {
+    ) -> Result<Runs<Passage>, StartError> {
         let counts = |of: fn(&Passage) -> f64| {
             move |found: &Passage| match inactive || found.impacts > 0 {
                 true => of(found),
@@ -110,10 +109,34 @@ impl SweepStudy {
             }
         };
         let (peaks, speeds) = (counts(|found| found.peak()[1]), counts(|found| found.impact_speed));
-        let flown = survey(places, &[&peaks, &speeds], |w| {
+        let all = survey(places, &[&peaks, &speeds], |w| {
             Self::start(system, units, sweep, w).map(|(_, found)| found)
         })?;
-        Ok(counted(&flown, inactive, |(_, found)| found.impacts).into_iter().cloned().collect())
+        Ok(Runs { all, even: places.even, count_inactive: inactive })
+    }
+
+    /// The starts, the structure alone and with the damper, and nothing beside.
+    pub(super) fn brief(
+        system: &System,
+        units: &Units,
+        sweep: &SineSweep,
+        places: Places<'_>,
+        inactive: bool,
+    ) -> Result<Self, StartError> {
+        let damper = TunedMassDamper::den_hartog(system.mass_ratio());
+        let linear = |damper: Option<&TunedMassDamper>| swept(system, damper, units, sweep);
+        Ok(Self {
+            system: *system,
+            sweep: *sweep,
+            starts: Self::starts(system, units, sweep, places, inactive)?,
+            back: Passage::new(0, 0.0),
+            alone: linear(None),
+            damped: (damper, linear(Some(&damper))),
+            steady: Vec::new(),
+            jumps: Default::default(),
+            differ: None,
+            by_rate: Vec::new(),
+        })
     }
 
     fn of(
@@ -125,7 +148,7 @@ impl SweepStudy {
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
         let places = Places { even: even_places.into(), closer: true, executor };
-        let starts = Self::starts(system, units, sweep, places, inactive)?;
+        let study = Self::brief(system, units, sweep, places, inactive)?;
         let rates: Vec<SineSweep> = RATES
             .into_iter()
             .map(|factor| sweep.faster(factor))
@@ -140,12 +163,12 @@ impl SweepStudy {
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
         let worst_of = |sweep: &SineSweep| -> Option<Passage> {
             let n = all.iter().position(|other| other == sweep)?;
-            let of = &flown[n * at.len()..(n + 1) * at.len()];
-            let counted = counted(of, inactive, |(_, found)| found.impacts);
-            worst(counted.into_iter()).map(|(_, found)| found.clone())
+            let all = flown[n * at.len()..(n + 1) * at.len()].to_vec();
+            let of = Runs { all, even: at.len() as u64, count_inactive: inactive };
+            of.worst(Measure::Peak).map(|(_, found)| found.clone())
         };
-        let there = worst(starts.iter()).map(|(_, found)| found.clone());
-        let damper = TunedMassDamper::den_hartog(system.mass_ratio());
+        let there = study.worst().map(|(_, found)| found.clone());
+        let damper = study.damped.0;
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
             swept(system, damper, units, sweep)
         };
@@ -166,38 +189,19 @@ impl SweepStudy {
         let there = there.unwrap_or_else(none);
         let window = window(system);
         Ok(Self {
-            system: *system,
-            sweep: *sweep,
-            alone: linear(None, sweep),
-            damped: (damper, linear(Some(&damper), sweep)),
             steady: steady(system, units, sweep),
             jumps: [&there, &back].map(|passage| jumps(&passage.envelope, window)),
             differ: differ(&there.envelope, &back.envelope, window),
             by_rate,
-            even: places.even,
-            starts,
             back,
+            ..study
         })
     }
 
     /// The start with the largest displacement.
     pub fn worst(&self) -> Option<&SweepStart> {
-        worst(self.starts.iter())
+        self.starts.worst(Measure::Peak)
     }
-
-    /// The largest of a value of all starts, and its error.
-    pub fn largest(&self, value: impl Fn(&Passage) -> f64) -> Measured {
-        worst_of_places(&self.starts.iter().map(|(_, found)| value(found)).collect::<Vec<f64>>())
-    }
-
-    /// The smallest of the starts' largest displacements.
-    pub fn least(&self) -> f64 {
-        self.starts.iter().map(|(_, found)| found.peak()[1]).fold(f64::INFINITY, f64::min)
-    }
-}
-
-pub(crate) fn worst<'a>(starts: impl Iterator<Item = &'a SweepStart>) -> Option<&'a SweepStart> {
-    starts.max_by(|a, b| a.1.peak()[1].total_cmp(&b.1.peak()[1]))
 }
 
 /// Amplitudes of steady motion along the range.

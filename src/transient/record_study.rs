@@ -1,14 +1,13 @@
 //! A structure that is driven by a record, or by several records of one spectrum: from all places of the absorber,
 //! beside its alternatives, and for other natural frequencies.
 
-use super::counted;
+use super::Runs;
 use crate::case::Case;
 use crate::excitation::{Piece, Record};
 use crate::executor::{Executor, map};
-use crate::flights::{
-    DrivenError, Measure, Places, Response, even, follow, survey, worst_of_places,
-};
-use crate::linear::{TunedMassDamper, driven, reduction_db};
+use crate::flights::{DrivenError, Measure, Places, Response, even, follow, survey};
+use crate::linear::{TunedMassDamper, driven};
+use crate::measure::Measure as Asked;
 use crate::numerics::scatter::twice_standard_error;
 use crate::quantity::Units;
 use crate::system::{Scales, System};
@@ -24,9 +23,8 @@ pub struct Realisation {
     pub bare: Response,
     /// With the tuned mass damper of Den Hartog.
     pub damped: Response,
-    /// Every place of the absorber, over the clearance, and what it did from there, in the order in which they were
-    /// flown. The trace is kept of the first record alone.
-    pub places: Vec<(f64, Response)>,
+    /// Every place of the absorber. The trace is kept of the first record alone.
+    pub places: Runs<Response>,
 }
 
 /// Peak displacements of a structure of another natural frequency, mean over records. Its mass, damping ratio,
@@ -56,12 +54,8 @@ pub struct RecordStudy {
     pub length: (f64, usize),
     /// One for each record.
     pub realisations: Vec<Realisation>,
-    /// Even places of the absorber under each record; under a single one there are closer places as well.
-    pub even: u64,
     /// Response spectrum, ascending.
     pub spectrum: Vec<SpectrumPoint>,
-    /// Whether places count from which the absorber never touches a wall.
-    pub count_inactive: bool,
 }
 
 /// The response spectrum: frequencies, the furthest over the structure's own, places times records, and the most
@@ -83,11 +77,13 @@ impl RecordStudy {
         let recording = case.recording.as_ref()?;
         let records = recording.records();
         let places = case.absorber_places()?;
-        let study = Self::of(&case.system(), &case.units(), &records, places, executor);
-        Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
+        let places = Places { even: places, closer: records.len() == 1, executor };
+        let inactive = case.count_inactive;
+        Some(Self::of(&case.system(), &case.units(), &records, places, inactive))
     }
 
-    /// Studies a system under records, the absorber at so many even places of its cavity.
+    /// Studies a system under records, from places of the absorber; those from which it never touches a wall count if they
+    /// are to.
     ///
     /// # Errors
     /// As [`Self::of_case`].
@@ -95,25 +91,25 @@ impl RecordStudy {
         system: &System,
         units: &Units,
         records: &[Record],
-        places: u64,
-        executor: &dyn Executor,
+        places: Places<'_>,
+        inactive: bool,
     ) -> Result<Self, DrivenError> {
-        let study = Self::without_spectrum(system, units, records, places, executor)?;
+        let study = Self::brief(system, units, records, places, inactive)?;
         let point = |k: usize| {
             let part = 2.0 * k as f64 / f64::from(FREQUENCIES - 1) - 1.0;
             spectrum_point(system, units, records, libm::pow(FURTHEST, part))
         };
-        let spectrum = map(executor, "frequencies", FREQUENCIES as usize, point);
+        let spectrum = map(places.executor, "frequencies", FREQUENCIES as usize, point);
         Ok(Self { spectrum: spectrum.into_iter().collect::<Result<_, _>>()?, ..study })
     }
 
     /// The same without the response spectrum.
-    pub(crate) fn without_spectrum(
+    pub(super) fn brief(
         system: &System,
         units: &Units,
         records: &[Record],
-        places: u64,
-        executor: &dyn Executor,
+        places: Places<'_>,
+        inactive: bool,
     ) -> Result<Self, DrivenError> {
         let first = records.first().ok_or(DrivenError::NoRecord)?;
         let [from, to] = [first.samples.first(), first.samples.last()]
@@ -123,52 +119,21 @@ impl RecordStudy {
             damper: TunedMassDamper::den_hartog(system.mass_ratio()),
             input_peaks: records.iter().map(Record::peak).collect(),
             length: (to - from, first.samples.len()),
-            realisations: realisations(system, units, records, places, executor)?,
-            even: places,
+            realisations: realisations(system, units, records, places, inactive)?,
             spectrum: Vec::new(),
-            count_inactive: true,
         })
     }
 
-    fn counted<'a>(&self, one: &'a Realisation) -> Vec<&'a (f64, Response)> {
-        counted(&one.places, self.count_inactive, |(_, response)| response.impacts)
+    /// What happened under the first record.
+    pub fn first(&self) -> Option<&Realisation> {
+        self.realisations.first()
     }
+}
 
-    /// The largest value over the places of the absorber, mean over records.
-    pub fn worst(&self, value: impl Fn(&Realisation, &Response) -> f64) -> Measured {
-        let of_places = |one: &Realisation| -> Measured {
-            let counted = self.counted(one).into_iter();
-            worst_of_places(&counted.map(|(_, place)| value(one, place)).collect::<Vec<f64>>())
-        };
-        over_records(&self.realisations.iter().map(of_places).collect::<Vec<Measured>>())
-    }
-
-    /// The mean over records of what each has for itself; without error where there is only one.
-    pub fn mean(&self, value: impl Fn(&Realisation) -> f64) -> Measured {
-        let values = self.realisations.iter().map(|one| [value(one), 0.0]);
-        over_records(&values.collect::<Vec<Measured>>())
-    }
-
-    /// The least reduction of the largest displacement against another, in decibels.
-    pub fn reduction_db(&self, against: impl Fn(&Realisation) -> f64) -> Measured {
-        let [increase, error] = self.worst(|one, place| -reduction_db(place.peak, against(one)));
-        [-increase, error]
-    }
-
-    /// What happened under the first record from the place with the largest displacement.
-    pub fn shown(&self) -> Option<(&Realisation, &Response)> {
-        let first = self.realisations.first()?;
-        Some((first, &self.worst_of(first)?.1))
-    }
-
-    /// That place of the absorber, over the clearance.
-    pub fn worst_place(&self) -> Option<f64> {
-        Some(self.worst_of(self.realisations.first()?)?.0)
-    }
-
-    fn worst_of<'a>(&self, one: &'a Realisation) -> Option<&'a (f64, Response)> {
-        let places = self.counted(one).into_iter();
-        places.max_by(|a, b| a.1.peak.total_cmp(&b.1.peak))
+impl Realisation {
+    /// The place of the absorber with the largest displacement, and what it did from there.
+    pub fn worst(&self) -> Option<&(f64, Response)> {
+        self.places.worst(Asked::Peak)
     }
 }
 
@@ -185,15 +150,14 @@ fn realisations(
     system: &System,
     units: &Units,
     records: &[Record],
-    places: u64,
-    executor: &dyn Executor,
+    places: Places<'_>,
+    inactive: bool,
 ) -> Result<Vec<Realisation>, DrivenError> {
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let pieces: Vec<Vec<Piece>> =
         records.iter().map(|record| record.pieces(units, Record::LONGEST)).collect();
-    let places = Places { even: places, closer: records.len() == 1, executor };
     let one = |(k, pieces): (usize, &Vec<Piece>)| {
-        let found = flown(system, pieces, places)?.into_iter();
+        let found = flown(system, pieces, places, inactive)?;
         let kept = |response: Response| match k {
             0 => response,
             _ => Response { trace: Vec::new(), ..response },
@@ -201,7 +165,10 @@ fn realisations(
         Ok(Realisation {
             bare: kept(driven(system, None, pieces)),
             damped: kept(driven(system, Some(&damper), pieces)),
-            places: found.map(|(w, response)| (w, kept(response))).collect(),
+            places: Runs {
+                all: found.all.into_iter().map(|(w, response)| (w, kept(response))).collect(),
+                ..found
+            },
         })
     };
     pieces.iter().enumerate().map(one).collect()
@@ -212,10 +179,12 @@ pub(super) fn flown(
     system: &System,
     pieces: &[Piece],
     places: Places<'_>,
-) -> Result<Vec<(f64, Response)>, DrivenError> {
+    inactive: bool,
+) -> Result<Runs<Response>, DrivenError> {
     let measures: [Measure<'_, Response>; 3] =
         [&|found| found.peak, &|found| found.rms, &|found| found.impact_speed];
-    survey(places, &measures, |w| follow(system, pieces, w))
+    let all = survey(places, &measures, |w| follow(system, pieces, w))?;
+    Ok(Runs { all, even: places.even, count_inactive: inactive })
 }
 
 fn spectrum_point(

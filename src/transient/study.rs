@@ -1,12 +1,13 @@
 //! A released structure with everything that is known of it: from all places of the absorber, beside its
 //! alternatives and theory.
 
-use super::Measured;
+use super::{Measured, Runs};
 use crate::case::Case;
 use crate::excitation::{Release, amplitude};
 use crate::executor::{Executor, Serial};
 use crate::flights::{Inactive, Places, Predicted, Ringdown, inactive, survey, worst_of_places};
 use crate::linear::{Linear, STEPS, TunedMassDamper, bare_decay, released};
+use crate::measure::Measure;
 use crate::quantity::Units;
 use crate::simulation::StartError;
 use crate::system::System;
@@ -14,8 +15,6 @@ use crate::system::System;
 /// How fast a structure comes to a level from one place of the absorber.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decay {
-    /// Relative displacement of the absorber at the start, over the clearance.
-    pub place: f64,
     /// Oscillations of the structure; infinite where it did not get there.
     pub oscillations: f64,
     /// Impacts until then.
@@ -39,10 +38,8 @@ pub struct DecayStudy {
     pub from: f64,
     /// See [`Self::from`].
     pub level: f64,
-    /// Every start, in the order in which they were flown, and how many of the first are at even places.
-    pub starts: Vec<Decay>,
-    /// Even places among them.
-    pub even: u64,
+    /// Every start; of a measure those count that wake the absorber.
+    pub starts: Runs<Decay>,
     /// What happened from the slowest of them.
     pub slowest_start: Option<Ringdown>,
     /// The structure alone: decay in closed form.
@@ -94,16 +91,15 @@ impl DecayStudy {
         let linear = released(system, Some(&damper), middle, level, longest(bare));
         let inactive = inactive(system, &middle);
         let starts = Self::starts(system, units, release, share, places)?;
-        let follow = |worst: &Decay| {
-            Ringdown::follow(system, release.state(units, worst.place), level, longest(bare))
+        let follow = |(w, _): &(f64, Decay)| {
+            Ringdown::follow(system, release.state(units, *w), level, longest(bare))
         };
         Ok(Self {
             system: *system,
             from,
             level,
-            slowest_start: worst(&starts).map(follow).transpose()?,
+            slowest_start: starts.worst(Measure::DecayTime).map(follow).transpose()?,
             starts,
-            even: places.even,
             bare,
             inactive,
             count_inactive: true,
@@ -150,7 +146,7 @@ impl DecayStudy {
         release: &Release,
         share: f64,
         places: Places<'_>,
-    ) -> Result<Vec<Decay>, StartError> {
+    ) -> Result<Runs<Decay>, StartError> {
         let level = share * amplitude(&release.state(units, 0.0));
         let longest = longest(bare_decay(system, share));
         let awake = |of: fn(&Decay) -> f64| {
@@ -158,42 +154,23 @@ impl DecayStudy {
         };
         let times = awake(|start| start.oscillations);
         let speeds = awake(|start| start.impact_speed);
-        let found = survey(places, &[&times, &speeds], |w| {
+        let all = survey(places, &[&times, &speeds], |w| {
             let found = Ringdown::follow(system, release.state(units, w), level, longest)?;
-            Ok(Decay::of(w, &found))
-        });
-        Ok(found?.into_iter().map(|(_, start)| start).collect())
+            Ok(Decay::of(&found))
+        })?;
+        Ok(Runs { all, even: places.even, count_inactive: false })
     }
 
     /// The start that takes longest among those that wake the absorber, any where none does; none where nothing was
     /// simulated.
-    pub fn worst(&self) -> Option<&Decay> {
-        worst(&self.starts)
+    pub fn worst(&self) -> Option<&(f64, Decay)> {
+        self.starts.worst(Measure::DecayTime)
     }
 
     /// The time to come to rest that counts, in oscillations, and what it is of.
     pub fn decay(&self) -> DecayTime {
         DecayTime::of(&self.starts, self.bare, self.count_inactive, &self.inactive)
     }
-
-    /// The largest of a value of all starts that wake the absorber, and its error; of any start where none does.
-    pub fn largest(&self, value: impl Fn(&Decay) -> f64) -> Measured {
-        let values: Vec<f64> = awake(&self.starts).map(&value).collect();
-        match values.is_empty() {
-            true => worst_of_places(&self.starts.iter().map(value).collect::<Vec<f64>>()),
-            false => worst_of_places(&values),
-        }
-    }
-
-    /// Oscillations of the start that comes to rest first.
-    pub fn fastest(&self) -> f64 {
-        self.starts.iter().map(|start| start.oscillations).fold(f64::INFINITY, f64::min)
-    }
-}
-
-/// The starts that wake the absorber.
-pub(crate) fn awake(starts: &[Decay]) -> impl Iterator<Item = &Decay> {
-    starts.iter().filter(|start| start.wakes)
 }
 
 /// The time to come to rest that counts, in oscillations: of the slowest start, or that of the structure alone where it is
@@ -208,12 +185,13 @@ pub struct DecayTime {
 
 impl DecayTime {
     pub(super) fn of(
-        starts: &[Decay],
+        starts: &Runs<Decay>,
         alone: f64,
         count_inactive: bool,
         inactive: &Inactive,
     ) -> Self {
-        let times: Vec<f64> = awake(starts).map(|start| start.oscillations).collect();
+        let awake = starts.all.iter().filter(|(_, start)| start.wakes);
+        let times: Vec<f64> = awake.map(|(_, start)| start.oscillations).collect();
         let [slowest, error] = worst_of_places(&times);
         let alone_counts = count_inactive && inactive.share > 0.0 || times.is_empty();
         match alone_counts && alone > slowest {
@@ -223,18 +201,12 @@ impl DecayTime {
     }
 }
 
-fn worst(starts: &[Decay]) -> Option<&Decay> {
-    let later = |a: &&Decay, b: &&Decay| a.oscillations.total_cmp(&b.oscillations);
-    awake(starts).max_by(later).or(starts.first())
-}
-
 impl Decay {
-    fn of(place: f64, found: &Ringdown) -> Self {
+    fn of(found: &Ringdown) -> Self {
         let last = found.impacts.len() - 1;
         // As usize an infinite time is past the end.
         let at = (libm::ceil(found.settles * f64::from(STEPS)) as usize).min(last);
         Self {
-            place,
             oscillations: found.settles,
             impacts: found.impacts[at],
             impact_speed: found.impact_speeds[at],
@@ -257,11 +229,11 @@ pub(crate) fn longest(bare: f64) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Decay, DecayTime, Inactive};
+    use super::{Decay, DecayTime, Inactive, Runs};
 
-    fn start(oscillations: f64, wakes: bool) -> Decay {
-        let (place, impacts, impact_speed, impact_share, peak) = (0.0, 1, 1.0, 0.5, 1.0);
-        Decay { place, oscillations, impacts, impact_speed, impact_share, peak, wakes }
+    fn start(oscillations: f64, wakes: bool) -> (f64, Decay) {
+        let (impacts, impact_speed, impact_share, peak) = (1, 1.0, 0.5, 1.0);
+        (0.0, Decay { oscillations, impacts, impact_speed, impact_share, peak, wakes })
     }
 
     /// An absorber may also hold a structure up: then its slowest start counts, not the structure alone.
@@ -269,7 +241,10 @@ mod tests {
     fn the_structure_alone_counts_where_it_is_slower() {
         let starts = [start(8.0, true), start(12.0, true), start(99.0, false)];
         let some = Inactive { share: 0.1, places: None };
-        let of = |starts: &[Decay], alone, counts| DecayTime::of(starts, alone, counts, &some);
+        let of = |starts: &[(f64, Decay)], alone, counts| {
+            let starts = Runs { all: starts.to_vec(), even: 3, count_inactive: false };
+            DecayTime::of(&starts, alone, counts, &some)
+        };
         assert_eq!(
             (of(&starts, 10.0, true).oscillations[0], of(&starts, 10.0, true).inactive),
             (12.0, false)

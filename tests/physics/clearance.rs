@@ -5,8 +5,10 @@ use std::f64::consts::{PI, TAU};
 
 use vinesink::case::Case;
 use vinesink::executor::Serial;
+use vinesink::flights::Places;
+use vinesink::measure::{Device, Measure};
 use vinesink::system::Parameter;
-use vinesink::transient::{RecordStudy, SweepStudy, best_clearance};
+use vinesink::transient::{RecordStudy, Study, SweepStudy, best_clearance};
 
 const SWEPT: &str = include_str!("../../cases/sweep-fast.toml");
 const TOWER: &str = include_str!("../../cases/tower-record.toml");
@@ -60,10 +62,11 @@ fn peaks_of_record(case: &Case, clearance: f64) -> [f64; 2] {
     let design = case.design.with(Parameter::Clearance, clearance);
     let (system, units) = (design.system().expect("a system"), design.units());
     let records = case.recording.as_ref().expect("recorded").records();
-    let study = RecordStudy::of(&system, &units, &records, 41, &Serial);
-    let study = study.expect("studied");
-    [study.worst(|_, place| place.peak)[0], study.mean(|one| one.bare.peak)[0]]
-        .map(|peak| units.length(peak))
+    let places = Places { even: 41, closer: records.len() == 1, executor: &Serial };
+    let study = RecordStudy::of(&system, &units, &records, places, true).expect("studied");
+    let study = Study::Record(Box::new(study));
+    [Device::Absorber, Device::Without]
+        .map(|by| study.quantity(&units, Measure::Peak, by).expect("flown").value)
 }
 
 /// Twenty periods of a sine at the tower's own frequency, and clearances from which the absorber is not lost: a larger one

@@ -5,11 +5,12 @@ use std::f64::consts::{PI, TAU};
 
 use vinesink::excitation::{Record, RecordQuantity, Spectrum};
 use vinesink::executor::Serial;
-use vinesink::flights::{Response, follow, worst_of_places};
+use vinesink::flights::{Places, Response, follow, worst_of_places};
 use vinesink::linear::{TunedMassDamper, driven};
+use vinesink::measure::{Device, Measure};
 use vinesink::simulation::Simulation;
 use vinesink::system::{Cavity, Excitation, Parameters, Scales, State, System};
-use vinesink::transient::RecordStudy;
+use vinesink::transient::{RecordStudy, Study};
 
 use crate::common::unforced as system;
 
@@ -374,26 +375,30 @@ fn a_seed_names_its_records() {
 fn the_worst_place_counts() {
     let record = record(RecordQuantity::BaseAcceleration, 0.25, 160, quake);
     let of = WALLS.system();
-    let study = RecordStudy::of(&of, &UNITS.into(), std::slice::from_ref(&record), 8, &Serial);
+    let places = Places { even: 8, closer: true, executor: &Serial };
+    let records = std::slice::from_ref(&record);
+    let study = RecordStudy::of(&of, &UNITS.into(), records, places, true);
     let study = study.expect("studied");
     let pieces = record.pieces(&UNITS, Record::LONGEST);
     let from = |w: f64| follow(&of, &pieces, w).expect("followed").peak;
     let flown: Vec<(f64, f64)> =
-        study.realisations[0].places.iter().map(|(w, found)| (*w, found.peak)).collect();
+        study.realisations[0].places.all.iter().map(|(w, found)| (*w, found.peak)).collect();
     // Even places, then closer ones; none is a number of another place.
-    assert_eq!((study.even, flown.len()), (8, 12));
+    assert_eq!((study.realisations[0].places.even, flown.len()), (8, 12));
     for (k, (w, peak)) in flown.iter().enumerate() {
         assert_eq!(*peak, from(*w));
         assert!(k >= 8 || *w == (2 * k + 1) as f64 / 8.0 - 1.0, "{w}");
     }
     let worst = worst_of_places(&flown.iter().map(|one| one.1).collect::<Vec<f64>>());
-    assert_eq!(study.worst(|_, place| place.peak), worst);
+    let all = Study::Record(Box::new(study.clone()));
+    let ask = |of| all.ask(of, Device::Absorber).expect("flown").value;
+    assert_eq!(ask(Measure::Peak), worst);
     assert_eq!(worst[0], flown.iter().map(|one| one.1).fold(0.0, f64::max));
     let even = flown[..8].iter().map(|one| one.1).fold(0.0, f64::max);
     let bare = driven(&of, None, &pieces).peak;
     let own = study.spectrum.iter().find(|point| point.ratio == 1.0).expect("its own frequency");
     assert_eq!((own.bare, own.absorber), (bare, even));
-    let reduction = study.reduction_db(|one| one.bare.peak)[0];
+    let [reduction, _] = ask(Measure::ReductionDb);
     assert!((reduction - 20.0 * libm::log10(bare / worst[0])).abs() < 1e-12);
     // Twice as stiff a structure in the same units of SI: time runs sqrt(2) times as fast.
     let stiff = Scales { natural_frequency: study.spectrum[20].ratio, ..UNITS };

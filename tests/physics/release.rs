@@ -1,14 +1,15 @@
 //! A structure that is released or struck, against energy, closed form and what a person would do by hand.
 
-use vinesink::case::{Case, Subject};
-use vinesink::criteria::judge_release;
+use vinesink::case::Case;
+use vinesink::criteria::{Judged, judge_transient};
 use vinesink::excitation::Release;
 use vinesink::executor::Serial;
 use vinesink::flights::{Predicted, Ringdown, STEPS};
 use vinesink::linear::{TunedMassDamper, released};
+use vinesink::measure::Measure;
 use vinesink::method::Method;
 use vinesink::system::State;
-use vinesink::transient::{DecayStudy, Flight, best_clearance};
+use vinesink::transient::{DecayStudy, Flight, Study, best_clearance};
 
 use crate::common::unforced as system;
 
@@ -106,9 +107,9 @@ fn a_structure_comes_to_rest_at_an_impact_or_between_two() {
     let study = DecayStudy::of_case(&case, &Serial).expect("released").expect("studied");
     let release = case.design.release().expect("released");
     let mut at_impacts = 0;
-    for decay in study.starts.iter().filter(|decay| decay.wakes).step_by(3) {
+    for (place, decay) in study.starts.all.iter().filter(|(_, decay)| decay.wakes).step_by(3) {
         let velocity = release.impulse / 4000.0 / case.units().velocity(1.0);
-        let start = State { x_velocity: velocity, y: -decay.place, ..State::AT_REST };
+        let start = State { x_velocity: velocity, y: -place, ..State::AT_REST };
         let mut impacts = Vec::new();
         let flight = Flight::of_case(&case, start, None, &mut |impact| impacts.push(*impact));
         let settles = flight.expect("released").expect("flown").settles.expect("a time");
@@ -124,6 +125,12 @@ fn a_structure_comes_to_rest_at_an_impact_or_between_two() {
         at_impacts += u32::from((before.tau - settles).abs() < 1e-12);
     }
     assert!(at_impacts > 5, "{at_impacts}");
+}
+
+/// What becomes of the criterion on the time.
+fn judged(case: &Case, study: &DecayStudy) -> Judged {
+    let all = judge_transient(case, &Study::Release(Box::new(study.clone())));
+    all.into_iter().find(|one| one.criterion.measure == Measure::DecayTime).expect("asked")
 }
 
 const FOOTBRIDGE: &str = include_str!("../../cases/footbridge-jump.toml");
@@ -145,19 +152,16 @@ fn an_impulse_is_a_velocity() {
     let alone = case.units().time(std::f64::consts::TAU * study.bare);
     assert!((alone - libm::log(10.0) / (0.005 * omega)).abs() < 1e-9, "{alone}");
     // What `check` says is the worst of the starts; an absorber that no wall reaches leaves the structure alone.
-    let judged = |case: &Case, study: &DecayStudy| {
-        let all = judge_release(case, study);
-        let of_time = all.into_iter().find(|one| one.criterion.subject == Subject::DecayTime);
-        of_time.expect("asked")
-    };
     let found = judged(&case, &study);
     assert_eq!((found.found, found.inactive), (Some(alone), Some(study.inactive.share)));
     let case = footbridge("2.9 mm");
     let study = DecayStudy::of_case(&case, &Serial).expect("released").expect("studied");
     assert_eq!(study.inactive.share, 0.0);
-    let worst = study.worst().expect("simulated").oscillations;
+    let worst = study.worst().expect("simulated").1.oscillations;
     assert!((judged(&case, &study).found.expect("a time") - 0.5 * worst).abs() < 1e-9);
-    assert!(study.fastest() < worst && worst < 0.5 * study.bare);
+    assert!(
+        study.starts.least(Measure::DecayTime).expect("flown") < worst && worst < 0.5 * study.bare
+    );
 }
 
 /// Places just inside of the closed form's bound never wake, places just outside of it do.
@@ -200,7 +204,7 @@ fn a_base_that_comes_to_move_takes_the_absorber_along() {
     let [of_base, of_force] = [&base, &footbridge("3 mm")].map(|case| {
         let study = DecayStudy::of_case(case, &Serial).expect("released").expect("studied");
         assert!((case.units().length(study.from) - 2.984e-3).abs() < 1e-6);
-        study.worst().expect("simulated").oscillations
+        study.worst().expect("simulated").1.oscillations
     });
     // As hard a shock: the absorber is caught either way, within the time of a few impacts.
     assert!((of_base / of_force - 1.0).abs() < 0.2, "{of_base} {of_force}");
@@ -295,9 +299,8 @@ fn starts_that_never_wake_count_by_their_share_alone() {
             Case::parse("f.toml", &text.replace("[criteria]", &format!("[criteria]\n{extra}")));
         let case = case.expect("a case");
         let study = DecayStudy::of_case(&case, &Serial).expect("released").expect("studied");
-        let judged = judge_release(&case, &study);
-        let time = judged.iter().find(|one| one.criterion.subject == Subject::DecayTime);
-        (study, time.expect("asked").clone())
+        let time = judged(&case, &study);
+        (study, time)
     };
     let (counted, of_all) = study("");
     let (left_out, of_awake) = study("count_inactive = false");
@@ -307,7 +310,7 @@ fn starts_that_never_wake_count_by_their_share_alone() {
         (counted.decay().oscillations[0], of_all.inactive),
         (counted.bare, Some(counted.inactive.share))
     );
-    let slowest = left_out.worst().expect("simulated");
+    let (_, slowest) = left_out.worst().expect("simulated");
     assert!(slowest.wakes && slowest.oscillations < left_out.bare);
     assert_eq!((left_out.decay().oscillations[0], of_awake.inactive), (slowest.oscillations, None));
     assert!(of_awake.found < of_all.found);

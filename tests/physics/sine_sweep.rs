@@ -5,16 +5,17 @@
 
 use std::f64::consts::TAU;
 
-use vinesink::case::{Case, Subject};
-use vinesink::criteria::judge_sweep;
+use vinesink::case::Case;
+use vinesink::criteria::judge_transient;
 use vinesink::excitation::{SineSweep, SweepRate};
 use vinesink::executor::Serial;
 use vinesink::flights::Passage;
 use vinesink::linear::swept;
+use vinesink::measure::Measure;
 use vinesink::orbits::attracting_orbit;
 use vinesink::simulation::Simulation;
 use vinesink::system::{Excitation, State, System};
-use vinesink::transient::SweepStudy;
+use vinesink::transient::{Study, SweepStudy};
 
 const FAST: &str = include_str!("../../cases/sweep-fast.toml");
 
@@ -187,28 +188,28 @@ fn the_worst_place_of_the_absorber_counts() {
         ),
     ]);
     let study = SweepStudy::of_case(&case, &Serial).expect("swept").expect("studied");
-    assert_eq!((study.even, study.starts.len()), (8, 12));
+    assert_eq!((study.starts.even, study.starts.all.len()), (8, 12));
     let (system, units) = (case.system(), case.units());
     let peaks = [-0.875, -0.625, -0.375, -0.125, 0.125, 0.375, 0.625, 0.875].map(|w| {
         let found = Passage::follow(&system, &units, &study.sweep, start(w)).expect("flown");
         found.peak()[1]
     });
     // Even places, and closer ones.
-    assert!(study.starts.iter().zip(peaks).all(|((_, found), peak)| found.peak()[1] == peak));
-    let worst = study.starts.iter().map(|(_, found)| found.peak()[1]).fold(0.0, f64::max);
+    assert!(study.starts.all.iter().zip(peaks).all(|((_, found), peak)| found.peak()[1] == peak));
+    let worst = study.starts.all.iter().map(|(_, found)| found.peak()[1]).fold(0.0, f64::max);
     assert_eq!(study.worst().expect("flown").1.peak()[1], worst);
-    let judged = judge_sweep(&case, &study);
-    let of = |subject| {
+    let judged = judge_transient(&case, &Study::Sweep(Box::new(study.clone())));
+    let of = |measure| {
         judged
             .iter()
-            .find(|one| one.criterion.subject == subject)
+            .find(|one| one.criterion.measure == measure)
             .expect("asked")
             .found
             .expect("found")
     };
-    assert!((of(Subject::PeakDisplacement) - 7.5e-3 * worst).abs() < 1e-15);
+    assert!((of(Measure::Peak) - 7.5e-3 * worst).abs() < 1e-15);
     let alone = swept(&system, None, &units, &study.sweep).peak()[1];
-    assert!((of(Subject::ReductionDb) - 20.0 * (alone / worst).log10()).abs() < 1e-12);
+    assert!((of(Measure::ReductionDb) - 20.0 * (alone / worst).log10()).abs() < 1e-12);
     // The faster the sweep, the less the structure alone comes up, and the later.
     let alone: Vec<[f64; 2]> = study.by_rate.iter().map(|one| one.peaks[1]).collect();
     assert!(

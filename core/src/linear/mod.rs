@@ -42,6 +42,20 @@ pub fn reduction_db(amplitude: f64, against: f64) -> f64 {
     20.0 * libm::log10(against / amplitude)
 }
 
+/// The same of an amplitude with its error: a larger one is reduced by so much less.
+pub fn reduction([amplitude, error]: [f64; 2], against: f64) -> [f64; 2] {
+    [reduction_db(amplitude, against), level_error(amplitude, error)]
+}
+
+/// The error in decibels of a level whose amplitude may be larger by an error.
+pub fn level_error(amplitude: f64, error: f64) -> f64 {
+    if amplitude > 0.0 {
+        20.0 * std::f64::consts::LOG10_E * libm::log1p(error / amplitude)
+    } else {
+        error
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{TunedMassDamper, reduction_db};

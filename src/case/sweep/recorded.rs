@@ -1,6 +1,8 @@
 //! What a sweep records of each point.
 
 use crate::excitation::Scene;
+use crate::measure::{Device, Measure};
+use crate::quantity::Kind;
 use vinesink_core::names;
 
 names! { key:
@@ -86,23 +88,64 @@ impl Recorded {
         matches!(self, Self::ShareOfStarts | Self::LargestPeak | Self::Motions)
     }
 
+    /// What it is, and of which structure.
+    pub const fn asked(self) -> (Measure, Device) {
+        let measure = match self {
+            Self::BareDecayTime => return (Measure::DecayTime, Device::Without),
+            Self::DamperDecayTime => return (Measure::DecayTime, Device::Damper),
+            Self::BarePeak | Self::BareAmplitude => return (Measure::Peak, Device::Without),
+            Self::DamperPeak => return (Measure::Peak, Device::Damper),
+            Self::BareRms => return (Measure::Rms, Device::Without),
+            Self::DamperRms => return (Measure::Rms, Device::Damper),
+            Self::DecayTime => Measure::DecayTime,
+            Self::TheoryDecayTime => Measure::TheoryDecayTime,
+            Self::InactiveShare => Measure::InactiveShare,
+            Self::Peak => Measure::Peak,
+            Self::PeakFrequency => Measure::PeakFrequency,
+            Self::Rms => Measure::Rms,
+            Self::ReductionDb => Measure::ReductionDb,
+            Self::ReductionDbTmd => Measure::ReductionDbTmd,
+            Self::ImpactSpeed => Measure::ImpactSpeed,
+            Self::ImpactsPerPeriod => Measure::ImpactsPerPeriod,
+            Self::Impacts => Measure::Impacts,
+            Self::Area => Measure::Area,
+            Self::TheoryPeak => Measure::TheoryPeak,
+            Self::BoundaryDistance => Measure::BoundaryDistance,
+            Self::OrbitPeak => Measure::OrbitPeak,
+            Self::OrbitMultiplier => Measure::OrbitMultiplier,
+            Self::OrbitReached => Measure::OrbitReached,
+            Self::Regime => Measure::Regime,
+            Self::Efficiency => Measure::Efficiency,
+            Self::RepeatsAfter => Measure::RepeatsAfter,
+            Self::Lyapunov => Measure::Lyapunov,
+            Self::Section => Measure::Section,
+            Self::ShareOfStarts => Measure::ShareOfStarts,
+            Self::LargestPeak => Measure::LargestPeak,
+            Self::Motions => Measure::Motions,
+        };
+        (measure, Device::Absorber)
+    }
+
+    /// The kind of its numbers; none of words and flags.
+    pub const fn kind(self) -> Option<&'static Kind> {
+        let (measure, device) = self.asked();
+        measure.kind(device)
+    }
+
     /// Whether it is known of a structure that is subjected to something.
     pub fn is_of(self, scene: Scene) -> bool {
-        let (release, sweep) = (scene == Scene::Release, scene == Scene::Sweep);
-        match self {
-            Self::BareDecayTime | Self::DamperDecayTime | Self::TheoryDecayTime => release,
-            Self::InactiveShare | Self::DecayTime => release,
-            Self::PeakFrequency => sweep,
-            Self::BareRms | Self::DamperRms => scene == Scene::Record,
-            Self::BarePeak | Self::DamperPeak | Self::ReductionDbTmd => {
-                sweep || scene == Scene::Record
+        let steady = scene == Scene::Steady;
+        let (measure, device) = self.asked();
+        measure.is_of(scene)
+            && match self {
+                Self::BareAmplitude => steady,
+                Self::ReductionDbTmd => !steady,
+                // Of a release nothing is larger than its beginning.
+                _ => {
+                    device == Device::Absorber
+                        || !steady && (measure != Measure::Peak || scene != Scene::Release)
+                }
             }
-            Self::Impacts => scene != Scene::Steady,
-            Self::Peak | Self::ImpactSpeed => true,
-            Self::ReductionDb => !release,
-            Self::Rms => !release && !sweep,
-            _ => scene == Scene::Steady,
-        }
     }
 
     /// What is recorded where the case does not say: theory of a decay may cost more than simulation.

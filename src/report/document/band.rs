@@ -2,13 +2,14 @@
 
 use serde_json::{Value, json};
 
-use super::scale::{Scale, level_error};
+use super::scale::Scale;
 use super::theory::ROOT_OF_ROUNDING;
 use crate::analysis::Strip;
 use crate::band::rivals::DETUNED;
 use crate::band::{Band, Rivals, Survey, Worst};
 use crate::case::BandOver;
 use crate::criteria::{method, of_stability};
+use crate::linear::level_error;
 use crate::method::Method::{self, ClosedForm, ExactOrbit, Theory};
 use crate::motions::{Motion, Motions, RestKind};
 use crate::quantity::Quantity;

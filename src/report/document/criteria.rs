@@ -4,8 +4,9 @@ use serde_json::{Value, json};
 
 use super::scale::Scale;
 use super::verdict::Word;
-use crate::case::{Case, Criterion, Relation, Subject};
+use crate::case::{Case, Criterion, Relation};
 use crate::criteria::Judged;
+use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::Motions;
 use crate::quantity::Quantity;
@@ -58,15 +59,15 @@ pub fn place(case: &Case, judged: &Judged) -> Option<Quantity> {
 
 /// A judged criterion.
 pub fn criterion(case: &Case, judged: &Judged) -> Value {
-    let Criterion { subject, relation, limit, as_written } = &judged.criterion;
-    let kind = subject.kind();
+    let Criterion { key, measure, relation, limit, as_written } = &judged.criterion;
+    let kind = measure.kind(Device::Absorber);
     let quantity = |value: f64| kind.map(|kind| Quantity::new(kind, value, judged.decided_by));
     // The errors of shares and margins are rounding, or theory's own.
-    let error = if subject.is_of_motions() { judged.error } else { 0.0 };
-    let counted = *subject == Subject::ImpactsPerPeriod;
+    let error = if measure.is_of_motions() { judged.error } else { 0.0 };
+    let counted = *measure == Measure::ImpactsPerPeriod;
     let share = |share| Quantity::new(&of::INACTIVE_SHARE, share, Method::ClosedForm);
     json!({
-        "name": subject.key(),
+        "name": key,
         "asked": as_written,
         "relation": match (kind, relation) {
             (None, _) => "yes",
@@ -75,7 +76,7 @@ pub fn criterion(case: &Case, judged: &Judged) -> Value {
             (_, Relation::Equal) => "equal",
         },
         "limit": kind.map(|kind| Quantity::new(kind, *limit, Method::Given)),
-        "found": judged.found.zip(subject.kind_under(judged.records)).map(|(value, kind)| {
+        "found": judged.found.zip(measure.kind_under(judged.records)).map(|(value, kind)| {
             Quantity::new(kind, value, judged.decided_by).with_error(error)
         }),
         // For one without a number.

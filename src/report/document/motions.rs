@@ -2,9 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::scale::{Scale, level_error};
+use super::scale::Scale;
 use super::theory::ROOT_OF_ROUNDING;
 use crate::criteria::method;
+use crate::linear::level_error;
 use crate::method::Method::{self, ExactOrbit, Simulation};
 use crate::motions::Along;
 use crate::motions::{self, Facts, Measured, Motions, wilson};

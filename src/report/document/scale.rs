@@ -6,11 +6,6 @@ use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
 use crate::system::Parameter;
 
-/// The error in decibels of a level whose amplitude has an error.
-pub fn level_error(amplitude: f64, error: f64) -> f64 {
-    if amplitude > 0.0 { 20.0 * std::f64::consts::LOG10_E * error / amplitude } else { error }
-}
-
 /// What a case says of its cavity; nothing of one that is level, without friction, its ends alike.
 pub fn cavity(case: &Case) -> Vec<Quantity> {
     let (design, system) = (&case.design, case.system());

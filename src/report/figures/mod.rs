@@ -21,7 +21,8 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::analysis::Branch;
-use crate::case::{Case, Subject};
+use crate::case::Case;
+use crate::measure::Measure;
 use crate::method::Method;
 use crate::quantity::{Digits, Dimension, Kind, Units, catalogue as of};
 use crate::study::CaseStudy;
@@ -76,7 +77,7 @@ impl<'a> Scene<'a> {
     fn new(case: &Case, study: &'a CaseStudy) -> Self {
         let scale = Scale::of(case);
         let mut limits = case.criteria.iter();
-        let asked = limits.find(|one| one.subject == Subject::PeakDisplacement);
+        let asked = limits.find(|one| one.measure == Measure::Peak);
         let own = scale.amplitude(1.0, Method::Given);
         let system = &study.analysis.system;
         let bounds = &study.analysis.boundaries;

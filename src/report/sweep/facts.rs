@@ -13,7 +13,7 @@ use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue::POINT_SHARE;
 use crate::regimes::Regime;
-use crate::sweep::columns::{Direction, kind, names};
+use crate::sweep::columns::{Direction, names};
 
 /// Peaks of one motion measured twice differ by less: where it repeats, by what is left of a transient; a
 /// motion that does not repeat is told by its regime alone.
@@ -92,7 +92,7 @@ fn share(points: usize, of: usize) -> Quantity {
 }
 
 fn quantity(of: Recorded, value: f64) -> Option<Quantity> {
-    Some(Quantity::new(kind(of)?, value, Method::Simulation))
+    Some(Quantity::new(of.kind()?, value, Method::Simulation))
 }
 
 /// The columns of a direction.
@@ -129,7 +129,7 @@ impl<'a> Counted<'a> {
             "direction": self.direction,
             "worked_out": self.worked_out(),
             // Quantities of which each regime and stretch has a smallest and a largest value.
-            "ranged": self.ranged.iter().filter_map(|(of, _)| Some(kind(*of)?.id)).collect::<Vec<_>>(),
+            "ranged": self.ranged.iter().filter_map(|(of, _)| Some(of.kind()?.id)).collect::<Vec<_>>(),
             "regimes": self.regimes(),
             "smallest_peak": self.extreme(Recorded::Peak, -1.0),
             "reduction": self.reduction(),

@@ -16,22 +16,46 @@ pub use optimum::{optimum, optimum_text};
 
 use super::document::criteria::{badge, criteria};
 use super::document::{FORMAT, NOTICEABLE, Word, cavity, figure_row};
-use super::figure::{Color, Dash, Style};
+use super::figure::{Color, Dash, Figure, Style};
 use super::render::{Files, RenderError, in_lines, page_files};
 use super::template::{render, worded};
 use crate::case::Case;
 use crate::criteria::Judged;
 use crate::flights::share_above;
+use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::system::Parameter;
-use crate::transient::Study;
+use crate::transient::{Run, Runs, Study};
 
 /// The line of a tuned mass damper.
 pub(super) const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed);
 /// The line of a predicted decay.
 pub(super) const THEORY: Style = Style::new(Color::Blue, 2.0, Dash::Dashed);
+
+/// What a page of such a structure tells beside what is of its scene alone.
+const MEASURES: [(Measure, Device); 19] = [
+    (Measure::Peak, Device::Absorber),
+    (Measure::Peak, Device::Without),
+    (Measure::Peak, Device::Damper),
+    (Measure::PeakFrequency, Device::Absorber),
+    (Measure::PeakFrequency, Device::Without),
+    (Measure::PeakFrequency, Device::Damper),
+    (Measure::Rms, Device::Absorber),
+    (Measure::Rms, Device::Without),
+    (Measure::Rms, Device::Damper),
+    (Measure::ReductionDb, Device::Absorber),
+    (Measure::ReductionDbTmd, Device::Absorber),
+    (Measure::ImpactSpeed, Device::Absorber),
+    (Measure::Impacts, Device::Absorber),
+    (Measure::ImpactEnergyShare, Device::Absorber),
+    (Measure::Stroke, Device::Damper),
+    (Measure::DecayTime, Device::Absorber),
+    (Measure::DecayTime, Device::Without),
+    (Measure::DecayTime, Device::Damper),
+    (Measure::TheoryDecayTime, Device::Absorber),
+];
 
 /// The name of a study's templates.
 const fn name_of(study: &Study) -> &'static str {
@@ -42,30 +66,41 @@ const fn name_of(study: &Study) -> &'static str {
     }
 }
 
-/// The files of a report's folder.
+/// A report as data, with its figures.
 ///
 /// # Errors
 /// [`RenderError`] says which part cannot be rendered.
-pub fn files(
+pub fn drawn(
     name: &str,
     case: &Case,
     study: &Study,
     judged: &[Judged],
-) -> Result<Files, RenderError> {
+) -> Result<(Value, Vec<Figure>), RenderError> {
     let mut facts = document(name, case, study, judged);
     let figures = match study {
         Study::Release(study) => release::figures(case, study, &facts),
         Study::Sweep(study) => sine_sweep::figures(case, study, &facts),
         Study::Record(study) => record::figures(case, study, &facts),
     };
-    let units = case.units();
-    let figures = worded(figures, &units)?;
+    let figures = worded(figures, &case.units())?;
     facts["figures"] = figures.iter().map(figure_row).collect();
-    let json = format!("{}\n", in_lines(&facts, 0));
-    let tone = facts["verdict"]["tone"].as_str().unwrap_or_default().to_owned();
+    Ok((facts, figures))
+}
+
+/// The files of its folder.
+///
+/// # Errors
+/// [`RenderError`] says which part cannot be rendered.
+pub fn files(
+    case: &Case,
+    study: &Study,
+    facts: &Value,
+    figures: &[Figure],
+) -> Result<Files, RenderError> {
+    let tone = facts["verdict"]["tone"].as_str();
     let template = format!("{}.md", name_of(study));
-    let mut files = page_files("report", &template, Some(&tone), &units, facts, &figures)?;
-    files.insert("report.json".into(), json.into_bytes());
+    let mut files = page_files("report", &template, tone, &case.units(), facts.clone(), figures)?;
+    files.insert("report.json".into(), format!("{}\n", in_lines(facts, 0)).into_bytes());
     Ok(files)
 }
 
@@ -82,8 +117,11 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
     let (mut quantities, word) = match study {
         Study::Release(study) => (release::quantities(case, study), release::word(study)),
         Study::Sweep(study) => (sine_sweep::quantities(case, study), sine_sweep::word(study)),
-        Study::Record(study) => (record::quantities(case, study), record::word(study)),
+        Study::Record(of) => (record::quantities(of), record::word(study)),
     };
+    let (units, scene) = (case.units(), case.design.scene());
+    let asked = MEASURES.into_iter().filter(|(of, _)| of.is_of(scene));
+    quantities.extend(asked.filter_map(|(of, by)| study.quantity(&units, of, by)));
     quantities.extend(given(case));
     let all: BTreeMap<&str, Quantity> = quantities.iter().map(|one| (one.kind.id, *one)).collect();
     let word = badge(judged).unwrap_or(word);
@@ -114,25 +152,23 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
     match study {
         Study::Release(study) => release::add(case, study, &mut document),
         Study::Sweep(study) => sine_sweep::add(case, study, &mut document),
-        Study::Record(study) => record::add(case, study, &mut document),
+        Study::Record(of) => record::add(case, study, of, &mut document),
     }
     document
 }
 
 /// From which places of the absorber numbers are known: even ones, all, and the share of places that are worse than the
 /// worst of the even ones, at most, at odds of 19 to 1.
-fn sample(even: u64, all: usize) -> Value {
-    json!({ "even": even, "all": all, "share_above": share_above(even) })
+fn sample<R>(runs: &Runs<R>) -> Value {
+    json!({ "even": runs.even, "all": runs.all.len(), "share_above": share_above(runs.even) })
 }
 
 /// Starts that a page lists.
 const LISTED: usize = 10;
 
 /// The worst starts, as rows, from the worst on.
-fn worst_rows<T>(starts: &[T], badness: impl Fn(&T) -> f64, row: impl Fn(&T) -> Value) -> Value {
-    let mut starts: Vec<&T> = starts.iter().collect();
-    starts.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
-    starts.into_iter().take(LISTED).map(row).collect()
+fn worst_rows<R: Run>(runs: &Runs<R>, of: Measure, row: impl Fn(&(f64, R)) -> Value) -> Value {
+    runs.sorted(of).into_iter().take(LISTED).map(row).collect()
 }
 
 /// What the case says of its absorber.

@@ -8,11 +8,12 @@ use serde_json::{Value, json};
 
 use super::{sample, word_of, worst_rows};
 use crate::case::Case;
+use crate::measure::Measure;
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 use crate::report::document::{Scale, Word};
-use crate::transient::{Decay, DecayStudy, Measured};
+use crate::transient::{Decay, DecayStudy};
 
 pub(super) use figure::figures;
 
@@ -21,12 +22,10 @@ pub(super) fn add(case: &Case, study: &DecayStudy, document: &mut Value) {
     let scale = Scale::of(case);
     document["notes"].as_array_mut().into_iter().for_each(|all| all.extend(notes(study)));
     // One for each place of the absorber.
-    let mut starts: Vec<&Decay> = study.starts.iter().collect();
-    starts.sort_by(|a, b| a.place.total_cmp(&b.place));
-    document["starts"] = starts.iter().map(|start| row(&scale, start)).collect();
-    document["worst"] =
-        worst_rows(&study.starts, |start| start.oscillations, |start| row(&scale, start));
-    document["sample"] = sample(study.even, study.starts.len());
+    let row = |(w, start): &(f64, Decay)| row(&scale, *w, start);
+    document["starts"] = study.starts.by_place().into_iter().map(row).collect();
+    document["worst"] = worst_rows(&study.starts, Measure::DecayTime, row);
+    document["sample"] = sample(&study.starts);
     // The lowest and the highest place of an absorber that no wall reaches.
     let place = |w| scale.units.quantity(&of::RELATIVE_DISPLACEMENT, w, Method::ClosedForm);
     document["inactive"] = json!(study.inactive.places.map(|ends| ends.map(place)));
@@ -34,9 +33,9 @@ pub(super) fn add(case: &Case, study: &DecayStudy, document: &mut Value) {
     document["share"] = case.decay_level.into();
 }
 
-fn row(scale: &Scale, decay: &Decay) -> Value {
+fn row(scale: &Scale, place: f64, decay: &Decay) -> Value {
     json!({
-        "absorber": scale.units.quantity(&of::RELATIVE_DISPLACEMENT, decay.place, Method::Given),
+        "absorber": scale.units.quantity(&of::RELATIVE_DISPLACEMENT, place, Method::Given),
         "time": time(scale, &of::DECAY_TIME, decay.oscillations, Method::Simulation),
         "impacts": Quantity::new(&of::IMPACT_COUNT, decay.impacts as f64, Method::Simulation),
         "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, decay.impact_speed, Method::Simulation),
@@ -49,52 +48,31 @@ fn time(scale: &Scale, kind: &'static Kind, oscillations: f64, method: Method) -
     scale.units.quantity(kind, TAU * oscillations, method)
 }
 
-fn time_with(scale: &Scale, kind: &'static Kind, time: Measured, method: Method) -> Quantity {
-    scale.units.quantity_with(kind, time.map(|oscillations| TAU * oscillations), method)
-}
-
+/// What has no place in the list of measures.
 pub(super) fn quantities(case: &Case, study: &DecayStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
-    let theory = &study.predicted;
-    let (_, damped) = &study.damped;
-    let simulated = Method::Simulation;
     let mut all = vec![
         scale.units.quantity(&of::INITIAL_AMPLITUDE, study.from, Method::Given),
         scale.units.quantity(&of::DECAY_LEVEL, study.level, Method::Given),
-        time(&scale, &of::BARE_DECAY_TIME, study.bare, Method::ClosedForm),
-        time(&scale, &of::DAMPER_DECAY_TIME, damped.settles, Method::ClosedForm),
-        scale.units.quantity(&of::DAMPER_STROKE, damped.stroke, Method::ClosedForm),
-        scale.units.quantity(&of::RESIDUAL_AMPLITUDE, theory.residual, Method::ClosedForm),
+        scale.units.quantity(&of::RESIDUAL_AMPLITUDE, study.predicted.residual, Method::ClosedForm),
     ];
-    if let Some(oscillations) = theory.oscillations {
-        // Of first order in the mass ratio, and more below the end of capture: nobody knows how much.
-        let predicted = time(&scale, &of::THEORY_DECAY_TIME, oscillations, theory.method);
-        all.push(predicted.with_error(f64::NAN));
-    }
+    let [slowest, fastest] = [&of::ACTIVE_DECAY_TIME, &of::FASTEST_DECAY_TIME];
     if study.inactive.share > 0.0 {
         all.push(Quantity::new(&of::INACTIVE_SHARE, study.inactive.share, Method::ClosedForm));
     }
-    if let Some(worst) = study.worst() {
-        let decay = study.decay();
-        let decided = if decay.inactive { Method::ClosedForm } else { simulated };
-        let slowest = study.largest(|start| start.oscillations);
-        let (peak, speed) =
-            (study.largest(|start| start.peak), study.largest(|start| start.impact_speed));
-        all.extend([
-            scale.units.quantity_with(&of::PEAK, peak, simulated),
-            time_with(&scale, &of::DECAY_TIME, decay.oscillations, decided),
-            time_with(&scale, &of::ACTIVE_DECAY_TIME, slowest, simulated),
-            time(&scale, &of::FASTEST_DECAY_TIME, study.fastest(), simulated),
-            scale.units.quantity_with(&of::IMPACT_SPEED, speed, simulated),
-            Quantity::new(&of::IMPACT_COUNT, worst.impacts as f64, simulated),
-            Quantity::new(&of::IMPACT_ENERGY_SHARE, worst.impact_share, simulated),
-        ]);
+    if let Some(found) = study.starts.largest(Measure::DecayTime) {
+        let found = found.map(|oscillations| TAU * oscillations);
+        all.push(scale.units.quantity_with(slowest, found, Method::Simulation));
+    }
+    if let Some(found) = study.starts.least(Measure::DecayTime) {
+        all.push(time(&scale, fastest, found, Method::Simulation));
     }
     all
 }
 
 pub(super) fn word(study: &DecayStudy) -> Word {
-    word_of(study.decay().oscillations[0] / study.bare, study.fastest() / study.bare)
+    let fastest = study.starts.least(Measure::DecayTime).unwrap_or(f64::INFINITY);
+    word_of(study.decay().oscillations[0] / study.bare, fastest / study.bare)
 }
 
 fn notes(study: &DecayStudy) -> Vec<Value> {

@@ -7,8 +7,7 @@ use serde_json::{Value, json};
 use super::{sample, word_of, worst_rows};
 use crate::case::Case;
 use crate::excitation::SweepRate;
-use crate::flights::Passage;
-use crate::linear::reduction_db;
+use crate::measure::Measure;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
@@ -46,12 +45,10 @@ pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
         })
     };
     // One for each place of the absorber.
-    let mut starts: Vec<&SweepStart> = study.starts.iter().collect();
-    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    document["starts"] = starts.into_iter().map(start).collect();
-    document["worst"] = worst_rows(&study.starts, |(_, found)| found.peak()[1], start);
-    document["sample"] = sample(study.even, study.starts.len());
-    document["places_beside"] = study.even.min(SweepStudy::STARTS_BESIDE.into()).into();
+    document["starts"] = study.starts.by_place().into_iter().map(start).collect();
+    document["worst"] = worst_rows(&study.starts, Measure::Peak, start);
+    document["sample"] = sample(&study.starts);
+    document["places_beside"] = study.starts.even.min(SweepStudy::STARTS_BESIDE.into()).into();
     document["down"] = (study.sweep.from > study.sweep.to).into();
     // In the case's direction, and in the other.
     document["jumps"] =
@@ -68,53 +65,28 @@ fn rate(rate: SweepRate) -> Quantity {
     }
 }
 
+/// What has no place in the list of measures.
 pub(super) fn quantities(case: &Case, study: &SweepStudy) -> Vec<Quantity> {
     let scale = Scale::of(case);
     let given = |kind, value| Quantity::new(kind, value, Method::Given);
-    let at =
-        |kind, passage: &Passage, method| scale.units.quantity(kind, passage.peak()[0], method);
-    let peak =
-        |kind, passage: &Passage, method| scale.units.quantity(kind, passage.peak()[1], method);
-    let (exact, simulated) = (Method::ClosedForm, Method::Simulation);
-    let (sweep, damped) = (&study.sweep, &study.damped.1);
-    let mut all = vec![
+    let simulated = Method::Simulation;
+    let (sweep, [at, peak]) = (&study.sweep, study.back.peak());
+    let least = study.starts.least(Measure::Peak).unwrap_or(f64::INFINITY);
+    vec![
         scale.amplitude(1.0, Method::Given),
         given(&of::SWEEP_FROM, sweep.from),
         given(&of::SWEEP_TO, sweep.to),
         rate(sweep.rate),
-        Quantity::new(&of::SWEEP_TIME, sweep.time(sweep.count() as f64), exact),
-        peak(&of::BARE_PEAK, &study.alone, exact),
-        at(&of::BARE_PEAK_FREQUENCY, &study.alone, exact),
-        peak(&of::DAMPER_PEAK, damped, exact),
-        at(&of::DAMPER_PEAK_FREQUENCY, damped, exact),
-        scale.units.quantity(&of::DAMPER_STROKE, damped.stroke, exact),
-        peak(&of::RETURN_PEAK, &study.back, simulated),
-        at(&of::RETURN_PEAK_FREQUENCY, &study.back, simulated),
-        scale.units.quantity(&of::LEAST_PEAK, study.least(), simulated),
-    ];
-    if let Some((_, worst)) = study.worst() {
-        let (largest, speed) =
-            (study.largest(|found| found.peak()[1]), study.largest(|found| found.impact_speed));
-        let change = |kind, rival: &Passage| {
-            let level = |peak: f64| reduction_db(peak, rival.peak()[1]);
-            let [peak, error] = largest;
-            Quantity::new(kind, level(peak), simulated)
-                .with_error(level(peak) - level(peak + error))
-        };
-        all.extend([
-            scale.units.quantity_with(&of::PEAK, largest, simulated),
-            at(&of::PEAK_FREQUENCY, worst, simulated),
-            scale.units.quantity_with(&of::IMPACT_SPEED, speed, simulated),
-            Quantity::new(&of::IMPACT_COUNT, worst.impacts as f64, simulated),
-            change(&of::REDUCTION_DB, &study.alone),
-            change(&of::REDUCTION_DB_TMD, damped),
-        ]);
-    }
-    all
+        Quantity::new(&of::SWEEP_TIME, sweep.time(sweep.count() as f64), Method::ClosedForm),
+        scale.units.quantity(&of::RETURN_PEAK, peak, simulated),
+        scale.units.quantity(&of::RETURN_PEAK_FREQUENCY, at, simulated),
+        scale.units.quantity(&of::LEAST_PEAK, least, simulated),
+    ]
 }
 
 pub(super) fn word(study: &SweepStudy) -> Word {
     let alone = study.alone.peak()[1];
     let worst = study.worst().map_or(f64::NAN, |(_, worst)| worst.peak()[1]);
-    word_of(worst / alone, study.least() / alone)
+    let least = study.starts.least(Measure::Peak).unwrap_or(f64::NAN);
+    word_of(worst / alone, least / alone)
 }

@@ -15,7 +15,7 @@ use crate::report::figure::{
 };
 use crate::report::figures::regimes::{mark, tint};
 use crate::report::transient::{DAMPER, THEORY};
-use crate::sweep::columns::{self, Direction, kind};
+use crate::sweep::columns::{self, Direction};
 
 /// The template of the figures' words.
 const WORDS: &str = "captions/sweep-line";
@@ -75,11 +75,11 @@ impl Diagram<'_> {
         let all = self.swept.in_directions(of);
         let beside = self.beside(of);
         let columns = all.iter().map(|(_, one)| one).chain(beside.iter().map(|(one, _)| one));
-        let measure = Measure::of(&self.swept.units(), kind(of)?, columns);
+        let measure = Measure::of(&self.swept.units(), of.kind()?, columns);
         let mut layers = self.lines(&measure, &beside);
         layers
             .extend(all.iter().flat_map(|(way, values)| self.marks(*way, &measure.shown(values))));
-        self.figure(name, kind(of)?.id, measure.label.clone(), layers)
+        self.figure(name, of.kind()?.id, measure.label.clone(), layers)
     }
 
     fn beside(&self, of: Recorded) -> Vec<(Numbers, Beside)> {

@@ -13,7 +13,7 @@ use crate::report::figure::{
     Axis, Cell, Cells, Figure, Image, Key, Layer, Layout, Panel, Ramp, Tint, inliers,
 };
 use crate::report::figures::regimes::tint;
-use crate::sweep::columns::{Direction, kind};
+use crate::sweep::columns::Direction;
 
 /// At most so many maps in a figure.
 const MOST_PANELS: usize = 6;
@@ -122,7 +122,7 @@ impl Panels<'_> {
     /// A quantity on a ramp; nothing where it is not recorded.
     fn values(&self, name: &'static str, of: Recorded, ramp: Ramp) -> Option<Map> {
         let all = self.swept.in_directions(of);
-        let measure = Measure::of(&self.swept.units(), kind(of)?, all.iter().map(|(_, one)| one));
+        let measure = Measure::of(&self.swept.units(), of.kind()?, all.iter().map(|(_, one)| one));
         let all: Vec<(Direction, Numbers)> =
             all.iter().map(|(way, values)| (*way, measure.shown(values))).collect();
         let shown = self.shown.iter().flat_map(|(slice, way)| {
@@ -134,7 +134,7 @@ impl Panels<'_> {
         let cells = all.into_iter().map(|(way, values)| (way, Cells::Values(ramp, range, values)));
         Some(Map {
             name,
-            of: kind(of)?.id,
+            of: of.kind()?.id,
             cells: cells.collect(),
             keys: unknown.then(|| Key::from((Tint::UNKNOWN, "no value"))).into_iter().collect(),
             bar: Some((measure.label, cut)),

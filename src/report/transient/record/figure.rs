@@ -24,7 +24,8 @@ pub fn figures(case: &Case, study: &RecordStudy, facts: &Value) -> Vec<Figure> {
 
 fn history(case: &Case, study: &RecordStudy) -> Option<Figure> {
     let units = case.units();
-    let (first, worst) = study.shown()?;
+    let first = study.first()?;
+    let (_, worst) = first.worst()?;
     let end = units.time(first.bare.trace.last()?[0]);
     let largest = [first.bare.peak, first.damped.peak, worst.peak].into_iter().fold(0.0, f64::max);
     let time_unit = units.axis_unit(&of::TIME, end).size;

@@ -22,7 +22,7 @@ pub fn figures(case: &Case, study: &DecayStudy, facts: &Value) -> Vec<Figure> {
 
 fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
     let units = case.units();
-    let (worst, found) = (study.worst()?, study.slowest_start.as_ref()?);
+    let ((_, worst), found) = (study.worst()?, study.slowest_start.as_ref()?);
     let shown = [worst.oscillations, study.bare.min(3.0 * worst.oscillations)]
         .into_iter()
         .filter(|one| one.is_finite())

@@ -1,0 +1,205 @@
+//! What may be asked of what becomes of a structure: one list, whatever drives it. A criterion, a column of a sweep, a number
+//! of a page and what an absorber is chosen for are each a measure of a device.
+
+use crate::excitation::Scene;
+use crate::linear::reduction;
+use crate::motions::{Motion, Value};
+use crate::quantity::catalogue as of;
+use crate::quantity::{ErrorKind, Kind, Units};
+
+/// Which structure a measure is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Device {
+    /// With the absorber.
+    Absorber,
+    /// Without any.
+    Without,
+    /// With a tuned mass damper of the absorber's mass.
+    Damper,
+}
+
+/// Something that has a number, a word or a yes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// Largest absolute displacement of the structure.
+    Peak,
+    /// Frequency at which it is reached in a sweep.
+    PeakFrequency,
+    /// Root mean square displacement.
+    Rms,
+    /// Largest displacement of absorber or damper against the structure.
+    Stroke,
+    /// Reduction of the peak against the structure without absorber, in decibels.
+    ReductionDb,
+    /// The same against the damper.
+    ReductionDbTmd,
+    /// Largest relative speed of an impact.
+    ImpactSpeed,
+    /// Impacts per excitation period.
+    ImpactsPerPeriod,
+    /// Impacts.
+    Impacts,
+    /// Share of the energy that they take.
+    ImpactEnergyShare,
+    /// Time in which a released structure comes to rest.
+    DecayTime,
+    /// The same by theory.
+    TheoryDecayTime,
+    /// Share of the absorber's resting places from which no wall ever reaches it.
+    InactiveShare,
+    /// Share of a band in area Z3.
+    Z3Share,
+    /// Share of a band with a stable symmetric 1:1 orbit.
+    StableShare,
+    /// Share by which the clearance may be off before that is lost.
+    MarginClearance,
+    /// Whether every start leads to one motion.
+    NoCoexistence,
+    /// Area and strip of the theory.
+    Area,
+    /// Smallest amplitude of a stable fixed point of the slow flow.
+    TheoryPeak,
+    /// Relative change of the excitation to the nearest boundary of the theory.
+    BoundaryDistance,
+    /// Peak of the exact 1:1 orbit that attracts.
+    OrbitPeak,
+    /// Its largest multiplier.
+    OrbitMultiplier,
+    /// Whether a start leads to it.
+    OrbitReached,
+    /// Regime of the motion that most starts lead to.
+    Regime,
+    /// Share of the excitation's work that its impacts dissipate.
+    Efficiency,
+    /// Excitation periods after which it repeats.
+    RepeatsAfter,
+    /// Its largest Lyapunov exponent.
+    Lyapunov,
+    /// Its displacements at the ends of periods.
+    Section,
+    /// Share of the starts that lead to it.
+    ShareOfStarts,
+    /// Largest peak of any motion.
+    LargestPeak,
+    /// Number of motions.
+    Motions,
+}
+
+impl Measure {
+    /// The kind of its value; none where that is a word, or yes or no.
+    pub const fn kind(self, by: Device) -> Option<&'static Kind> {
+        Some(match (self, by) {
+            (Self::Peak, Device::Absorber) => &of::PEAK,
+            (Self::Peak, Device::Without) => &of::BARE_PEAK,
+            (Self::Peak, Device::Damper) => &of::DAMPER_PEAK,
+            (Self::PeakFrequency, Device::Absorber) => &of::PEAK_FREQUENCY,
+            (Self::PeakFrequency, Device::Without) => &of::BARE_PEAK_FREQUENCY,
+            (Self::PeakFrequency, Device::Damper) => &of::DAMPER_PEAK_FREQUENCY,
+            (Self::Rms, Device::Absorber) => &of::RMS,
+            (Self::Rms, Device::Without) => &of::BARE_RMS,
+            (Self::Rms, Device::Damper) => &of::DAMPER_RMS,
+            (Self::DecayTime, Device::Absorber) => &of::DECAY_TIME,
+            (Self::DecayTime, Device::Without) => &of::BARE_DECAY_TIME,
+            (Self::DecayTime, Device::Damper) => &of::DAMPER_DECAY_TIME,
+            (Self::Stroke, _) => &of::DAMPER_STROKE,
+            (Self::ReductionDb, _) => &of::REDUCTION_DB,
+            (Self::ReductionDbTmd, _) => &of::REDUCTION_DB_TMD,
+            (Self::ImpactSpeed, _) => &of::IMPACT_SPEED,
+            (Self::ImpactsPerPeriod, _) => &of::IMPACTS_PER_PERIOD,
+            (Self::Impacts, _) => &of::IMPACT_COUNT,
+            (Self::ImpactEnergyShare, _) => &of::IMPACT_ENERGY_SHARE,
+            (Self::TheoryDecayTime, _) => &of::THEORY_DECAY_TIME,
+            (Self::InactiveShare, _) => &of::INACTIVE_SHARE,
+            (Self::Z3Share, _) => &of::Z3_SHARE,
+            (Self::StableShare, _) => &of::STABLE_SHARE,
+            (Self::MarginClearance, _) => &of::GAP,
+            (Self::TheoryPeak, _) => &of::THEORY_PEAK,
+            (Self::BoundaryDistance, _) => &of::BOUNDARY_DISTANCE,
+            (Self::OrbitPeak, _) => &of::ORBIT_PEAK,
+            (Self::OrbitMultiplier, _) => &of::SPECTRAL_RADIUS,
+            (Self::Efficiency, _) => &of::EFFICIENCY,
+            (Self::RepeatsAfter, _) => &of::REPEATS_AFTER,
+            (Self::Lyapunov, _) => &of::LYAPUNOV_EXPONENT,
+            (Self::Section, _) => &of::SECTION,
+            (Self::ShareOfStarts, _) => &of::START_SHARE,
+            (Self::LargestPeak, _) => &of::LARGEST_PEAK,
+            (Self::Motions, _) => &of::MOTIONS,
+            (Self::NoCoexistence | Self::Area | Self::OrbitReached | Self::Regime, _) => {
+                return None;
+            }
+        })
+    }
+
+    /// The same with the absorber under so many records, 0 where none drives the structure: of one the worst place of the
+    /// absorber decides, of several the mean.
+    pub fn kind_under(self, records: usize) -> Option<&'static Kind> {
+        Some(match (self, records) {
+            (Self::Rms, 1) => &of::LARGEST_RMS,
+            (Self::Peak, 2..) => &of::MEAN_PEAK,
+            (Self::ReductionDb, 2..) => &of::MEAN_REDUCTION_DB,
+            (Self::ReductionDbTmd, 2..) => &of::MEAN_REDUCTION_DB_TMD,
+            (Self::ImpactSpeed, 2..) => &of::MEAN_IMPACT_SPEED,
+            _ => return self.kind(Device::Absorber),
+        })
+    }
+
+    /// Whether it is then the worst of what was seen, which may be worse and not better.
+    pub fn is_worst(self, records: usize) -> bool {
+        self.kind_under(records).is_some_and(|kind| kind.error == ErrorKind::Bound)
+    }
+
+    /// Whether it makes sense of a structure that is subjected to this.
+    pub fn is_of(self, scene: Scene) -> bool {
+        match self {
+            Self::Peak | Self::ImpactSpeed => true,
+            Self::Rms => matches!(scene, Scene::Steady | Scene::Record),
+            Self::ReductionDb | Self::ReductionDbTmd => scene != Scene::Release,
+            Self::Impacts | Self::ImpactEnergyShare | Self::Stroke => scene != Scene::Steady,
+            Self::DecayTime | Self::TheoryDecayTime | Self::InactiveShare => {
+                scene == Scene::Release
+            }
+            Self::PeakFrequency => scene == Scene::Sweep,
+            _ => scene == Scene::Steady,
+        }
+    }
+
+    /// Whether it is about the motions that can happen, which only simulation finds.
+    pub fn is_of_motions(self) -> bool {
+        !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
+    }
+
+    /// The device whose largest displacement it compares with; none of what compares nothing.
+    pub fn against(self) -> Option<Device> {
+        match self {
+            Self::ReductionDb => Some(Device::Without),
+            Self::ReductionDbTmd => Some(Device::Damper),
+            _ => None,
+        }
+    }
+
+    /// What a long-term motion has of it, with its error, in SI or the units of a reduced case; `peak` is its peak with the
+    /// error that it has along a band. A reduction is [`Self::against`] an amplitude: one that nothing limits says nothing.
+    pub fn of_motion(
+        self,
+        motion: &Motion,
+        peak: Value,
+        against: f64,
+        units: &Units,
+    ) -> Option<[f64; 2]> {
+        let facts = motion.facts();
+        let pair = |of: Value| [of.value, of.error];
+        let value = match self {
+            Self::Peak => pair(peak),
+            Self::Rms => pair(facts.rms),
+            Self::ReductionDb | Self::ReductionDbTmd if against.is_finite() => {
+                reduction(pair(peak), against)
+            }
+            Self::ImpactSpeed => pair(facts.impact_speed),
+            Self::ImpactsPerPeriod => pair(facts.impacts_per_period),
+            Self::Efficiency => pair(facts.efficiency?),
+            _ => return None,
+        };
+        let dimension = self.kind(Device::Absorber)?.dimension;
+        Some(value.map(|one| units.number(dimension, one)))
+    }
+}

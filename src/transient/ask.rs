@@ -1,0 +1,153 @@
+//! What becomes of a structure that is not driven steadily, asked measure by measure: criteria, sweeps, optima and pages
+//! read this and nothing else.
+
+use std::f64::consts::TAU;
+
+use super::record_study::over_records;
+use super::{Measured, Run, Runs, Study};
+use crate::linear::reduction;
+use crate::measure::{Device, Measure};
+use crate::method::Method;
+use crate::quantity::{Quantity, Units};
+
+/// A value with its error, dimensionless, and the layer that it is from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked {
+    /// Lengths over the clearance, fast time; and how much worse other places of the absorber may be, or twice the
+    /// standard error of the mean over records; NaN where nobody knows.
+    pub value: Measured,
+    /// The layer.
+    pub method: Method,
+}
+
+/// What is compared under one condition: a record, or the only release or sweep.
+struct Condition<'a> {
+    largest: &'a dyn Fn(Measure) -> Option<Measured>,
+    without: &'a dyn Run,
+    damper: &'a dyn Run,
+}
+
+/// The structure alone on its way to rest: oscillations in closed form.
+struct Alone(f64);
+
+impl Run for Alone {
+    fn get(&self, of: Measure) -> Option<f64> {
+        (of == Measure::DecayTime).then_some(self.0)
+    }
+}
+
+impl Condition<'_> {
+    /// With the absorber the largest from any place that counts; a reduction is that of the largest displacement.
+    fn ask(&self, of: Measure, by: Device) -> Option<Measured> {
+        let linear = |by: Device| if by == Device::Damper { self.damper } else { self.without };
+        match (by, of.against()) {
+            (Device::Absorber, Some(other)) => {
+                let against = linear(other).get(Measure::Peak)?;
+                (self.largest)(Measure::Peak).map(|peak| reduction(peak, against))
+            }
+            (Device::Absorber, None) => (self.largest)(of),
+            _ => linear(by).get(of).map(|value| [value, 0.0]),
+        }
+    }
+}
+
+impl Study {
+    /// Records that drive the structure; 0 where none does.
+    pub fn records(&self) -> usize {
+        match self {
+            Self::Record(study) => study.realisations.len(),
+            _ => 0,
+        }
+    }
+
+    /// By which the worst place of the absorber is told.
+    pub const fn objective(&self) -> Measure {
+        match self {
+            Self::Release(_) => Measure::DecayTime,
+            Self::Sweep(_) | Self::Record(_) => Measure::Peak,
+        }
+    }
+
+    /// What is known of a measure; none where it says nothing, or nothing was simulated.
+    pub fn ask(&self, of: Measure, by: Device) -> Option<Asked> {
+        let time = |[value, error]: Measured| [TAU * value, TAU * error];
+        let exact = |value: f64| Some(Asked { value: [value, 0.0], method: Method::ClosedForm });
+        let value = match (self, by, of) {
+            (Self::Release(study), Device::Absorber, Measure::DecayTime) => {
+                study.worst()?;
+                let found = study.decay();
+                let method = if found.inactive { Method::ClosedForm } else { Method::Simulation };
+                return Some(Asked { value: time(found.oscillations), method });
+            }
+            (Self::Release(study), _, Measure::TheoryDecayTime) => {
+                let theory = &study.predicted;
+                // Of first order in the mass ratio, and more below the end of capture: nobody knows how much.
+                let value = [TAU * theory.oscillations?, f64::NAN];
+                return Some(Asked { value, method: theory.method });
+            }
+            (Self::Release(study), _, Measure::InactiveShare) => {
+                return exact(study.inactive.share);
+            }
+            // Of the worst place, under the first record.
+            (
+                _,
+                Device::Absorber,
+                Measure::PeakFrequency | Measure::Impacts | Measure::ImpactEnergyShare,
+            ) => [self.of_worst(of)?, 0.0],
+            _ => over_records(&self.conditions(&|condition| condition.ask(of, by))?),
+        };
+        let method = if by == Device::Absorber { Method::Simulation } else { Method::ClosedForm };
+        let value = if of == Measure::DecayTime { time(value) } else { value };
+        Some(Asked { value, method })
+    }
+
+    /// The same in SI, or in the units of a reduced case.
+    pub fn quantity(&self, units: &Units, of: Measure, by: Device) -> Option<Quantity> {
+        let Asked { value, method } = self.ask(of, by)?;
+        let kind = match by {
+            Device::Absorber => of.kind_under(self.records()),
+            _ => of.kind(by),
+        };
+        Some(units.quantity_with(kind?, value, method))
+    }
+
+    fn of_worst(&self, of: Measure) -> Option<f64> {
+        fn worst<R: Run>(runs: &Runs<R>, of: Measure, by: Measure) -> Option<f64> {
+            runs.worst(by)?.1.get(of)
+        }
+        let by = self.objective();
+        match self {
+            Self::Release(study) => worst(&study.starts, of, by),
+            Self::Sweep(study) => worst(&study.starts, of, by),
+            Self::Record(study) => worst(&study.realisations.first()?.places, of, by),
+        }
+    }
+
+    /// What each condition says.
+    fn conditions(
+        &self,
+        asked: &dyn Fn(&Condition<'_>) -> Option<Measured>,
+    ) -> Option<Vec<Measured>> {
+        let only = |runs: &dyn Fn(Measure) -> Option<Measured>,
+                    [without, damper]: [&dyn Run; 2]| {
+            asked(&Condition { largest: runs, without, damper })
+        };
+        match self {
+            Self::Release(study) => {
+                let largest = |of| study.starts.largest(of);
+                only(&largest, [&Alone(study.bare), &study.damped.1]).map(|one| vec![one])
+            }
+            Self::Sweep(study) => {
+                let largest = |of| study.starts.largest(of);
+                only(&largest, [&study.alone, &study.damped.1]).map(|one| vec![one])
+            }
+            Self::Record(study) => {
+                let each = study.realisations.iter().map(|one| {
+                    let largest = |of| one.places.largest(of);
+                    only(&largest, [&one.bare, &one.damped])
+                });
+                each.collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Runs of one structure from many places of its absorber, and what of them counts.
+
+use crate::flights::{Passage, Response, worst_of_places};
+use crate::linear::Linear;
+use crate::measure::Measure;
+
+use super::{Decay, Measured};
+
+/// One run, with the absorber, a damper or neither. Lengths over the clearance, times in oscillations of the structure.
+pub trait Run {
+    /// What it has of a measure; none where it has no such number.
+    fn get(&self, of: Measure) -> Option<f64>;
+
+    /// Whether the absorber hits a wall in it.
+    fn wakes(&self) -> bool {
+        true
+    }
+}
+
+/// The relative displacement of the absorber at each start, and what happened, in the order in which they were flown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Runs<R> {
+    /// All of them.
+    pub all: Vec<(f64, R)>,
+    /// How many of the first are at even places.
+    pub even: u64,
+    /// Whether those count in which the absorber never hits a wall, beside those in which it does.
+    pub count_inactive: bool,
+}
+
+impl<R: Run> Runs<R> {
+    /// Those that count: any, where the absorber hits a wall in none.
+    pub fn counting(&self) -> Vec<&(f64, R)> {
+        let counts = |one: &&(f64, R)| self.count_inactive || one.1.wakes();
+        let some: Vec<&(f64, R)> = self.all.iter().filter(counts).collect();
+        if some.is_empty() { self.all.iter().collect() } else { some }
+    }
+
+    fn values(&self, of: Measure) -> Option<Vec<f64>> {
+        let values: Option<Vec<f64>> =
+            self.counting().into_iter().map(|(_, run)| run.get(of)).collect();
+        values.filter(|values| !values.is_empty())
+    }
+
+    /// The largest, and by how much those of other places may exceed it.
+    pub fn largest(&self, of: Measure) -> Option<Measured> {
+        self.values(of).map(|values| worst_of_places(&values))
+    }
+
+    /// The least.
+    pub fn least(&self, of: Measure) -> Option<f64> {
+        self.values(of)?.into_iter().min_by(f64::total_cmp)
+    }
+
+    /// The run with the largest value.
+    pub fn worst(&self, of: Measure) -> Option<&(f64, R)> {
+        let value = |one: &(f64, R)| one.1.get(of).unwrap_or(f64::NEG_INFINITY);
+        self.counting().into_iter().max_by(|a, b| value(a).total_cmp(&value(b)))
+    }
+
+    /// From the largest value on, whether they count or not.
+    pub fn sorted(&self, of: Measure) -> Vec<&(f64, R)> {
+        let mut all: Vec<&(f64, R)> = self.all.iter().collect();
+        let value = |one: &(f64, R)| one.1.get(of).unwrap_or(f64::NEG_INFINITY);
+        all.sort_by(|a, b| value(b).total_cmp(&value(a)));
+        all
+    }
+
+    /// By the place of the absorber.
+    pub fn by_place(&self) -> Vec<&(f64, R)> {
+        let mut all: Vec<&(f64, R)> = self.all.iter().collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all
+    }
+}
+
+impl Run for Decay {
+    fn get(&self, of: Measure) -> Option<f64> {
+        Some(match of {
+            Measure::DecayTime => self.oscillations,
+            Measure::Peak => self.peak,
+            Measure::ImpactSpeed => self.impact_speed,
+            Measure::Impacts => self.impacts as f64,
+            Measure::ImpactEnergyShare => self.impact_share,
+            _ => return None,
+        })
+    }
+
+    fn wakes(&self) -> bool {
+        self.wakes
+    }
+}
+
+impl Run for Linear {
+    fn get(&self, of: Measure) -> Option<f64> {
+        match of {
+            Measure::DecayTime => Some(self.settles),
+            Measure::Stroke => Some(self.stroke),
+            _ => None,
+        }
+    }
+}
+
+impl Run for Passage {
+    fn get(&self, of: Measure) -> Option<f64> {
+        Some(match of {
+            Measure::Peak => self.peak()[1],
+            Measure::PeakFrequency => self.peak()[0],
+            Measure::ImpactSpeed => self.impact_speed,
+            Measure::Impacts => self.impacts as f64,
+            Measure::Stroke => self.stroke,
+            _ => return None,
+        })
+    }
+
+    fn wakes(&self) -> bool {
+        self.impacts > 0
+    }
+}
+
+impl Run for Response {
+    fn get(&self, of: Measure) -> Option<f64> {
+        Some(match of {
+            Measure::Peak => self.peak,
+            Measure::Rms => self.rms,
+            Measure::ImpactSpeed => self.impact_speed,
+            Measure::Impacts => self.impacts as f64,
+            Measure::ImpactEnergyShare => self.impact_loss / self.work,
+            Measure::Stroke => self.stroke,
+            _ => return None,
+        })
+    }
+
+    fn wakes(&self) -> bool {
+        self.impacts > 0
+    }
+}
