@@ -61,7 +61,7 @@ pub struct FreeDecay {
 
 /// A stretch of the stable branch, by `beta = B/b` at its ends.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct BranchStretch {
     ratios: [f64; 2],
     rates: [f64; 2],
     arctangent: f64,
@@ -96,7 +96,7 @@ impl FreeDecay {
     /// Slow time `tau_1 = eps tau` from one amplitude `C/b` down to another. None where one of them is not on the
     /// stable branch or the first is the smaller; infinite where nothing takes energy.
     pub fn time(&self, from: f64, to: f64) -> Option<f64> {
-        let Stretch { rates: [before, after], arctangent, .. } = self.stretch(from, to)?;
+        let BranchStretch { rates: [before, after], arctangent, .. } = self.stretch(from, to)?;
         let (curvature, impacts) = (self.manifold.curvature, self.impact_coefficient);
         if self.rate_coefficient == 0.0 {
             return Some(if from == to { 0.0 } else { f64::INFINITY });
@@ -148,7 +148,7 @@ impl FreeDecay {
         Some(EnergyShares { impacts, damper: 1.0 - residual - impacts, residual })
     }
 
-    fn stretch(&self, from: f64, to: f64) -> Option<Stretch> {
+    fn stretch(&self, from: f64, to: f64) -> Option<BranchStretch> {
         let within = to >= self.residual_amplitude() && to <= from;
         let within = within && from <= self.largest_amplitude();
         // Rounding may put the fold below itself.
@@ -166,6 +166,6 @@ impl FreeDecay {
             ARCTANGENT.at([lambda, rate, root, ratios[0], ratios[1]])
         };
         let rates = ratios.map(|ratio| DECAY_RATE.at([lambda, rate, ratio]));
-        within.then_some(Stretch { ratios, rates, arctangent })
+        within.then_some(BranchStretch { ratios, rates, arctangent })
     }
 }

@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::CavityTheory;
-use super::motion::{Motion, Shape};
+use super::motion::{Motion, MotionShape};
 use crate::equations::cavity::{DETERMINANT, DOUBLING, GRAZING, TRACE, TURNING, WALL_1, WALL_2};
 use crate::numerics::bracket::brent;
 
@@ -40,7 +40,7 @@ impl AsymmetricLimits {
     /// ```
     pub fn of(restitution: f64) -> Self {
         let cavity = CavityTheory::valid(0.0, 0.0, [restitution; 2]);
-        let end = |condition: fn(f64, &Shape, [f64; 2]) -> f64| {
+        let end = |condition: fn(f64, &MotionShape, [f64; 2]) -> f64| {
             let at = |nu: f64| cavity.asymmetric(nu);
             let f = |nu: f64| {
                 let shape = at(nu);
@@ -55,7 +55,7 @@ impl AsymmetricLimits {
 }
 
 /// Above 0 while no multiplier is below -1.
-fn doubling(r: f64, shape: &Shape, [u1, u2]: [f64; 2]) -> f64 {
+fn doubling(r: f64, shape: &MotionShape, [u1, u2]: [f64; 2]) -> f64 {
     let ([[x1, v1], [x2, v2]], [t1, t2]) = (shape.at_impacts(), shape.times);
     let walls = [WALL_1.at([r, x1, v1, u2]), WALL_2.at([r, x2, v2, u1])];
     DOUBLING.at([TRACE.at([r, t1, t2, walls[0], walls[1]]), DETERMINANT.at([r])])
@@ -63,7 +63,7 @@ fn doubling(r: f64, shape: &Shape, [u1, u2]: [f64; 2]) -> f64 {
 
 /// Above 0 where the absorber crosses the wall that it left before it flies to the other one. Where it does not turn, at
 /// small `nu`, its slowest place counts.
-fn grazing(_: f64, shape: &Shape, [u1, _]: [f64; 2]) -> f64 {
+fn grazing(_: f64, shape: &MotionShape, [u1, _]: [f64; 2]) -> f64 {
     let ([[x1, _], _], [in_phase, quadrature]) = (shape.at_impacts(), shape.parts);
     let turning = TURNING.at([shape.amplitude.max(u1), u1]);
     GRAZING.at([in_phase, quadrature, shape.times[0], u1, x1, turning])

@@ -8,7 +8,7 @@
 //! `r_1^2 r_2^2`.
 
 use super::CavityTheory;
-use super::motion::Shape;
+use super::motion::MotionShape;
 use crate::operation_count;
 
 /// By phase and velocity.
@@ -17,7 +17,7 @@ type Matrix = [[f64; 2]; 2];
 /// Trace and determinant over a cycle, from after the first impact; `velocities` are the absorber's after the impacts.
 pub(super) fn trace_and_determinant(
     cavity: &CavityTheory,
-    shape: &Shape,
+    shape: &MotionShape,
     [u1, u2]: [f64; 2],
 ) -> [f64; 2] {
     let (a, f, [r1, r2]) = (cavity.acceleration, cavity.friction, cavity.restitutions);

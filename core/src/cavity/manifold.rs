@@ -12,7 +12,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::CavityTheory;
-use super::motion::{Motion, Shape};
+use super::motion::{Motion, MotionShape};
 use crate::equations::cavity::IN_PHASE;
 use crate::numerics::bracket::bisected;
 use crate::numerics::scan::sign_changes;
@@ -32,14 +32,14 @@ const DENSITY: f64 = 24.0;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A stretch of the manifold, by a parameter from 0 to 1.
-enum Stretch {
+enum ManifoldStretch {
     /// `nu = nu_0`.
     Line(f64),
     /// `nu_0`, and the signed distances from it at both ends.
     Side(f64, [f64; 2]),
 }
 
-impl Stretch {
+impl ManifoldStretch {
     /// `nu` and `c_c`.
     fn place(&self, cavity: &CavityTheory, part: f64) -> [f64; 2] {
         match *self {
@@ -73,7 +73,7 @@ impl CavityTheory {
     }
 
     /// All motions at which `f` changes its sign, by ascending absorber amplitude.
-    pub(super) fn motions_where(&self, f: impl Fn(&Shape) -> f64) -> Vec<Motion> {
+    pub(super) fn motions_where(&self, f: impl Fn(&MotionShape) -> f64) -> Vec<Motion> {
         let mut found = Vec::new();
         for stretch in self.stretches() {
             let shape = |part: f64| {
@@ -81,14 +81,14 @@ impl CavityTheory {
                 self.shape(nu, in_phase)
             };
             let roots = sign_changes([0.0, 1.0], stretch.places(), |part| f(&shape(part)));
-            let motions = roots.into_iter().map(shape).filter(Shape::is_motion);
+            let motions = roots.into_iter().map(shape).filter(MotionShape::is_motion);
             found.extend(motions.map(|shape| self.complete(&shape)));
         }
         found.sort_by(|a, b| a.absorber_amplitude.total_cmp(&b.absorber_amplitude));
         found
     }
 
-    fn stretches(&self) -> Vec<Stretch> {
+    fn stretches(&self) -> Vec<ManifoldStretch> {
         let end = FRAC_PI_2 - MARGIN;
         // `d_c` over the cosine grows with `nu`, from below 0 to above.
         let factor = |nu: f64| self.equation(nu)[1];
@@ -103,8 +103,8 @@ impl CavityTheory {
         let nearest = nearest.max(f64::MIN_POSITIVE);
         let sides = [-1.0, 1.0].into_iter().filter_map(|sign| {
             let range = [sign * nearest, sign * end - zero];
-            (range[1] / range[0] > 1.0).then_some(Stretch::Side(zero, range))
+            (range[1] / range[0] > 1.0).then_some(ManifoldStretch::Side(zero, range))
         });
-        symmetric.then_some(Stretch::Line(zero)).into_iter().chain(sides).collect()
+        symmetric.then_some(ManifoldStretch::Line(zero)).into_iter().chain(sides).collect()
     }
 }

@@ -56,7 +56,7 @@ pub struct Motion {
 
 /// What a motion is made of, by `nu` and `c_c`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Shape {
+pub(super) struct MotionShape {
     pub(super) nu: f64,
     pub(super) times: [f64; 2],
     drift: f64,
@@ -70,8 +70,8 @@ pub(super) struct Shape {
     pub(super) forces: [f64; 2],
 }
 
-/// Changes of parts of a [`Shape`] along the manifold.
-pub(super) struct Direction {
+/// Changes of parts of a [`MotionShape`] along the manifold.
+pub(super) struct ShapeChange {
     parts: [f64; 2],
     impulse: f64,
     contact: f64,
@@ -92,7 +92,7 @@ impl CavityTheory {
     }
 
     /// What a motion is made of whose flights differ.
-    pub(super) fn asymmetric(&self, nu: f64) -> Shape {
+    pub(super) fn asymmetric(&self, nu: f64) -> MotionShape {
         self.shape(nu, IN_PHASE.at(self.equation(nu)))
     }
 
@@ -115,7 +115,7 @@ impl CavityTheory {
     }
 
     /// The motion with `nu` and `c_c`, which satisfy the equation of `c_c`.
-    pub(super) fn shape(&self, nu: f64, in_phase: f64) -> Shape {
+    pub(super) fn shape(&self, nu: f64, in_phase: f64) -> MotionShape {
         let (a, f, [mean, difference]) = (self.acceleration, self.friction, self.ratios);
         let [t1, t2] = [TIME_1.at([nu]), TIME_2.at([nu])];
         let absorber = ABSORBER.at([nu, in_phase]);
@@ -125,7 +125,7 @@ impl CavityTheory {
         let impulse = IMPULSE.at([nu, t1, t2, absorber]);
         let contact = CONTACT.at([f, nu, drift]);
         let given = [in_phase, quadrature, amplitude, impulse, contact];
-        Shape {
+        MotionShape {
             nu,
             times: [t1, t2],
             drift,
@@ -139,12 +139,12 @@ impl CavityTheory {
     }
 
     /// Velocities of the absorber after the two impacts.
-    pub(super) fn velocities(&self, shape: &Shape) -> [f64; 2] {
+    pub(super) fn velocities(&self, shape: &MotionShape) -> [f64; 2] {
         let (a, f, [t1, t2]) = (self.acceleration, self.friction, shape.times);
         [VELOCITY_1.at([a, f, t1, shape.absorber]), VELOCITY_2.at([a, f, t2, shape.absorber])]
     }
 
-    pub(super) fn complete(&self, shape: &Shape) -> Motion {
+    pub(super) fn complete(&self, shape: &MotionShape) -> Motion {
         operation_count::note(50 + 2 * operation_count::ELEMENTARY);
         let velocities = self.velocities(shape);
         let [trace, determinant] = trace_and_determinant(self, shape, velocities);
@@ -167,10 +167,10 @@ impl CavityTheory {
     }
 
     /// The direction of the manifold `d_c(nu) c_c = n_c(nu)`: `d nu = d_c`, `d c_c = n_c' - c_c d_c'`.
-    pub(super) fn direction(&self, shape: &Shape) -> Direction {
+    pub(super) fn direction(&self, shape: &MotionShape) -> ShapeChange {
         operation_count::note(60 + operation_count::ELEMENTARY);
         let (a, f, [mean, difference]) = (self.acceleration, self.friction, self.ratios);
-        let Shape { nu, times: [t1, t2], absorber, parts: [p, q], .. } = *shape;
+        let MotionShape { nu, times: [t1, t2], absorber, parts: [p, q], .. } = *shape;
         let (sine, cosine) = libm::sincos(nu);
         let product = t1 * t2;
         let side = 4.0 - mean * f * product - 8.0 * nu * mean * (0.5 * PI * a - f * nu);
@@ -184,7 +184,7 @@ impl CavityTheory {
         let d_impulse = 8.0 * PI * (d_ratio * cosine - absorber * sine * d_nu / product);
         let d_contact = -shape.drift * cosine * d_nu;
         let d_amplitude = (p * dp + q * dq) / shape.amplitude;
-        Direction {
+        ShapeChange {
             parts: [dp, dq],
             impulse: d_impulse,
             contact: d_contact,
@@ -193,7 +193,7 @@ impl CavityTheory {
     }
 
     /// Derivatives of `S` and `K` by `C` along the manifold.
-    fn slopes(&self, shape: &Shape) -> [f64; 2] {
+    fn slopes(&self, shape: &MotionShape) -> [f64; 2] {
         let (d, c) = (self.direction(shape), shape.amplitude);
         let ([p, q], [dp, dq]) = (shape.parts, d.parts);
         let (m, n) = (shape.impulse, shape.contact);
@@ -203,12 +203,12 @@ impl CavityTheory {
         [slope(0, d_resistance), slope(1, d_reactance)]
     }
 
-    fn is_admissible(&self, shape: &Shape, [u1, u2]: [f64; 2]) -> bool {
+    fn is_admissible(&self, shape: &MotionShape, [u1, u2]: [f64; 2]) -> bool {
         let (a, f, [t1, t2]) = (self.acceleration, self.friction, shape.times);
         let hits = u1 > u2 + (a + f) * t2 && u2 < u1 + (a - f) * t1;
-        let first = Flight { velocity: u1, acceleration: a - f, time: t1, from: 1.0 };
-        let second = Flight { velocity: u2, acceleration: a + f, time: t2, from: -1.0 };
-        let stays = |flight: &Flight| {
+        let first = Crossing { velocity: u1, acceleration: a - f, time: t1, from: 1.0 };
+        let second = Crossing { velocity: u2, acceleration: a + f, time: t2, from: -1.0 };
+        let stays = |flight: &Crossing| {
             let [slowest, largest] = flight.extremes(shape);
             largest <= 1.0 + ROUNDING && (f == 0.0 || slowest >= -ROUNDING)
         };
@@ -216,7 +216,7 @@ impl CavityTheory {
     }
 }
 
-impl Shape {
+impl MotionShape {
     /// Whether the absorber goes from wall to wall: numbers out of range do not.
     pub(super) fn is_motion(&self) -> bool {
         self.absorber > 0.0 && self.amplitude > 0.0 && self.amplitude.is_finite()
@@ -231,16 +231,16 @@ impl Shape {
 }
 
 /// A flight from the wall `w = from` to the other one.
-struct Flight {
+struct Crossing {
     velocity: f64,
     acceleration: f64,
     time: f64,
     from: f64,
 }
 
-impl Flight {
+impl Crossing {
     /// Smallest relative velocity towards the other wall, and largest `abs(w)`.
-    fn extremes(&self, shape: &Shape) -> [f64; 2] {
+    fn extremes(&self, shape: &MotionShape) -> [f64; 2] {
         let start = shape.at_impacts()[usize::from(self.from < 0.0)];
         let relative = |t: f64| {
             operation_count::note(20 + 2 * operation_count::ELEMENTARY);

@@ -69,7 +69,7 @@ impl DissipationCurve {
             return Self { restitution, branches: vec![at_rest(), closed], depends_on_start };
         }
         let steps = ((to - from) / STEP).ceil() as usize;
-        let mut search = Search {
+        let mut search = CurveSearch {
             restitution,
             amplitudes: (0..=steps).map(|k| from + STEP * k as f64).collect(),
             known: vec![Vec::new(); steps + 1],
@@ -150,7 +150,7 @@ pub(super) fn symmetric_forces(
 }
 
 /// Motions at even amplitudes.
-struct Search {
+struct CurveSearch {
     restitution: f64,
     amplitudes: Vec<f64>,
     known: Vec<Vec<Point>>,
@@ -158,7 +158,7 @@ struct Search {
     seen: Vec<Vec<[f64; 2]>>,
 }
 
-impl Search {
+impl CurveSearch {
     /// The motion that a state leads to at an amplitude: what is carried on, and whether it is a new one. None
     /// where the absorber comes to rest.
     fn visit(&mut self, at: usize, state: [f64; 2]) -> Option<([f64; 2], bool)> {

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::curve::symmetric_forces;
-use super::recapture::{Place, Recapture};
+use super::recapture::{Recapture, Uncaptured};
 use crate::equations::dissipation::{COSINE_RATE, SINE_RATE};
 use crate::numerics::scatter::twice_standard_error;
 use crate::operation_count;
@@ -58,7 +58,7 @@ impl ModulatedCycle {
     /// That of a system; none where the flow settles before it is captured, where every capture lasts, or where it leaves
     /// the range of [`Recapture`].
     pub fn of(system: &System, recapture: &Recapture) -> Option<Self> {
-        let cycles = |places: &[Place]| Walk { system, recapture, places }.cycles();
+        let cycles = |places: &[Uncaptured]| Walk { system, recapture, places }.cycles();
         let (found, count) = cycles(&recapture.places)?;
         let groups = recapture.groups.iter().filter_map(|places| cycles(places));
         let rms: Vec<f64> = groups.map(|(one, _)| one.rms()).collect();
@@ -81,12 +81,12 @@ impl ModulatedCycle {
 struct Walk<'a> {
     system: &'a System,
     recapture: &'a Recapture,
-    places: &'a [Place],
+    places: &'a [Uncaptured],
 }
 
 /// Sums over slow time.
 #[derive(Clone, Copy)]
-struct Sums {
+struct CycleSums {
     range: [f64; 2],
     /// Of the amplitude since the last capture, and where it was largest.
     variance: f64,
@@ -97,7 +97,7 @@ struct Sums {
     time: f64,
 }
 
-impl Sums {
+impl CycleSums {
     const NONE: Self = Self {
         range: [f64::INFINITY, 0.0],
         variance: 0.0,
@@ -113,7 +113,7 @@ impl Sums {
     }
 
     /// Adds a step at an amplitude `c` with what the absorber does there.
-    fn add(&mut self, step: f64, place: &Place, c: f64, mass_ratio: f64, captured: bool) {
+    fn add(&mut self, step: f64, place: &Uncaptured, c: f64, mass_ratio: f64, captured: bool) {
         let [resistance, reactance] = place.forces;
         // The oscillator's displacement is v - eps y.
         let [sine, cosine] = [c + mass_ratio * reactance, mass_ratio * resistance];
@@ -132,9 +132,9 @@ impl Sums {
 
 impl Walk<'_> {
     /// Cycles after cycles, the first left out; and how many of the captures do not last.
-    fn cycles(&self) -> Option<(Sums, u32)> {
+    fn cycles(&self) -> Option<(CycleSums, u32)> {
         let fold = self.recapture.manifold.fold.oscillator_amplitude;
-        let (mut sums, mut count) = (Sums::NONE, 0);
+        let (mut sums, mut count) = (CycleSums::NONE, 0);
         let mut z = [fold, 0.0];
         for k in 0..=CAPTURES {
             let before = sums;
@@ -146,14 +146,14 @@ impl Walk<'_> {
                 None => (z, sums) = ([fold, 0.0], before),
             }
             if k == 0 {
-                (sums, count) = (Sums::NONE, 0);
+                (sums, count) = (CycleSums::NONE, 0);
             }
         }
         (count > 0).then_some((sums, count))
     }
 
     /// Free of the stable branch until so many captures are expected since it was above the fold.
-    fn free(&self, mut z: [f64; 2], expected: f64, sums: &mut Sums) -> Option<[f64; 2]> {
+    fn free(&self, mut z: [f64; 2], expected: f64, sums: &mut CycleSums) -> Option<[f64; 2]> {
         let fold = self.recapture.manifold.fold.oscillator_amplitude;
         let cycle = TAU * self.system.mass_ratio();
         let mut waited = 0.0;
@@ -172,7 +172,7 @@ impl Walk<'_> {
     }
 
     /// On the stable branch down to the fold, and where it leaves there; nothing where it stays.
-    fn captured(&self, mut z: [f64; 2], sums: &mut Sums) -> Option<Option<[f64; 2]>> {
+    fn captured(&self, mut z: [f64; 2], sums: &mut CycleSums) -> Option<Option<[f64; 2]>> {
         let fold = self.recapture.manifold.fold.oscillator_amplitude;
         for _ in 0..SETTLED {
             let c = libm::hypot(z[0], z[1]);
@@ -192,7 +192,7 @@ impl Walk<'_> {
     }
 
     /// What the absorber does at an amplitude, on the stable branch or free of it. None where neither is known.
-    fn place(&self, amplitude: f64, captured: bool) -> Option<Place> {
+    fn place(&self, amplitude: f64, captured: bool) -> Option<Uncaptured> {
         let manifold = &self.recapture.manifold;
         if !captured {
             return Recapture::at(self.places, amplitude);
@@ -204,18 +204,18 @@ impl Walk<'_> {
         let amplitude = amplitude.max(fold.oscillator_amplitude);
         let known = amplitude <= self.recapture.largest_captured;
         let forces = symmetric_forces(manifold, amplitude, ratio, ratio - 1.0);
-        known.then_some(Place { amplitude, forces, scatter: 0.0, rate: 0.0, impacts: 2.0 })
+        known.then_some(Uncaptured { amplitude, forces, scatter: 0.0, rate: 0.0, impacts: 2.0 })
     }
 
     /// The step by the rates that are there.
-    fn step(&self, c: f64, place: &Place) -> f64 {
+    fn step(&self, c: f64, place: &Uncaptured) -> f64 {
         let [resistance, reactance] = place.forces;
         let forces = self.system.forcing_per_clearance() + resistance.abs() + reactance.abs();
         let own = self.system.damping() + 2.0 * self.system.detuning().abs();
         2.0 * LARGEST_STEP / (own + forces / c.max(f64::MIN_POSITIVE))
     }
 
-    fn rates(&self, [cosine, sine]: [f64; 2], place: &Place) -> [f64; 2] {
+    fn rates(&self, [cosine, sine]: [f64; 2], place: &Uncaptured) -> [f64; 2] {
         operation_count::note(4);
         let (lambda, sigma) = (self.system.damping(), self.system.detuning());
         let gamma = self.system.forcing_per_clearance();
@@ -228,7 +228,13 @@ impl Walk<'_> {
     }
 
     /// A step of the midpoint rule.
-    fn moved(&self, z: [f64; 2], step: f64, captured: bool, place: &Place) -> Option<[f64; 2]> {
+    fn moved(
+        &self,
+        z: [f64; 2],
+        step: f64,
+        captured: bool,
+        place: &Uncaptured,
+    ) -> Option<[f64; 2]> {
         let by = |rates: [f64; 2], step: f64| [0, 1].map(|k| z[k] + step * rates[k]);
         let middle = by(self.rates(z, place), 0.5 * step);
         let there = self.place(libm::hypot(middle[0], middle[1]), captured)?;

@@ -33,7 +33,7 @@ pub(super) const GROUPS: usize = 4;
 
 /// What the absorber does at one amplitude while it is not captured.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct Uncaptured {
     /// `C/b`.
     pub amplitude: f64,
     /// `S` and `K`.
@@ -53,14 +53,14 @@ pub struct Recapture {
     /// Largest amplitude of the motion that captures it.
     pub(super) largest_captured: f64,
     /// By ascending amplitude, of all starts.
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<Uncaptured>,
     /// Of a part of the starts each.
-    pub(super) groups: Vec<Vec<Place>>,
+    pub(super) groups: Vec<Vec<Uncaptured>>,
 }
 
 /// What several starts did before they were captured.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
+struct StartSums {
     forces: [f64; 2],
     /// Of the squares of each start's means, times its periods; and of starts.
     squares: f64,
@@ -84,7 +84,7 @@ impl Recapture {
         let mut places = Vec::new();
         let mut groups = vec![Vec::new(); GROUPS];
         for amplitude in amplitudes {
-            let mut sums = [Sums::default(); GROUPS];
+            let mut sums = [StartSums::default(); GROUPS];
             for (k, [w, speed]) in starts.iter().enumerate() {
                 let start = [*w, speed * amplitude / fold];
                 sums[k % GROUPS].add(&records(restitution, amplitude, start)?, amplitude > fold);
@@ -93,14 +93,14 @@ impl Recapture {
                 .iter_mut()
                 .zip(&sums)
                 .for_each(|(group, sums)| group.push(sums.place(amplitude)));
-            places.push(Sums::total(&sums).place(amplitude));
+            places.push(StartSums::total(&sums).place(amplitude));
         }
         let largest_captured = manifold.largest_stable_motion();
         Some(Self { manifold, largest_captured, places, groups })
     }
 
     /// At a table's amplitude or between, linear; below the smallest as there. None above the largest.
-    pub(super) fn at(places: &[Place], amplitude: f64) -> Option<Place> {
+    pub(super) fn at(places: &[Uncaptured], amplitude: f64) -> Option<Uncaptured> {
         let after = places.partition_point(|place| place.amplitude < amplitude);
         let to = places.get(after)?;
         let Some(from) = after.checked_sub(1).map(|before| &places[before]) else {
@@ -108,7 +108,7 @@ impl Recapture {
         };
         let part = (amplitude - from.amplitude) / (to.amplitude - from.amplitude);
         let between = |from: f64, to: f64| from * (1.0 - part) + to * part;
-        Some(Place {
+        Some(Uncaptured {
             amplitude,
             forces: [0, 1].map(|k| between(from.forces[k], to.forces[k])),
             scatter: between(from.scatter, to.scatter),
@@ -120,14 +120,14 @@ impl Recapture {
     /// Captures per period of the oscillator at an amplitude `C/b`, and twice the standard error of that; none above one
     /// clearance.
     pub fn rate(&self, amplitude: f64) -> Option<[f64; 2]> {
-        let rate = |places: &[Place]| Self::at(places, amplitude).map(|place| place.rate);
+        let rate = |places: &[Uncaptured]| Self::at(places, amplitude).map(|place| place.rate);
         let of_groups = self.groups.iter().map(|places| rate(places));
         let of_groups: Option<Vec<f64>> = of_groups.collect();
         Some([rate(&self.places)?, twice_standard_error(&of_groups?)])
     }
 }
 
-impl Sums {
+impl StartSums {
     /// Adds what a start did until it was captured, if anything captures it.
     fn add(&mut self, records: &[PeriodRecord], captures: bool) {
         let free = if captures {
@@ -158,12 +158,12 @@ impl Sums {
         })
     }
 
-    fn place(&self, amplitude: f64) -> Place {
+    fn place(&self, amplitude: f64) -> Uncaptured {
         // Where all are captured at once there is nothing to average.
         let periods = self.periods.max(1.0);
         let [s, k] = self.forces;
         let between = self.squares - (s * s + k * k) / periods;
-        Place {
+        Uncaptured {
             scatter: between.max(0.0) / (self.starts - 1.0).max(1.0),
             amplitude,
             forces: self.forces.map(|sum| sum / periods),

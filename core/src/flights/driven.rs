@@ -44,14 +44,14 @@ pub enum DrivenError {
 }
 
 /// From what is seen from the base to what the unforced system does in a piece.
-struct Frame {
+struct BaseFrame {
     shift: f64,
     slope: f64,
     /// Acceleration of the base at the beginning of the piece, and its slope.
     base: [f64; 2],
 }
 
-impl Frame {
+impl BaseFrame {
     fn of(piece: &Piece, damping: f64) -> Self {
         let (h, [force, slope]) = (piece.duration, piece.force);
         if !piece.shakes {
@@ -91,16 +91,16 @@ impl Frame {
 }
 
 /// Hears of the unforced system, and measures what is seen from the base.
-struct Log<'a> {
+struct ResponseLog<'a> {
     meter: &'a mut Meter,
     piece: Piece,
-    frame: Frame,
+    frame: BaseFrame,
     /// Where the motion was measured last: time in the piece, and what was seen from the base.
     last: (f64, State),
     told: &'a mut dyn FnMut(&Impact),
 }
 
-impl Log<'_> {
+impl ResponseLog<'_> {
     fn seen(&mut self, s: f64, state: &State) -> State {
         let now = self.frame.leave(s, state);
         self.meter.moved(&self.piece, [self.last.0, s], [&self.last.1, &now]);
@@ -108,7 +108,7 @@ impl Log<'_> {
     }
 }
 
-impl Observer for Log<'_> {
+impl Observer for ResponseLog<'_> {
     fn detail(&self) -> Detail {
         Detail::Events
     }
@@ -168,11 +168,12 @@ pub fn follow_from(
     for piece in pieces {
         meter.jump(piece, &mut state);
         let free = unforced(system, piece.duration)?;
-        let frame = Frame::of(piece, damping);
+        let frame = BaseFrame::of(piece, damping);
         farthest = farthest.max(frame.shift.abs());
         let mut simulation = Simulation::new(&free, frame.enter(&state), 0.0)?;
         let last = (0.0, state);
-        let mut log = Log { meter: &mut meter, piece: *piece, frame, last, told: &mut *told };
+        let mut log =
+            ResponseLog { meter: &mut meter, piece: *piece, frame, last, told: &mut *told };
         let stop = simulation.run(1, MOST_IMPACTS, &mut log);
         state = log.last.1;
         if stop != Stop::EndTime {

@@ -29,7 +29,7 @@ pub struct Ringdown {
     pub settles: f64,
 }
 
-struct Log<'a> {
+struct RingdownLog<'a> {
     told: &'a mut dyn FnMut(&Impact),
     found: Ringdown,
     settling: Settling,
@@ -39,7 +39,7 @@ struct Log<'a> {
     speed: f64,
 }
 
-impl Observer for Log<'_> {
+impl Observer for RingdownLog<'_> {
     fn detail(&self) -> Detail {
         Detail::Events
     }
@@ -70,7 +70,7 @@ impl Observer for Log<'_> {
 }
 
 /// Hears of flights too, which may hold the largest displacement.
-struct Watching<'a, 'b>(&'a mut Log<'b>);
+struct Watching<'a, 'b>(&'a mut RingdownLog<'b>);
 
 impl Observer for Watching<'_, '_> {
     fn segment(&mut self, segment: &Segment) {
@@ -130,7 +130,8 @@ impl Ringdown {
         };
         let energy = start.energy(system.mass_ratio());
         let settling = Settling::to(level);
-        let mut log = Log { told, found, settling, energy, lost: 0.0, impacts: 0, speed: 0.0 };
+        let mut log =
+            RingdownLog { told, found, settling, energy, lost: 0.0, impacts: 0, speed: 0.0 };
         log.period(&start);
         for _ in 0..oscillations {
             // The energy of all is the structure's at most.

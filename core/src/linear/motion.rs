@@ -35,7 +35,8 @@ pub fn released(
 ) -> Linear {
     let duration = TAU / f64::from(STEPS_OF_PERIOD);
     let step = exponential(matrix(system, damper) * duration);
-    let mut state: Motion = [start.x, start.x_velocity, start.x, start.y_velocity, 0.0, 0.0].into();
+    let mut state: LinearState =
+        [start.x, start.x_velocity, start.x, start.y_velocity, 0.0, 0.0].into();
     let (amplitudes, settles) = (vec![amplitude(&start)], f64::INFINITY);
     let mut found = Linear { amplitudes, peak: 0.0, stroke: 0.0, settles };
     let mut settling = Settling::to(level);
@@ -81,7 +82,8 @@ pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece
         }
         let State { x, x_velocity, y, y_velocity } = state;
         let [force, slope] = piece.force;
-        let at_end = of_duration.1 * Motion::from([x, x_velocity, y, y_velocity, force, slope]);
+        let at_end =
+            of_duration.1 * LinearState::from([x, x_velocity, y, y_velocity, force, slope]);
         let end =
             State { x: at_end[0], x_velocity: at_end[1], y: at_end[2], y_velocity: at_end[3] };
         meter.moved(piece, [0.0, piece.duration], [&state, &end]);
@@ -105,7 +107,7 @@ pub fn swept(
     sweep: &SineSweep,
 ) -> Passage {
     let mut found = Passage::new(sweep.count(), 0.0);
-    let mut state = Motion::zeros();
+    let mut state = LinearState::zeros();
     for stretch in sweep.stretches(scales) {
         let Ok(piece) = stretch.system(system) else { break };
         let left = TAU - stretch.begins;
@@ -127,7 +129,7 @@ pub fn swept(
 }
 
 /// The largest displacement of the structure, and of the damper's mass against it, in a step.
-fn largest(duration: f64, ends: [&Motion; 2]) -> [f64; 2] {
+fn largest(duration: f64, ends: [&LinearState; 2]) -> [f64; 2] {
     let x = ends.map(|at| [at[0], at[1]]);
     let stroke = ends.map(|at| [at[0] - at[2], at[1] - at[3]]);
     [x, stroke].map(|ends| Cubic::of(duration, ends).largest())
@@ -152,10 +154,10 @@ fn exponential(of: Square) -> Square {
 }
 
 /// Displacement and velocity of the structure, the same of the damper, sine and cosine of the excitation's phase.
-type Motion = SVector<f64, 6>;
+type LinearState = SVector<f64, 6>;
 type Square = SMatrix<f64, 6, 6>;
 
-/// The derivative of a [`Motion`].
+/// The derivative of a [`LinearState`].
 fn matrix(system: &System, damper: Option<&TunedMassDamper>) -> Square {
     let mu = system.mass_ratio();
     let loss = mu * system.damping();

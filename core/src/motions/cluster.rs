@@ -1,6 +1,6 @@
 //! What wanders is known by averages: which windows are of one motion, whether it still settles, and its numbers.
 
-use super::watch::Sample;
+use super::watch::WindowSample;
 use super::{Facts, Kind, Motion, Reached, Value};
 use crate::numerics::scatter::twice_standard_error;
 use crate::regimes::Regime;
@@ -23,12 +23,12 @@ const NO_DIFFERENCE: f64 = 1e-3;
 pub(super) struct Cluster {
     /// Which flights they are.
     pub members: Vec<usize>,
-    samples: Vec<Sample>,
+    samples: Vec<WindowSample>,
 }
 
 impl Cluster {
     /// Puts together what wanders, in the order of the starts.
-    pub fn all(samples: impl Iterator<Item = (usize, Sample)>) -> Vec<Self> {
+    pub fn all(samples: impl Iterator<Item = (usize, WindowSample)>) -> Vec<Self> {
         let mut clusters: Vec<Self> = Vec::new();
         for (member, sample) in samples {
             match clusters.iter_mut().find(|one| one.holds(&sample)) {
@@ -44,8 +44,8 @@ impl Cluster {
 
     /// Whether another window is one of the same motion: its averages are within twice both errors, where what several
     /// windows differ by is an error as well.
-    fn holds(&self, sample: &Sample) -> bool {
-        let ended = |one: &Sample| one.stop == Stop::EndTime;
+    fn holds(&self, sample: &WindowSample) -> bool {
+        let ended = |one: &WindowSample| one.stop == Stop::EndTime;
         ended(&self.samples[0]) == ended(sample) && self.is_like(&sample.facts)
     }
 
@@ -68,7 +68,7 @@ impl Cluster {
         if count < MANY {
             return 2 * self.samples.iter().filter(|one| one.drifts).count() > count;
         }
-        let change = |one: &Sample| one.mean_squares[1] - one.mean_squares[0];
+        let change = |one: &WindowSample| one.mean_squares[1] - one.mean_squares[0];
         let changes: Vec<f64> = self.samples.iter().map(change).collect();
         let mean = changes.iter().sum::<f64>() / count as f64;
         let size = self.samples.iter().map(|one| one.mean_squares[0]).sum::<f64>() / count as f64;
@@ -78,7 +78,7 @@ impl Cluster {
     /// Whether it may be on its way to a motion that repeats, or to other averages; `young` is one that was not measured
     /// often enough to tell.
     pub fn settles(&self, young: bool) -> bool {
-        let repeats = |one: &Sample| one.evidence.periodicity.is_some();
+        let repeats = |one: &WindowSample| one.evidence.periodicity.is_some();
         let depth = |half: usize| self.samples.iter().map(|one| one.depths[half]).sum::<f64>();
         let stays = if self.samples.len() < MANY { STAYS } else { MANY_STAY };
         let fades = depth(0) > 0.0 && !stays.contains(&(depth(1) / depth(0)));

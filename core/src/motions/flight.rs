@@ -1,9 +1,9 @@
 //! Many trajectories at a time, each until it comes to rest, is on a known orbit, repeats, or has been measured over a
 //! window.
 
-use super::identity::Known;
+use super::identity::KnownMotion;
 use super::settling;
-use super::watch::{Sample, Watch};
+use super::watch::{Watch, WindowSample};
 use crate::regimes::Periodicity;
 use crate::simulation::batch::{self, Extent};
 use crate::simulation::{Observer, Simulation, Stop};
@@ -26,7 +26,7 @@ const MOST_RECORDS: u64 = 1_000_000;
 
 /// A start on its way.
 #[derive(Debug)]
-pub(super) struct Flight {
+pub(super) struct StartFlight {
     /// Its number among those of the search.
     pub index: usize,
     pub simulation: Simulation,
@@ -39,13 +39,13 @@ pub(super) struct Flight {
 }
 
 /// What became of one.
-pub(super) enum End {
+pub(super) enum StartOutcome {
     /// It came to rest where no wall reaches it, in a state at phase 0.
     Rests(State),
     /// It is on the orbit with this index.
     On(usize),
     /// It repeats, or was measured over its window.
-    Seen(Box<Sample>),
+    Seen(Box<WindowSample>),
     /// Neither.
     Open,
     /// It could not be followed.
@@ -54,10 +54,10 @@ pub(super) enum End {
 
 /// Flies all of them as far as each is to go; `known` are the motions of each one's place.
 pub(super) fn flown<'a>(
-    flights: Vec<Flight>,
+    flights: Vec<StartFlight>,
     most_impacts: u64,
-    known: &dyn Fn(usize) -> &'a [Known],
-) -> Vec<(Flight, End)> {
+    known: &dyn Fn(usize) -> &'a [KnownMotion],
+) -> Vec<(StartFlight, StartOutcome)> {
     let mut done = Vec::with_capacity(flights.len());
     let faded = faded(flights, most_impacts, known, &mut done);
     let (mut going, mut windows) = (Vec::new(), Vec::new());
@@ -68,9 +68,9 @@ pub(super) fn flown<'a>(
         let simulation = &flight.simulation;
         let repeats = watch.repetition().is_some();
         if let Some(state) = settling::at_rest(simulation.system(), &simulation.state()) {
-            done.push((flight, End::Rests(state)));
+            done.push((flight, StartOutcome::Rests(state)));
         } else if stop == Stop::EndTime && flight.window == 0 && !repeats {
-            done.push((flight, End::Open));
+            done.push((flight, StartOutcome::Open));
         } else if stop != Stop::ImpactLimit && (stop != Stop::EndTime || repeats) {
             let end = seen(&mut watch, &flight, stop);
             done.push((flight, end));
@@ -92,28 +92,28 @@ pub(super) fn flown<'a>(
 }
 
 /// Periods at the end of those that are left out in which it is watched whether it repeats.
-fn watched(flight: &Flight) -> u64 {
+fn watched(flight: &StartFlight) -> u64 {
     settling::window(flight.simulation.system(), WATCHED)
 }
 
-fn seen(watch: &mut Watch, flight: &Flight, stop: Stop) -> End {
+fn seen(watch: &mut Watch, flight: &StartFlight, stop: Stop) -> StartOutcome {
     let sample = watch.sample(&flight.simulation, stop);
-    sample.map_or(End::Lost, |sample| End::Seen(Box::new(sample)))
+    sample.map_or(StartOutcome::Lost, |sample| StartOutcome::Seen(Box::new(sample)))
 }
 
 /// Leaves out what is to be left out, but for its last periods; those that are on a known orbit by then are done.
 fn faded<'a>(
-    mut flights: Vec<Flight>,
+    mut flights: Vec<StartFlight>,
     most_impacts: u64,
-    known: &dyn Fn(usize) -> &'a [Known],
-    done: &mut Vec<(Flight, End)>,
-) -> Vec<Flight> {
+    known: &dyn Fn(usize) -> &'a [KnownMotion],
+    done: &mut Vec<(StartFlight, StartOutcome)>,
+) -> Vec<StartFlight> {
     let mut left: Vec<u64> =
         flights.iter().map(|one| one.left_out.saturating_sub(watched(one))).collect();
     let mut distances = vec![f64::INFINITY; flights.len()];
     let (mut over, mut place) = (Vec::new(), (0..flights.len()).collect::<Vec<_>>());
     while !flights.is_empty() {
-        let solved = |one: &Flight| {
+        let solved = |one: &StartFlight| {
             known(one.index).iter().any(|one| one.distance(&State::AT_REST).is_finite())
         };
         let each = flights.iter().zip(&place);
@@ -126,14 +126,16 @@ fn faded<'a>(
         for (((flight, at), far), stop) in ended.zip(far).zip(stops) {
             left[at] -= far;
             let state = flight.simulation.state();
-            let distance = |one: &Known| one.distance(&state);
+            let distance = |one: &KnownMotion| one.distance(&state);
             let nearest = known(flight.index).iter().map(distance).enumerate();
             let nearest = nearest.min_by(|a, b| a.1.total_cmp(&b.1));
             let before = distances[at];
             let on = nearest.filter(|(_, near)| *near < 1.0 && *near < before);
             distances[at] = nearest.map_or(f64::INFINITY, |(_, near)| near);
             match on {
-                Some((index, _)) if before.is_finite() => done.push((flight, End::On(index))),
+                Some((index, _)) if before.is_finite() => {
+                    done.push((flight, StartOutcome::On(index)))
+                }
                 _ if left[at] == 0 || stop != Stop::EndTime => over.push((at, flight)),
                 _ => {
                     flights.push(flight);
@@ -148,10 +150,10 @@ fn faded<'a>(
 
 /// Measures each over a window, in stretches that grow: what has settled at the end of one needs no more.
 fn measured(
-    mut flights: Vec<Flight>,
+    mut flights: Vec<StartFlight>,
     mut windows: Vec<u64>,
     most_impacts: u64,
-    done: &mut Vec<(Flight, End)>,
+    done: &mut Vec<(StartFlight, StartOutcome)>,
 ) {
     // Every period of every window is kept until it is over.
     let longest = windows.iter().copied().max().unwrap_or(0).max(1);
@@ -186,11 +188,11 @@ fn measured(
 
 /// Goes on with watches.
 fn watched_over(
-    mut flights: Vec<Flight>,
+    mut flights: Vec<StartFlight>,
     periods: &[u64],
     mut watches: Vec<Watch>,
     most_impacts: u64,
-) -> Vec<(Flight, Watch, Stop)> {
+) -> Vec<(StartFlight, Watch, Stop)> {
     let mut told: Vec<_> = watches.iter_mut().map(|one| &mut one.observers).collect();
     let stops = run(&mut flights, periods, &mut told, most_impacts);
     let all = flights.into_iter().zip(watches).zip(stops);
@@ -198,7 +200,7 @@ fn watched_over(
 }
 
 fn run<O: Observer>(
-    flights: &mut [Flight],
+    flights: &mut [StartFlight],
     periods: &[u64],
     observers: &mut [O],
     most_impacts: u64,

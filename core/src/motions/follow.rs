@@ -4,10 +4,10 @@
 
 use serde::Serialize;
 
-use super::flight::{End, Flight, flown};
+use super::flight::{StartFlight, StartOutcome, flown};
 use super::repetition::Repetition;
 use super::rest::Rest;
-use super::watch::{Sample, Watch};
+use super::watch::{Watch, WindowSample};
 use super::{Effort, Facts, Kind, Motion, Reached, SettlingTime};
 use crate::operation_count;
 use crate::simulation::{Impact, Simulation, StartError, Stop};
@@ -27,7 +27,7 @@ pub fn follow(
     effort: &Effort,
 ) -> Result<Vec<Option<Motion>>, StartError> {
     let mut motions: Vec<Option<Motion>> = vec![None; starts.len()];
-    let mut flights: Vec<Flight> = Vec::with_capacity(starts.len());
+    let mut flights: Vec<StartFlight> = Vec::with_capacity(starts.len());
     for (index, (system, start)) in starts.iter().enumerate() {
         let simulation = Simulation::new(system, *start, 0.0)?;
         // Starts of one system follow each other.
@@ -38,13 +38,13 @@ pub fn follow(
             (None, None) => SettlingTime::of(system).periods,
         };
         let window = effort.periods;
-        flights.push(Flight { index, simulation, before: 0, left_out, window });
+        flights.push(StartFlight { index, simulation, before: 0, left_out, window });
     }
     for round in 1..=ROUNDS {
         flights.iter_mut().for_each(|one| one.window = effort.periods * round);
         for (flight, end) in flown(std::mem::take(&mut flights), effort.most_impacts, &|_| &[]) {
             let settling = match &end {
-                End::Seen(sample) => {
+                StartOutcome::Seen(sample) => {
                     let repeats = sample.evidence.periodicity.is_some();
                     let open = sample.drifts || sample.of_repeating_kind();
                     sample.stop == Stop::EndTime && !repeats && open
@@ -66,19 +66,19 @@ pub fn follow(
 
 impl Motion {
     /// What a start led to.
-    fn seen(flight: &Flight, end: End) -> Option<Self> {
+    fn seen(flight: &StartFlight, end: StartOutcome) -> Option<Self> {
         let system = flight.simulation.system();
         let reached =
             Reached { starts: 1, followed: flight.simulation.periods(), ..Reached::default() };
         let motion = match end {
-            End::Lost | End::On(_) | End::Open => return None,
-            End::Rests(state) => {
+            StartOutcome::Lost | StartOutcome::On(_) | StartOutcome::Open => return None,
+            StartOutcome::Rests(state) => {
                 let amplitude = system.linear_response()?.amplitude();
                 let facts = Facts::of_sine(amplitude, 0.0);
                 Self::resting(Rest::seen(system, amplitude), facts, state)
             }
-            End::Seen(sample) => {
-                let Sample { facts, evidence, end: state, stop, .. } = *sample;
+            StartOutcome::Seen(sample) => {
+                let WindowSample { facts, evidence, end: state, stop, .. } = *sample;
                 let kind = match evidence.periodicity {
                     Some(found) if found.impacts == 0 => {
                         Kind::Rest(Rest::seen(system, facts.peak.value))

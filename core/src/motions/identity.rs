@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::repetition::{Polished, Repetition};
-use super::watch::Sample;
+use super::watch::WindowSample;
 use super::{Facts, Kind, Measured, Motion, Reached};
 use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, ONE_ORBIT, Orbit, Origin, Wall};
@@ -27,7 +27,7 @@ const CAPTURED: f64 = 0.03;
 /// What a trajectory that repeats is.
 pub(super) enum Proof {
     /// An orbit that attracts, or a repetition that no solver of orbits covers, with what is seen of it.
-    Is(Kind, Box<Sample>),
+    Is(Kind, Box<WindowSample>),
     /// An orbit, or a repetition, that does not attract: the trajectory is about to leave it.
     Leaves,
     /// Neither: it is still settling.
@@ -36,7 +36,7 @@ pub(super) enum Proof {
 
 impl Proof {
     /// Of a trajectory that was seen to repeat, by Newton's method from its last repetition.
-    pub fn of(system: &System, sample: &Sample, found: Periodicity) -> Self {
+    pub fn of(system: &System, sample: &WindowSample, found: Periodicity) -> Self {
         let orbit = orbit_in(system, sample, found);
         let near_orbit = orbit.is_some();
         if let Some(proof) = Self::attracting(orbit, sample) {
@@ -73,13 +73,13 @@ impl Proof {
     }
 
     /// An orbit, if it attracts.
-    fn attracting(orbit: Option<Orbit>, sample: &Sample) -> Option<Self> {
+    fn attracting(orbit: Option<Orbit>, sample: &WindowSample) -> Option<Self> {
         let orbit = orbit.filter(Orbit::attracts)?;
         Some(Self::Is(Kind::Orbit(Box::new(orbit)), Box::new(sample.clone())))
     }
 
     /// A repetition that attracts.
-    fn polished(polished: &Polished, sample: Sample, found: Periodicity) -> Self {
+    fn polished(polished: &Polished, sample: WindowSample, found: Periodicity) -> Self {
         let multiplier = Some(polished.multiplier);
         let kind = Kind::Repeats(Repetition { multiplier, ..Repetition::seen(&sample, found) });
         Self::Is(kind, Box::new(sample))
@@ -100,7 +100,11 @@ impl Kind {
 
 impl Motion {
     /// One that is proven or was seen to repeat.
-    pub(super) fn proven(system: &System, kind: Kind, sample: Option<&Sample>) -> Option<Self> {
+    pub(super) fn proven(
+        system: &System,
+        kind: Kind,
+        sample: Option<&WindowSample>,
+    ) -> Option<Self> {
         let (facts, regime, state) = match &kind {
             Kind::Orbit(orbit) => {
                 let facts = Facts::of_orbit(system, orbit).ok()?;
@@ -133,7 +137,7 @@ pub fn orbit_of(system: &System, measured: &Measured) -> Option<Orbit> {
 }
 
 /// The same of a trajectory that was seen side by side with others.
-fn orbit_in(system: &System, sample: &Sample, found: Periodicity) -> Option<Orbit> {
+fn orbit_in(system: &System, sample: &WindowSample, found: Periodicity) -> Option<Orbit> {
     (!sample.contact).then(|| orbit(system, &sample.impacts, found.periods)).flatten()
 }
 
@@ -177,14 +181,14 @@ fn cycle(system: &System, impacts: &[Impact], periods: u32) -> Option<Cycle> {
 
 /// A motion of a place that trajectories are held against.
 #[derive(Debug, Clone)]
-pub(super) struct Known {
+pub(super) struct KnownMotion {
     pub motion: Motion,
     /// Its states at the ends of its excitation periods, and those of its mirror image.
     states: Vec<State>,
     size: f64,
 }
 
-impl Known {
+impl KnownMotion {
     /// A motion with where it stands at phase 0, if it repeats and is known to attract.
     pub fn new(system: &System, motion: Motion) -> Self {
         let states = match &motion.kind {

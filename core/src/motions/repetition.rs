@@ -3,7 +3,7 @@
 use nalgebra::{Matrix4, Vector4};
 use serde::Serialize;
 
-use super::watch::{Sample, Watch};
+use super::watch::{Watch, WindowSample};
 use crate::orbits::{Multipliers, ONE_ORBIT};
 use crate::regimes::{ImpactSequence, Periodicity};
 use crate::simulation::{Simulation, Stop, Tangent};
@@ -41,7 +41,7 @@ pub struct Repetition {
 
 impl Repetition {
     /// As it was seen.
-    pub(super) fn seen(sample: &Sample, found: Periodicity) -> Self {
+    pub(super) fn seen(sample: &WindowSample, found: Periodicity) -> Self {
         Self {
             periods: found.periods,
             impacts: found.impacts,
@@ -140,7 +140,7 @@ impl Polished {
     }
 
     /// What is seen of it, with its repetition.
-    pub fn seen(&self, system: &System) -> Option<(Sample, Periodicity)> {
+    pub fn seen(&self, system: &System) -> Option<(WindowSample, Periodicity)> {
         let mut simulation = Simulation::new(system, self.state, 0.0).ok()?;
         let mut watch = Watch::begin(&simulation);
         let periods = Periodicity::shown_in(self.periods);

@@ -85,19 +85,19 @@ pub(super) struct AtRest {
 impl AtRest {
     /// That of a system; `None` where every start from rest wakes the absorber.
     pub fn of(system: &System) -> Option<Self> {
-        match Candidate::of(system)? {
-            Candidate { rest: RestKind::Floating, amplitude } => {
+        match RestCandidate::of(system)? {
+            RestCandidate { rest: RestKind::Floating, amplitude } => {
                 let floating = Floating::of(system).filter(|one| one.share > 0.0)?;
                 let rest = Rest { rest: RestKind::Floating, share: floating.share, amplitude };
                 Some(Self { rest, facts: Facts::of_sine(amplitude, 0.0), state: floating.state })
             }
-            Candidate { rest: RestKind::Held, amplitude } => {
+            RestCandidate { rest: RestKind::Held, amplitude } => {
                 let held = Carried::of(system).filter(|held| held.stays(system))?;
                 let facts = Facts::of_sine(amplitude, static_shift(system));
                 let rest = Rest { rest: RestKind::Held, share: 1.0, amplitude };
                 Some(Self { rest, facts, state: held.state(system) })
             }
-            Candidate { rest: RestKind::Sliding, amplitude } => {
+            RestCandidate { rest: RestKind::Sliding, amplitude } => {
                 let stay: Vec<State> = resting(system, amplitude).collect();
                 let state = *stay.first()?;
                 let share = stay.len() as f64 / f64::from(PLACES);
@@ -114,9 +114,9 @@ pub(super) fn largest_along(band: &Band) -> Option<f64> {
     let pieces = if band.is_point() { 1 } else { PIECES };
     let peak = |at: f64| {
         let system = band.system(at).ok()?;
-        Some(Candidate::counting(&system)?.amplitude + static_shift(&system))
+        Some(RestCandidate::counting(&system)?.amplitude + static_shift(&system))
     };
-    let is_one = |at: f64| band.system(at).is_ok_and(|system| Candidate::is_one(&system));
+    let is_one = |at: f64| band.system(at).is_ok_and(|system| RestCandidate::is_one(&system));
     // Simulated are only those that may be the largest.
     let tried = places(band.range, pieces).filter_map(|at| Some((at, peak(at)?)));
     let mut tried: Vec<(f64, f64)> = tried.collect();
@@ -133,12 +133,12 @@ fn static_shift(system: &System) -> f64 {
 }
 
 /// How an absorber would rest, in closed form, and the structure's amplitude then.
-struct Candidate {
+struct RestCandidate {
     rest: RestKind,
     amplitude: f64,
 }
 
-impl Candidate {
+impl RestCandidate {
     fn of(system: &System) -> Option<Self> {
         if !system.cavity().moves_absorber() {
             let amplitude = Floating::of(system)?.amplitude;

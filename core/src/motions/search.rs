@@ -6,11 +6,11 @@
 //! windows together without one of them settling that a transient would have ended. What wanders still is measured.
 
 use super::cluster::Cluster;
-use super::flight::{End, Flight, flown};
-use super::identity::{Known, Proof};
+use super::flight::{StartFlight, StartOutcome, flown};
+use super::identity::{KnownMotion, Proof};
 use super::rest::Rest;
 use super::settling::SettlingTime;
-use super::watch::Sample;
+use super::watch::WindowSample;
 use super::{Effort, Facts, Kind, Motion, Motions, Place, Reached, settling, solved};
 use crate::executor::{Executor, map};
 use crate::operation_count;
@@ -116,22 +116,22 @@ fn searched(
     advance: &dyn Fn(usize),
 ) -> Result<Vec<Motions>, StartError> {
     let mut grounds: Vec<Ground> = Vec::with_capacity(places.len());
-    let mut flights: Vec<Flight> = Vec::new();
+    let mut flights: Vec<StartFlight> = Vec::new();
     let mut of_place: Vec<usize> = Vec::new();
-    let mut solved: Vec<Known> = Vec::new();
+    let mut solved: Vec<KnownMotion> = Vec::new();
     for (number, place) in places.iter().enumerate() {
         // Places of one system, with a start each, follow one another.
         if number == 0 || places[number - 1].system != place.system {
             solved = solved::known(&place.system);
             let rest = solved::at_rest(&place.system);
-            solved.extend(rest.map(|motion| Known::new(&place.system, motion)));
+            solved.extend(rest.map(|motion| KnownMotion::new(&place.system, motion)));
         }
         let mut ground = Ground::of(place, &solved, effort, of_place.len());
         for start in place.starts.iter().chain(&place.further) {
             let simulation = Simulation::new(&place.system, *start, 0.0)?;
             let left_out = ground.left_out;
             let index = of_place.len();
-            flights.push(Flight { index, simulation, before: 0, left_out, window: 0 });
+            flights.push(StartFlight { index, simulation, before: 0, left_out, window: 0 });
             of_place.push(number);
         }
         if settling::comes_to_rest(&place.system) {
@@ -152,7 +152,7 @@ fn searched(
             ended.extend(flown(flights, effort.most_impacts, &known));
             flights = later;
         }
-        let mut open: Vec<Vec<Flight>> = places.iter().map(|_| Vec::new()).collect();
+        let mut open: Vec<Vec<StartFlight>> = places.iter().map(|_| Vec::new()).collect();
         for (flight, end) in ended {
             let place = of_place[flight.index];
             open[place].extend(grounds[place].taken(flight, end));
@@ -170,7 +170,7 @@ fn searched(
 /// What is known of a place.
 struct Ground {
     system: System,
-    known: Vec<Known>,
+    known: Vec<KnownMotion>,
     left_out: u64,
     /// The number of its first start among those of the search.
     first: usize,
@@ -181,7 +181,7 @@ struct Ground {
     /// Starts that led there late, by their known motion.
     late: Vec<usize>,
     /// What the others were like when they were measured, if they still are.
-    open: Vec<Option<Sample>>,
+    open: Vec<Option<WindowSample>>,
     /// Periods of a window, and windows that each start flies on, whatever else is known.
     periods: u64,
     alone: f64,
@@ -203,17 +203,17 @@ struct Ground {
 }
 
 impl Ground {
-    fn of(place: &Place, solved: &[Known], effort: &Effort, first: usize) -> Self {
+    fn of(place: &Place, solved: &[KnownMotion], effort: &Effort, first: usize) -> Self {
         let system = place.system;
-        let mut known: Vec<Known> = Vec::new();
+        let mut known: Vec<KnownMotion> = Vec::new();
         for motion in &place.known {
             let mut motion = motion.clone();
             motion.reached = Reached { solved: motion.reached.solved, ..Reached::default() };
-            known.push(Known::new(&system, motion));
+            known.push(KnownMotion::new(&system, motion));
         }
         let given = known.len();
         for one in solved {
-            let is_given = |other: &Known| other.motion.kind.is_same(&one.motion.kind);
+            let is_given = |other: &KnownMotion| other.motion.kind.is_same(&one.motion.kind);
             if !known[..given].iter().any(is_given) {
                 known.push(one.clone());
             }
@@ -248,22 +248,22 @@ impl Ground {
     }
 
     /// Notes what became of a start; the flight if it is open.
-    fn taken(&mut self, flight: Flight, end: End) -> Option<Flight> {
+    fn taken(&mut self, flight: StartFlight, end: StartOutcome) -> Option<StartFlight> {
         let start = flight.index - self.first;
         let flown = flight.before + flight.simulation.periods() - self.followed[start];
         self.followed[start] += flown;
         self.open[start] = None;
         let first = self.rounds + self.measured == 0;
         let motion = match end {
-            End::Lost => None,
-            End::Rests(_) => self.at_rest(None),
-            End::On(known) => Some(known),
-            End::Open => {
+            StartOutcome::Lost => None,
+            StartOutcome::Rests(_) => self.at_rest(None),
+            StartOutcome::On(known) => Some(known),
+            StartOutcome::Open => {
                 self.flown += if first { 0 } else { flown };
                 return Some(flight);
             }
-            End::Seen(sample) => match self.identified(&sample) {
-                Identified::Known(known) => Some(known),
+            StartOutcome::Seen(sample) => match self.identified(&sample) {
+                Identified::KnownMotion(known) => Some(known),
                 Identified::Open => {
                     self.flown += flown;
                     let goes_on = sample.stop == Stop::EndTime;
@@ -274,7 +274,11 @@ impl Ground {
                     let before = self.followed[start];
                     let simulation = pushed(&self.system, &sample.end);
                     self.open[start] = Some(*sample);
-                    return simulation.map(|simulation| Flight { simulation, before, ..flight });
+                    return simulation.map(|simulation| StartFlight {
+                        simulation,
+                        before,
+                        ..flight
+                    });
                 }
             },
         };
@@ -287,7 +291,7 @@ impl Ground {
     }
 
     /// The place of the motion at rest; one that was not solved for is what was seen.
-    fn at_rest(&mut self, seen: Option<&Sample>) -> Option<usize> {
+    fn at_rest(&mut self, seen: Option<&WindowSample>) -> Option<usize> {
         let known = self.known.iter().position(|one| one.motion.rest().is_some());
         if known.is_some() {
             return known;
@@ -300,11 +304,11 @@ impl Ground {
             }
         };
         let motion = Motion::resting(Rest::seen(&self.system, facts.peak.value), facts, state);
-        self.known.push(Known::new(&self.system, motion));
+        self.known.push(KnownMotion::new(&self.system, motion));
         Some(self.known.len() - 1)
     }
 
-    fn identified(&mut self, sample: &Sample) -> Identified {
+    fn identified(&mut self, sample: &WindowSample) -> Identified {
         if sample.stop != Stop::EndTime {
             return Identified::Open;
         }
@@ -318,11 +322,11 @@ impl Ground {
         let free =
             sample.evidence.impacts_per_period == 0.0 && (self.system.damping() == 0.0 || alone());
         if free || sample.evidence.periodicity.is_some_and(|found| found.impacts == 0) {
-            return self.at_rest(Some(sample)).map_or(Identified::Open, Identified::Known);
+            return self.at_rest(Some(sample)).map_or(Identified::Open, Identified::KnownMotion);
         }
         let Some(found) = sample.evidence.periodicity else { return Identified::Open };
         if let Some(near) = self.known.iter().position(|one| one.distance(&sample.end) < 1.0) {
-            return Identified::Known(near);
+            return Identified::KnownMotion(near);
         }
         let (kind, sample) = match Proof::of(&self.system, sample, found) {
             Proof::Leaves => return Identified::Leaves,
@@ -330,17 +334,17 @@ impl Ground {
             Proof::Is(kind, sample) => (kind, sample),
         };
         if let Some(known) = self.known.iter().position(|one| one.motion.kind.is_same(&kind)) {
-            return Identified::Known(known);
+            return Identified::KnownMotion(known);
         }
         let Some(motion) = Motion::proven(&self.system, kind, Some(&sample)) else {
             return Identified::Open;
         };
-        self.known.push(Known::new(&self.system, motion));
-        Identified::Known(self.known.len() - 1)
+        self.known.push(KnownMotion::new(&self.system, motion));
+        Identified::KnownMotion(self.known.len() - 1)
     }
 
     /// Those that have not settled, with how far they go; none once they have shown what they are.
-    fn further(&mut self, mut open: Vec<Flight>) -> Vec<Flight> {
+    fn further(&mut self, mut open: Vec<StartFlight>) -> Vec<StartFlight> {
         let periods = self.periods as f64;
         self.quiet = if self.settled { 0.0 } else { self.quiet + self.flown as f64 / periods };
         (self.settled, self.flown) = (false, 0);
@@ -352,9 +356,10 @@ impl Ground {
         let alone = self.alone * open.len() as f64;
         let windows = if beside { alone.max(BESIDE_ANOTHER) } else { alone };
         let missing = if self.creeps { 0.0 } else { self.patience * windows - self.quiet };
-        let of =
-            |flight: &Flight| Some((flight.index, self.open[flight.index - self.first].clone()?));
-        let samples: Vec<(usize, Sample)> = open.iter().filter_map(of).collect();
+        let of = |flight: &StartFlight| {
+            Some((flight.index, self.open[flight.index - self.first].clone()?))
+        };
+        let samples: Vec<(usize, WindowSample)> = open.iter().filter_map(of).collect();
         let measured = samples.len() == open.len();
         let count = open.len() as u64;
         let clusters = if measured { Cluster::all(samples.into_iter()) } else { Vec::new() };
@@ -435,7 +440,7 @@ impl Ground {
 
 enum Identified {
     /// It is the known motion with this index.
-    Known(usize),
+    KnownMotion(usize),
     /// It is about to leave where it is.
     Leaves,
     /// It wanders, as far as is seen.

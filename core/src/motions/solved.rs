@@ -4,7 +4,7 @@
 //! Where the absorber rubs its slip may reverse between two impacts. The solver of orbits knows cycles that slide one way
 //! from wall to wall; one that would reverse is where simulation begins, which finds what the motion is like then.
 
-use super::identity::{Known, Proof, state_of};
+use super::identity::{KnownMotion, Proof, state_of};
 use super::rest::{AtRest, Rest};
 use super::watch::Watch;
 use super::{Facts, Kind, Motion, Reached};
@@ -49,8 +49,8 @@ pub(super) fn steady_of(motions: &[Motion]) -> Option<&Motion> {
 }
 
 /// The same with where they stand at phase 0.
-pub(super) fn known(system: &System) -> Vec<Known> {
-    let mut found: Vec<Known> = Vec::new();
+pub(super) fn known(system: &System) -> Vec<KnownMotion> {
+    let mut found: Vec<KnownMotion> = Vec::new();
     let may_reverse = system.cavity().friction_acceleration > 0.0;
     let orbits = match may_reverse {
         true => two_impact_orbits(system).map(|all| all.orbits),
@@ -71,7 +71,7 @@ pub(super) fn known(system: &System) -> Vec<Known> {
         }
         let motion = Motion::proven(system, kind, sample.as_ref());
         let motion = motion.filter(Motion::is_one_to_one);
-        found.extend(motion.map(|motion| Known::new(system, motion.solved())));
+        found.extend(motion.map(|motion| KnownMotion::new(system, motion.solved())));
     }
     found
 }

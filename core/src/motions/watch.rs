@@ -20,7 +20,7 @@ pub(super) struct Watch {
 
 /// What was seen of a trajectory over a window.
 #[derive(Debug, Clone)]
-pub(super) struct Sample {
+pub(super) struct WindowSample {
     pub facts: Facts,
     pub evidence: Evidence,
     /// States at the beginning and the end of the window, phase 0.
@@ -39,7 +39,7 @@ pub(super) struct Sample {
     pub stop: Stop,
 }
 
-impl Sample {
+impl WindowSample {
     pub fn regime(&self) -> Regime {
         Regime::of(&self.evidence)
     }
@@ -84,7 +84,7 @@ impl Watch {
     }
 
     /// What was seen; none where the trajectory came to a bad end.
-    pub fn sample(&mut self, simulation: &Simulation, stop: Stop) -> Option<Sample> {
+    pub fn sample(&mut self, simulation: &Simulation, stop: Stop) -> Option<WindowSample> {
         if !matches!(stop, Stop::EndTime | Stop::ImpactLimit) {
             return None;
         }
@@ -108,7 +108,7 @@ impl Watch {
         });
         let (first, second) = records.split_at(records.len() / 2);
         let halves = |of: &dyn Fn(&[PeriodRecord]) -> f64| [of(first), of(second)];
-        Some(Sample {
+        Some(WindowSample {
             facts: Facts::measured(statistics, &evidence),
             begin: self.begin,
             end: simulation.state(),

@@ -15,22 +15,22 @@ const STEEPEST: f64 = (NODES * NODES) as f64;
 /// What the slope of a coefficient that is left out may be, over what is missed of the slope.
 const LEFT_OUT: f64 = 1e-3;
 
-type Row = [f64; NODES];
+type MatrixRow = [f64; NODES];
 
 /// Cosines and matrices that are the same for every function.
-struct Tables {
+struct CosineTables {
     /// The nodes, descending, and the places between them and at the ends.
-    nodes: Row,
+    nodes: MatrixRow,
     between: [f64; NODES + 1],
     /// Coefficients by the value at each node.
-    by_value: [Row; NODES],
+    by_value: [MatrixRow; NODES],
     /// Chebyshev polynomials at the places between.
-    at_between: [Row; NODES + 1],
+    at_between: [MatrixRow; NODES + 1],
     /// Coefficients on the lower and the upper half of the piece, by each on the whole.
-    halves: [[Row; NODES]; 2],
+    halves: [[MatrixRow; NODES]; 2],
 }
 
-static TABLES: LazyLock<Tables> = LazyLock::new(|| {
+static TABLES: LazyLock<CosineTables> = LazyLock::new(|| {
     // cos(k pi/(2 NODES)), reduced to one turn first.
     let cosine = |k: usize| libm::cos(FRAC_PI_2 * (k % (4 * NODES)) as f64 / NODES as f64);
     let weight = |j: usize| if j == 0 { 1.0 } else { 2.0 } / NODES as f64;
@@ -41,7 +41,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
         let value = |j: usize, z: f64| libm::cos(j as f64 * libm::acos(0.5 * (z + side)));
         std::array::from_fn(|j| combined(&by_value, &nodes.map(|z| value(j, z))))
     };
-    Tables {
+    CosineTables {
         nodes,
         between: std::array::from_fn(|k| cosine(2 * k)),
         by_value,
@@ -51,7 +51,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
 });
 
 /// The sum of rows with these factors.
-fn combined(rows: &[Row], factors: &Row) -> Row {
+fn combined(rows: &[MatrixRow], factors: &MatrixRow) -> MatrixRow {
     let mut sum = [0.0; NODES];
     for (row, factor) in rows.iter().zip(factors) {
         sum.iter_mut().zip(row).for_each(|(sum, one)| *sum += factor * one);
@@ -63,7 +63,7 @@ fn combined(rows: &[Row], factors: &Row) -> Row {
 #[derive(Debug, Clone)]
 pub struct Interpolant {
     /// Coefficients of the Chebyshev polynomials of the part, none of which exceeds 1 there.
-    coefficients: Row,
+    coefficients: MatrixRow,
     /// How many of them are not left out.
     count: usize,
     /// Most that the polynomial misses, and the same of its slope.
@@ -73,7 +73,7 @@ pub struct Interpolant {
 impl Interpolant {
     /// That of a function of -1 to 1, held against its values at the places between the nodes.
     pub fn of(f: impl Fn(f64) -> f64) -> Self {
-        let Tables { nodes, between, by_value, at_between, .. } = &*TABLES;
+        let CosineTables { nodes, between, by_value, at_between, .. } = &*TABLES;
         let coefficients = combined(by_value, &nodes.map(&f));
         let missed = between.iter().zip(at_between).map(|(z, row)| {
             let value: f64 = row.iter().zip(&coefficients).map(|(t, c)| t * c).sum();

@@ -216,12 +216,12 @@ impl Departure {
     }
 }
 
-struct Gap<'a> {
+struct GapOverFlight<'a> {
     leg: &'a Leg,
     flight: &'a Flight,
 }
 
-impl Gap<'_> {
+impl GapOverFlight<'_> {
     /// The oscillator about the place of its rest, and the most of `hypot(x, v)` within the horizon: it grows no faster
     /// than the largest force.
     fn size(&self, oscillator: Motion) -> f64 {
@@ -230,11 +230,11 @@ impl Gap<'_> {
 }
 
 /// The relative velocity of a flight, away from the wall where it begins.
-struct Slip<'a>(Gap<'a>);
+struct Slip<'a>(GapOverFlight<'a>);
 
 impl Curve for Slip<'_> {
     fn sample(&self, s: f64) -> Sample {
-        let Gap { leg, flight } = self.0;
+        let GapOverFlight { leg, flight } = self.0;
         let oscillator = leg.oscillator(s);
         let relative = leg.relative_of(oscillator, s);
         let (away, damping) = (-leg.start.wall.sign(), flight.damping());
@@ -249,7 +249,7 @@ impl Curve for Slip<'_> {
     }
 }
 
-impl Curve for Gap<'_> {
+impl Curve for GapOverFlight<'_> {
     fn sample(&self, s: f64) -> Sample {
         let (relative, curvature_bound) = self.leg.bounded(s);
         Sample { value: relative.x, slope: relative.v, curvature_bound }
@@ -268,7 +268,7 @@ fn free_of_contact(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
         return false;
     }
     let band = Band { lower: -1.0, upper: 1.0, touch: departure.touch };
-    let curve = Gap { leg, flight: &map.flight };
+    let curve = GapOverFlight { leg, flight: &map.flight };
     match first_crossing(&curve, departure.begin(duration), duration * (1.0 + EARLY), band) {
         Search::Crossed(contact) => {
             let wall = if contact.edge == Edge::Upper { Wall::Plus } else { Wall::Minus };
@@ -280,7 +280,7 @@ fn free_of_contact(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
 
 /// Whether the absorber slides away from the wall where a flight begins until it ends.
 fn free_of_reversal(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
-    let curve = Slip(Gap { leg, flight: &map.flight });
+    let curve = Slip(GapOverFlight { leg, flight: &map.flight });
     let band = Band { lower: 0.0, upper: f64::INFINITY, touch: departure.touch };
     let begin = departure.begin(leg.duration);
     matches!(first_crossing(&curve, begin, leg.duration, band), Search::Clear { .. })

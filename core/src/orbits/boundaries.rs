@@ -11,7 +11,7 @@ use super::branch::{BranchEnd, Settings, SpecialPoint, trace};
 use super::limits::{Limit, SymmetricFamily};
 use super::orbit::Origin;
 use super::switching::leave;
-use super::tracer::{Point, Tracer};
+use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
@@ -93,7 +93,7 @@ fn asymmetric(system: &System, limit: &Limit) -> Result<AsymmetricOrbits, OrbitE
     let tracer = Tracer::new(system, Parameter::Clearance);
     let first = leave(&tracer, limit.clearance, &cycle)?;
     let attracts =
-        |point: &Point| point.orbit(Origin::Switching).is_ok_and(|orbit| orbit.attracts());
+        |point: &TracedPoint| point.orbit(Origin::Switching).is_ok_and(|orbit| orbit.attracts());
     let mut seen = 1;
     let mut attracting = attracts(&first);
     let branch = trace(&tracer, first, &settings, |point, _| {

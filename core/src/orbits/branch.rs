@@ -10,7 +10,7 @@ use super::OrbitError;
 use super::locate::located;
 use super::newton::PARAMETER;
 use super::orbit::{Orbit, Origin};
-use super::tracer::{Point, Tracer};
+use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
@@ -215,13 +215,13 @@ pub fn follow(
 /// [`OrbitError::Singular`] where the first point is no orbit.
 pub(super) fn collected(
     tracer: &Tracer,
-    first: Point,
+    first: TracedPoint,
     origin: Origin,
     settings: &Settings,
 ) -> Result<Branch, OrbitError> {
     let (parameter, value) = (tracer.parameter, tracer.value(&first));
     let mut points = vec![BranchPoint { value, orbit: first.orbit(origin)?, passed: 0 }];
-    let Trace { specials, end } = trace(tracer, first, settings, |point, passed| {
+    let BranchTrace { specials, end } = trace(tracer, first, settings, |point, passed| {
         let (value, orbit) = (tracer.value(point), point.orbit(Origin::Continuation)?);
         points.push(BranchPoint { value, orbit, passed });
         Ok(())
@@ -230,7 +230,7 @@ pub(super) fn collected(
 }
 
 /// What lies along a branch, without its points.
-pub(super) struct Trace {
+pub(super) struct BranchTrace {
     /// The bifurcations, in order.
     pub specials: Vec<SpecialPoint>,
     /// Why it ends.
@@ -241,10 +241,10 @@ pub(super) struct Trace {
 /// the number of bifurcations before it.
 pub(super) fn trace(
     tracer: &Tracer,
-    first: Point,
+    first: TracedPoint,
     settings: &Settings,
-    mut visit: impl FnMut(&Point, usize) -> Result<(), OrbitError>,
-) -> Trace {
+    mut visit: impl FnMut(&TracedPoint, usize) -> Result<(), OrbitError>,
+) -> BranchTrace {
     let begin = tracer.value(&first);
     let mut specials = Vec::new();
     let mut here = first.clone();
@@ -256,47 +256,49 @@ pub(super) fn trace(
             Some((there, edge)) => (there, step, Some(BranchEnd::Range { value: edge })),
             None => match tracer.next(&here, step) {
                 Ok((there, taken)) => (there, taken, None),
-                Err(reason) => return Trace { specials, end: failed(tracer, &here, &reason) },
+                Err(reason) => {
+                    return BranchTrace { specials, end: failed(tracer, &here, &reason) };
+                }
             },
         };
         let met = returns(&first, &here, &there, count);
         let last = last.or(met.then_some(BranchEnd::Closed { value: begin }));
         if let Some(end) = pass(tracer, &here, &there, taken, settings, &mut specials) {
-            return Trace { specials, end };
+            return BranchTrace { specials, end };
         }
         if let Err(reason) = visit(&there, specials.len()) {
-            return Trace { specials, end: failed(tracer, &here, &reason) };
+            return BranchTrace { specials, end: failed(tracer, &here, &reason) };
         }
         if let Some(end) = last {
-            return Trace { specials, end };
+            return BranchTrace { specials, end };
         }
         count += 1;
         let factor = if there.iterations() <= EASY { LONGER } else { SHORTER };
         step = (taken * factor).min(settings.largest_step);
         here = there;
     }
-    Trace { specials, end: BranchEnd::PointLimit { value: tracer.value(&here) } }
+    BranchTrace { specials, end: BranchEnd::PointLimit { value: tracer.value(&here) } }
 }
 
-fn failed(tracer: &Tracer, last: &Point, reason: &OrbitError) -> BranchEnd {
+fn failed(tracer: &Tracer, last: &TracedPoint, reason: &OrbitError) -> BranchEnd {
     BranchEnd::NotConverged { value: tracer.value(last), reason: reason.to_string() }
 }
 
 /// Whether the stretch from `here` to `there` passes the branch's first point, along its tangent.
-fn returns(first: &Point, here: &Point, there: &Point, passed: usize) -> bool {
-    let along = |point: &Point| point.place() - first.place();
+fn returns(first: &TracedPoint, here: &TracedPoint, there: &TracedPoint, passed: usize) -> bool {
+    let along = |point: &TracedPoint| point.place() - first.place();
     // Phases count whole turns; a closed branch may come back a turn later.
     let stretch = (there.place() - here.place()).norm();
     let near = along(here).norm() <= BESIDE * stretch && along(there).norm() <= BESIDE * stretch;
-    let side = |point: &Point| first.tangent.dot(&along(point));
+    let side = |point: &TracedPoint| first.tangent.dot(&along(point));
     passed > FEWEST_AROUND && near && side(here) < 0.0 && side(there) >= 0.0
 }
 
 /// Takes the bifurcations before a new point into the branch; says whether it ends at one of them.
 fn pass(
     tracer: &Tracer,
-    here: &Point,
-    there: &Point,
+    here: &TracedPoint,
+    there: &TracedPoint,
     step: f64,
     settings: &Settings,
     specials: &mut Vec<SpecialPoint>,

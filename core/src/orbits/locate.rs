@@ -6,7 +6,7 @@ use super::mirror;
 use super::multipliers::{minus_one, plus_one, unit_product};
 use super::orbit::{Closure, Origin};
 use super::switching;
-use super::tracer::{Point, Tracer};
+use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
 
@@ -23,7 +23,7 @@ const COINCIDES: f64 = 1e-3;
 /// A test function: the bifurcation that it shows, and its value at a point.
 struct Test {
     kind: Bifurcation,
-    value: fn(&Point) -> f64,
+    value: fn(&TracedPoint) -> f64,
 }
 
 fn tests(closure: Closure) -> [Test; 8] {
@@ -55,8 +55,8 @@ fn tests(closure: Closure) -> [Test; 8] {
 /// Every bifurcation between two neighbouring points, in order along the branch.
 pub(super) fn located(
     tracer: &Tracer,
-    here: &Point,
-    there: &Point,
+    here: &TracedPoint,
+    there: &TracedPoint,
     step: f64,
 ) -> Vec<SpecialPoint> {
     let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
@@ -103,7 +103,7 @@ pub(super) fn located(
 
 fn locate(
     tracer: &Tracer,
-    here: &Point,
+    here: &TracedPoint,
     step: f64,
     test: &Test,
     [before, after]: [f64; 2],

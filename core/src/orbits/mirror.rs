@@ -8,7 +8,7 @@ use super::branch::SpecialPoint;
 use super::impact_map::AfterImpact;
 use super::multipliers::minus_one;
 use super::orbit::{Closure, Cycle, Orbit};
-use super::tracer::{Point, Tracer};
+use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
 
@@ -20,7 +20,11 @@ const DOUBLINGS: u32 = 12;
 
 /// The place between two neighbouring points at which the branch is its own mirror image, as a part
 /// of the way, and the symmetry breaking there; `None` if the asymmetry does not change its sign.
-pub(super) fn met(tracer: &Tracer, here: &Point, there: &Point) -> Option<(f64, SpecialPoint)> {
+pub(super) fn met(
+    tracer: &Tracer,
+    here: &TracedPoint,
+    there: &TracedPoint,
+) -> Option<(f64, SpecialPoint)> {
     let (before, after) = (asymmetry(here.cycle())?, asymmetry(there.cycle())?);
     if before * after >= 0.0 {
         return None;

@@ -9,7 +9,7 @@ use super::impact_map::AfterImpact;
 use super::multipliers::LARGEST_SWEEPS;
 use super::newton::{Linearised, PARAMETER};
 use super::orbit::{Closure, Cycle, Orbit, Origin};
-use super::tracer::{Point, Tracer};
+use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
@@ -53,7 +53,7 @@ pub fn branch_off(
 ///
 /// # Errors
 /// [`OrbitError`] where Newton's method does not find the branch.
-pub(super) fn leave(tracer: &Tracer, value: f64, cycle: &Cycle) -> Result<Point, OrbitError> {
+pub(super) fn leave(tracer: &Tracer, value: f64, cycle: &Cycle) -> Result<TracedPoint, OrbitError> {
     let doubled = match cycle.closure {
         Closure::Mirrors { .. } => cycle.unfolded(),
         Closure::Repeats { .. } => twice(cycle),

@@ -28,14 +28,14 @@ const SAME_BRANCH: f64 = 2.0;
 /// A point while a branch is followed: a cycle that closes. What it is as an orbit is measured only
 /// where somebody asks, as most points serve to locate a bifurcation.
 #[derive(Debug, Clone)]
-pub(super) struct Point {
+pub(super) struct TracedPoint {
     found: Converged,
     /// Unit tangent of the branch in first state and scaled parameter.
     pub tangent: Vector5<f64>,
     distances: OnceCell<Distances>,
 }
 
-impl Point {
+impl TracedPoint {
     /// The cycle.
     pub fn cycle(&self) -> &Cycle {
         &self.found.cycle
@@ -82,7 +82,7 @@ pub(super) struct Tracer<'a> {
     base: &'a System,
     /// What varies.
     pub parameter: Parameter,
-    /// The parameter's unit in a [`Point`].
+    /// The parameter's unit in a [`TracedPoint`].
     pub scale: f64,
 }
 
@@ -99,12 +99,12 @@ impl<'a> Tracer<'a> {
     }
 
     /// The parameter at a point.
-    pub fn value(&self, point: &Point) -> f64 {
+    pub fn value(&self, point: &TracedPoint) -> f64 {
         point.parameter() * self.scale
     }
 
     /// How long a point's flights take, in radians of the faster of structure and excitation.
-    pub fn radians(&self, point: &Point) -> f64 {
+    pub fn radians(&self, point: &TracedPoint) -> f64 {
         let frequency = self.base.frequency_ratio().max(1.0);
         frequency * point.cycle().durations.iter().sum::<f64>()
     }
@@ -138,15 +138,15 @@ impl<'a> Tracer<'a> {
         scaled: f64,
         normal: &Vector5<f64>,
         along: &Vector5<f64>,
-    ) -> Result<Point, OrbitError> {
+    ) -> Result<TracedPoint, OrbitError> {
         let found = corrected(|scaled| self.map(scaled), cycle, scaled, normal)?;
         let tangent = found.linear.solve(along, Vector4::zeros(), 1.0)?;
         let tangent = tangent / tangent.norm();
-        Ok(Point { found, tangent, distances: OnceCell::new() })
+        Ok(TracedPoint { found, tangent, distances: OnceCell::new() })
     }
 
     /// `point`'s cycle moved along the branch's tangent by `step`.
-    fn predicted(point: &Point, step: f64) -> Cycle {
+    fn predicted(point: &TracedPoint, step: f64) -> Cycle {
         point.found.linear.moved(point.cycle(), &(point.tangent * step))
     }
 
@@ -154,7 +154,7 @@ impl<'a> Tracer<'a> {
     ///
     /// # Errors
     /// As [`Tracer::correct`].
-    pub fn advance(&self, point: &Point, step: f64) -> Result<Point, OrbitError> {
+    pub fn advance(&self, point: &TracedPoint, step: f64) -> Result<TracedPoint, OrbitError> {
         let ahead = step * point.tangent[4];
         self.correct(
             Self::predicted(point, step),
@@ -169,7 +169,11 @@ impl<'a> Tracer<'a> {
     ///
     /// # Errors
     /// Why no step down to [`SMALLEST_STEP`] reached one.
-    pub fn next(&self, here: &Point, mut step: f64) -> Result<(Point, f64), OrbitError> {
+    pub fn next(
+        &self,
+        here: &TracedPoint,
+        mut step: f64,
+    ) -> Result<(TracedPoint, f64), OrbitError> {
         loop {
             let failure = match self.advance(here, step) {
                 Ok(there) if there.tangent.dot(&here.tangent) >= LARGEST_TURN => {
@@ -187,7 +191,12 @@ impl<'a> Tracer<'a> {
 
     /// The orbit at the edge of `range` (values of the parameter) and the value there, if the next
     /// step would leave it: parameters need not exist beyond (a restitution above 1).
-    pub fn at_edge(&self, here: &Point, step: f64, range: [f64; 2]) -> Option<(Point, f64)> {
+    pub fn at_edge(
+        &self,
+        here: &TracedPoint,
+        step: f64,
+        range: [f64; 2],
+    ) -> Option<(TracedPoint, f64)> {
         let [low, high] = range.map(|edge| edge / self.scale);
         let ahead = here.parameter() + step * here.tangent[4];
         let edge = if ahead > high {

@@ -197,7 +197,7 @@ struct Pair {
 }
 
 /// What follows from `s = t_1 - T/2`; rows are the constant and the coefficient of `eta`.
-struct Impacts {
+struct ImpactRows {
     durations: [f64; 2],
     /// `sin(h)`, `cos(h)`.
     turn: [f64; 2],
@@ -211,7 +211,7 @@ struct Impacts {
     after: [[RowVector2<f64>; 3]; 2],
 }
 
-impl Impacts {
+impl ImpactRows {
     /// `(1, eta)` by the linear equation.
     fn solved(&self) -> Vector2<f64> {
         Vector2::new(1.0, -self.line[0] / self.line[1])
@@ -234,7 +234,7 @@ impl Pair {
         Ok(Self { map, eps: system.mass_ratio(), period, squared: s * s + c * c, repeated })
     }
 
-    fn impacts(&self, s: f64) -> Impacts {
+    fn impacts(&self, s: f64) -> ImpactRows {
         let Self { map, eps, period, .. } = self;
         let [t1, t2] = [0.5 * period + s, 0.5 * period - s];
         let ([alpha1, rest1], [alpha2, rest2]) =
@@ -265,7 +265,7 @@ impl Pair {
         let after = |k: usize, beside: Matrix2<f64>| {
             [beside.row(0).into(), before[k] - jumps[k] * *eps, absorber[k]]
         };
-        Impacts {
+        ImpactRows {
             durations: [t1, t2],
             jumps,
             turn,

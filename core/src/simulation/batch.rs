@@ -13,12 +13,12 @@ use std::borrow::BorrowMut;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use self::queue::{Queue, Task};
+use self::queue::{Queue, Trajectory};
 use super::certificate::{Hull, Slack};
 use super::events::{Detail, Observer, Side};
 use super::panels::Limits;
-use super::path::{Line, Path};
-use super::phasor::{At, Rates, Steady};
+use super::path::{Path, StraightLine};
+use super::phasor::{FlightState, Rates, Steady};
 use super::run::{Moment, Simulation, Stop};
 use super::walls::{self, Sticking};
 use crate::numerics::lanes::{LANES, Real, Wide, WideMask};
@@ -103,7 +103,7 @@ fn run_at<S: BorrowMut<Simulation>, O: Observer>(
         .map(BorrowMut::borrow_mut)
         .zip(observers)
         .zip(extents)
-        .map(|((simulation, observer), Extent { periods, impacts })| Task {
+        .map(|((simulation, observer), Extent { periods, impacts })| Trajectory {
             limits: Limits::of(simulation, *periods, *impacts),
             simulation,
             detail: observer.detail(),
@@ -136,13 +136,13 @@ struct Lanes<S: Simd> {
     /// State and phase where the flight began.
     x: Wide<S>,
     v: Wide<S>,
-    line: Line<Wide<S>>,
+    line: StraightLine<Wide<S>>,
     phase: Wide<S>,
     steady: Steady<Wide<S>>,
     /// Time from there until the period is over.
     left: Wide<S>,
     /// The panel under way, the time from the flight's beginning to its own, and the panels before it.
-    here: At<Wide<S>>,
+    here: FlightState<Wide<S>>,
     slack: Slack<Wide<S>>,
     time: Wide<S>,
     panels: Wide<S>,
@@ -159,7 +159,7 @@ impl<S: Simd> Lanes<S> {
         let zero = Wide::splat(simd, 0.0);
         let one = Wide::splat(simd, 1.0);
         let steady = Steady { x: zero, v: zero };
-        let here = At { z: [zero; 2], steady, a: zero, gap: zero, slope: one };
+        let here = FlightState { z: [zero; 2], steady, a: zero, gap: zero, slope: one };
         Self {
             simd,
             task: [None; LANES],
@@ -176,7 +176,7 @@ impl<S: Simd> Lanes<S> {
             },
             x: zero,
             v: zero,
-            line: Line { y: zero, velocity: zero },
+            line: StraightLine { y: zero, velocity: zero },
             phase: zero,
             steady,
             left: zero,
@@ -214,7 +214,7 @@ impl<S: Simd> Lanes<S> {
             if active == 0 {
                 return;
             }
-            let Flown { flying, clear, there } = self.fly_panels(active);
+            let PanelFlight { flying, clear, there } = self.fly_panels(active);
             let resumed;
             (fresh, resumed) = self.deal_with(active & !flying, clear, there, queue);
             active = flying | resumed;
@@ -230,7 +230,7 @@ impl<S: Simd> Lanes<S> {
             let blocked = walls::blocked(self.x, self.v, self.line) | self.rates.short(&here);
             let blocked = blocked.bits() & fresh;
             let mask = WideMask::from_bits(self.simd, fresh & !blocked);
-            self.here = At::choose(mask, &here, &self.here);
+            self.here = FlightState::choose(mask, &here, &self.here);
             self.slack = tightened(mask, &slack, &self.slack);
             let zero = self.x.like(0.0);
             self.time = Wide::choose(mask, zero, self.time);
@@ -270,7 +270,7 @@ impl<S: Simd> Lanes<S> {
 
     /// Flies until enough lanes wait at an event.
     #[inline(always)]
-    fn fly_panels(&mut self, active: u64) -> Flown<S> {
+    fn fly_panels(&mut self, active: u64) -> PanelFlight<S> {
         let all = active.count_ones();
         let enough = ENOUGH.min(all);
         let Self { simd, rates, line, slack, left, .. } = *self;
@@ -286,11 +286,11 @@ impl<S: Simd> Lanes<S> {
             flying = flying & clear & !over;
             if flying.bits().count_ones() + enough <= all {
                 (self.here, self.time) =
-                    (At::choose(flying, &there, &here), Wide::choose(flying, reach, time));
+                    (FlightState::choose(flying, &there, &here), Wide::choose(flying, reach, time));
                 self.panels = Wide::choose(flying, panels + 1.0, panels);
-                return Flown { flying: flying.bits(), clear: ended.bits(), there };
+                return PanelFlight { flying: flying.bits(), clear: ended.bits(), there };
             }
-            here = At::choose(flying, &there, &here);
+            here = FlightState::choose(flying, &there, &here);
             time = Wide::choose(flying, reach, time);
             panels = Wide::choose(flying, panels + 1.0, panels);
         }
@@ -332,7 +332,7 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// Sets what stays the same along the trajectory that a lane has taken.
-    fn settle(&mut self, lane: usize, tasks: &[Task<'_>]) {
+    fn settle(&mut self, lane: usize, tasks: &[Trajectory<'_>]) {
         let one = self.mass_ratio.like(1.0);
         let each = self.task.map(|task| tasks[task?].simulation.rates.as_ref());
         self.rates = Rates::gathered(
@@ -345,7 +345,7 @@ impl<S: Simd> Lanes<S> {
                 all
             },
         );
-        let Some(Task { simulation, limits, detail, .. }) =
+        let Some(Trajectory { simulation, limits, detail, .. }) =
             self.task[lane].map(|index| &tasks[index])
         else {
             return;
@@ -380,13 +380,13 @@ impl<S: Simd> Lanes<S> {
 }
 
 /// What flying through panels comes to.
-struct Flown<S: Simd> {
+struct PanelFlight<S: Simd> {
     /// The lanes that fly on.
     flying: u64,
     /// Those of the others that wait because their period ends in a panel without impact.
     clear: u64,
     /// The ends of the panels in which those others wait.
-    there: At<Wide<S>>,
+    there: FlightState<Wide<S>>,
 }
 
 /// The slack of some lanes replaced.

@@ -22,7 +22,7 @@
 //! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
 //! [`crate::numerics::crossing`] takes over.
 
-use super::phasor::At;
+use super::phasor::FlightState;
 use crate::numerics::lanes::Real;
 
 /// Steps of Newton towards a level place: from the secant, off by some percent of a panel, two leave less
@@ -41,7 +41,7 @@ pub(super) struct Slack<R> {
 impl<R: Real> Slack<R> {
     /// Whether a moment in a panel that meets a wall is proven to be before.
     #[inline(always)]
-    pub(super) fn before(&self, at: &At<R>, wall: R) -> R::Mask {
+    pub(super) fn before(&self, at: &FlightState<R>, wall: R) -> R::Mask {
         // Twice S/14340.
         (at.gap * wall + self.coefficient * 1.005).at_most(wall.like(1.0))
     }
@@ -68,7 +68,7 @@ pub(super) struct Quintic<R>([R; 6]);
 impl<R: Real> Quintic<R> {
     /// The one with the gap's values, slopes and curvatures at both ends.
     #[inline(always)]
-    pub(super) fn through(here: &At<R>, there: &At<R>, length: R) -> Self {
+    pub(super) fn through(here: &FlightState<R>, there: &FlightState<R>, length: R) -> Self {
         let half = length * length * 0.5;
         let (v0, c2) = (here.slope * length, here.a * half);
         let bend = there.a * half - c2;
@@ -147,7 +147,12 @@ pub(super) struct Hull<R> {
 
 impl<R: Real> Hull<R> {
     #[inline(always)]
-    pub(super) fn of(here: &At<R>, there: &At<R>, length: R, slack: &Slack<R>) -> Self {
+    pub(super) fn of(
+        here: &FlightState<R>,
+        there: &FlightState<R>,
+        length: R,
+        slack: &Slack<R>,
+    ) -> Self {
         let part = length * 0.2;
         let curve = length * length * 0.05;
         let (v0, v1) = (here.slope * part, there.slope * part);
@@ -228,7 +233,7 @@ mod tests {
 
     use super::*;
     use crate::simulation::flow::Oscillator;
-    use crate::simulation::path::{Line, Path};
+    use crate::simulation::path::{Path, StraightLine};
     use crate::simulation::phasor::Rates;
     use crate::system::{Cavity, Excitation, Parameters, System};
 
@@ -246,7 +251,7 @@ mod tests {
     }
 
     /// A panel's quintic, in Bernstein's form.
-    fn quintic(here: &At<f64>, hull: &Hull<f64>, u: f64) -> f64 {
+    fn quintic(here: &FlightState<f64>, hull: &Hull<f64>, u: f64) -> f64 {
         let [b1, b2, b3, b4] = hull.inner;
         let row = [here.gap, b1, b2, b3, b4, hull.last];
         let weights = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
@@ -271,7 +276,7 @@ mod tests {
             let rates = Rates::of(&oscillator(eps, lambda, omega)).expect("it rings");
             for k in 0..80 {
                 let phase = TAU * k as f64 / 80.0;
-                let line = Line { y: 0.2, velocity: 0.3 };
+                let line = StraightLine { y: 0.2, velocity: 0.3 };
                 let (x, v) = (libm::sin(3.0 * phase), 1.5 * libm::cos(5.0 * phase));
                 let (here, slack) = rates.begin(x, v, rates.steady(phase), line);
                 let moment = |s: f64| {
@@ -337,7 +342,7 @@ mod tests {
             let rates = Rates::of(&oscillator(eps, lambda, omega)).expect("it rings");
             for k in 0..800 {
                 let phase = TAU * f64::from(k) / 800.0;
-                let base = Line { y: 0.0, velocity: 0.0 };
+                let base = StraightLine { y: 0.0, velocity: 0.0 };
                 let (x, v) = (libm::sin(3.0 * phase), 1.5 * libm::cos(5.0 * phase));
                 let (here, slack) = rates.begin(x, v, rates.steady(phase), base);
                 let there = rates.next(&here, base);

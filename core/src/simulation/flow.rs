@@ -13,7 +13,8 @@ use nalgebra::Complex;
 use crate::operation_count;
 use crate::system::System;
 
-type Phasor = Complex<f64>;
+/// A complex constant of a system.
+pub(super) type Phasor = Complex<f64>;
 
 /// Gain of the steady motion over the excitation above which the response from rest replaces it:
 /// four digits are the most that the subtraction of the two large parts may cost.

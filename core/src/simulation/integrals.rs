@@ -10,10 +10,9 @@ use std::f64::consts::FRAC_PI_4;
 use std::ops::{Add, Mul, Sub};
 
 use fearless_simd::Simd;
-use nalgebra::Complex;
 
 use super::events::Segment;
-use super::flow::{Kinematics, Oscillator};
+use super::flow::{Kinematics, Oscillator, Phasor};
 use super::phasor::Rates;
 use super::sliding::Sliding;
 use super::small::{angles, exponential_minus_one};
@@ -21,9 +20,6 @@ use crate::numerics::lanes::{LANES, Real};
 use crate::numerics::{extremes, quadrature};
 use crate::operation_count;
 use crate::system::{State, System};
-
-/// A complex constant of a system.
-pub(super) type Phasor = Complex<f64>;
 
 /// A complex number for each flight.
 #[derive(Debug, Clone, Copy)]
@@ -176,7 +172,7 @@ pub(super) struct Quotients {
 
 /// One flight, or several.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Ends<R> {
+pub(super) struct FlightEnds<R> {
     /// The excitation's phase at either end.
     pub phase: [R; 2],
     /// Displacement and velocity of the oscillator there.
@@ -190,7 +186,7 @@ pub(super) struct Ends<R> {
     pub rest: R,
 }
 
-impl Ends<[f64; LANES]> {
+impl FlightEnds<[f64; LANES]> {
     /// Begins the flight of a lane where that of another does.
     pub(super) fn begin_like(&mut self, other: usize, lane: usize) {
         for all in [
@@ -235,7 +231,11 @@ impl Ringing {
 
     /// The excitation at either end of flights.
     #[inline(always)]
-    pub(super) fn excitation<R: Real, S: Simd>(&self, simd: S, ends: &Ends<R>) -> [Turning<R>; 2] {
+    pub(super) fn excitation<R: Real, S: Simd>(
+        &self,
+        simd: S,
+        ends: &FlightEnds<R>,
+    ) -> [Turning<R>; 2] {
         let [begin, end] = angles(simd, ends.phase);
         [Turning { re: begin.1, im: begin.0 }, Turning { re: end.1, im: end.0 }]
     }
@@ -245,11 +245,11 @@ impl Ringing {
     pub(super) fn over<R: Real, S: Simd>(
         &self,
         simd: S,
-        ends: &Ends<R>,
+        ends: &FlightEnds<R>,
         [begin, end]: [Turning<R>; 2],
     ) -> Integrals<R> {
         let Rates { frequency, inverse_frequency, decay, ringing, .. } = self.rates;
-        let Ends { phase, x: [x, _], v: [v, _], y, y_velocity, rest, .. } = *ends;
+        let FlightEnds { phase, x: [x, _], v: [v, _], y, y_velocity, rest, .. } = *ends;
         let duration = (phase[1] - phase[0]) * inverse_frequency;
         let steady = begin.scaled(self.steady);
         let (free, velocity) = (x - rest - steady.re, v + steady.im * frequency);
@@ -309,14 +309,14 @@ impl Ringing {
     #[inline(always)]
     fn bent<R: Real>(
         &self,
-        ends: &Ends<R>,
+        ends: &FlightEnds<R>,
         duration: R,
         once: Turning<R>,
         end: Turning<R>,
         displacement: R,
         straight: Integrals<R>,
     ) -> Integrals<R> {
-        let Ends { y_acceleration, rest, .. } = *ends;
+        let FlightEnds { y_acceleration, rest, .. } = *ends;
         let gained = y_acceleration * duration;
         // By parts: `y = a s^2/2` has the slope `a s`, and that the slope `a`.
         let slope = (end.times(gained) - once.times(y_acceleration)).scaled(self.over.e);

@@ -5,9 +5,9 @@ use fearless_simd::Simd;
 use super::certificate::{Hull, Quintic, Slack};
 use super::events::Side;
 use super::path::Path;
-use super::phasor::{At, Rates, Steady};
+use super::phasor::{FlightState, Rates, Steady};
 use super::roots::Corrected;
-use super::sliding::Course;
+use super::sliding::CavityFlight;
 use crate::numerics::lanes::Real;
 
 /// Part of a panel below which it is not halved further: the slow search takes over.
@@ -41,10 +41,10 @@ impl Rates<f64> {
     /// Flies to the first impact or the end of the period; none where nothing is proven.
     /// Evaluations of the motion are added to `evaluations`.
     #[inline(always)]
-    pub(super) fn fly<S: Simd, C: Course>(
+    pub(super) fn fly<S: Simd, C: CavityFlight>(
         &self,
         simd: S,
-        mut here: At<f64>,
+        mut here: FlightState<f64>,
         slack: Slack<f64>,
         flight: &Flight<C>,
         evaluations: &mut u64,
@@ -66,16 +66,16 @@ impl Rates<f64> {
                 }
                 (here, time) = (there, reach);
             };
-            let mut panel = Panel { here, there, time, length: self.step, slack };
+            let mut panel = FlightPanel { here, there, time, length: self.step, slack };
             if let Some(length) = course.reach(sense, &here, self.step) {
                 let there = self.moment(simd, &here, length, path.from(time));
                 let slack = slack.part(length / self.step);
-                panel = Panel { there, length, slack, ..panel };
+                panel = FlightPanel { there, length, slack, ..panel };
                 *evaluations += 1;
             }
             match self.look_into(simd, &panel, flight, evaluations)? {
-                Found::Landing(landing) => return Some(landing),
-                Found::Nothing { until, there } => (here, time) = (there, until),
+                PanelFinding::Landing(landing) => return Some(landing),
+                PanelFinding::Nothing { until, there } => (here, time) = (there, until),
             }
         }
     }
@@ -85,7 +85,7 @@ impl Rates<f64> {
     fn ended<S: Simd>(
         &self,
         simd: S,
-        here: &At<f64>,
+        here: &FlightState<f64>,
         time: f64,
         path: impl Path<f64>,
         left: f64,
@@ -104,14 +104,14 @@ impl Rates<f64> {
     /// Looks for an event in a panel that is not proven to be clear, or in the first part of it about
     /// which something is; none where nothing is.
     #[inline(always)]
-    fn look_into<S: Simd, C: Course>(
+    fn look_into<S: Simd, C: CavityFlight>(
         &self,
         simd: S,
-        panel: &Panel,
+        panel: &FlightPanel,
         flight: &Flight<C>,
         evaluations: &mut u64,
-    ) -> Option<Found> {
-        let Panel { here, mut there, time, mut length, mut slack } = *panel;
+    ) -> Option<PanelFinding> {
+        let FlightPanel { here, mut there, time, mut length, mut slack } = *panel;
         let Flight { course, sense, path, left } = *flight;
         let (path_here, rest) = (path.from(time), left - time);
         let shortest = SHORTEST * length;
@@ -132,7 +132,7 @@ impl Rates<f64> {
                         let (x, v) = self.oscillator(&at);
                         let end =
                             Landing { end: Ending::Period, time: left, x, v, steady: self.origin };
-                        return Some(Found::Landing(end));
+                        return Some(PanelFinding::Landing(end));
                     }
                 }
                 let guess = Guess { time: guess, length, side, path: path_here };
@@ -143,7 +143,7 @@ impl Rates<f64> {
                     let Corrected { x, v, steady, .. } = found;
                     let time = time + found.time;
                     let impact = Landing { end: Ending::Wall(side), time, x, v, steady };
-                    return Some(Found::Landing(impact));
+                    return Some(PanelFinding::Landing(impact));
                 }
             }
             let ends = [&here, &there];
@@ -153,7 +153,10 @@ impl Rates<f64> {
                     if rest < found.time {
                         break;
                     }
-                    return Some(Found::Landing(Landing { time: time + found.time, ..found }));
+                    return Some(PanelFinding::Landing(Landing {
+                        time: time + found.time,
+                        ..found
+                    }));
                 }
             }
             if length < shortest {
@@ -168,9 +171,9 @@ impl Rates<f64> {
         let until = time + length;
         if left <= until {
             let end = self.ended(simd, &here, time, path, left, evaluations);
-            return Some(Found::Landing(end));
+            return Some(PanelFinding::Landing(end));
         }
-        Some(Found::Nothing { until, there })
+        Some(PanelFinding::Nothing { until, there })
     }
 
     /// When sliding ends in a panel in which it is proven to; none where the moment is not sharp.
@@ -178,7 +181,7 @@ impl Rates<f64> {
     fn turn<S: Simd>(
         &self,
         simd: S,
-        [here, there]: [&At<f64>; 2],
+        [here, there]: [&FlightState<f64>; 2],
         length: f64,
         path: impl Path<f64>,
         slack: &Slack<f64>,
@@ -206,7 +209,13 @@ impl Rates<f64> {
 
     /// As [`Self::after`], for what is rare.
     #[inline(never)]
-    fn moment<S: Simd>(&self, simd: S, here: &At<f64>, s: f64, path: impl Path<f64>) -> At<f64> {
+    fn moment<S: Simd>(
+        &self,
+        simd: S,
+        here: &FlightState<f64>,
+        s: f64,
+        path: impl Path<f64>,
+    ) -> FlightState<f64> {
         simd.vectorize(
             #[inline(always)]
             || self.after(simd, here, s, path),
@@ -218,7 +227,7 @@ impl Rates<f64> {
     fn root<S: Simd>(
         &self,
         simd: S,
-        here: &At<f64>,
+        here: &FlightState<f64>,
         guess: Guess<impl Path<f64>>,
         slack: &Slack<f64>,
         evaluations: &mut u64,
@@ -238,9 +247,9 @@ impl Rates<f64> {
 }
 
 /// A panel of a flight, or its first part.
-struct Panel {
-    here: At<f64>,
-    there: At<f64>,
+struct FlightPanel {
+    here: FlightState<f64>,
+    there: FlightState<f64>,
     /// Time from the flight's beginning to its own.
     time: f64,
     length: f64,
@@ -248,7 +257,7 @@ struct Panel {
 }
 
 /// A flight under way.
-pub(super) struct Flight<C: Course> {
+pub(super) struct Flight<C: CavityFlight> {
     pub course: C,
     /// Sign of `x' - y'`, where it has to stay.
     pub sense: f64,
@@ -258,11 +267,11 @@ pub(super) struct Flight<C: Course> {
 }
 
 /// What is found in a panel.
-enum Found {
+enum PanelFinding {
     /// The flight's end.
     Landing(Landing),
     /// No impact until a moment.
-    Nothing { until: f64, there: At<f64> },
+    Nothing { until: f64, there: FlightState<f64> },
 }
 
 /// Roughly when and where a flight ends in a panel.

@@ -6,10 +6,10 @@ use fearless_simd::{Level, Simd, dispatch};
 use super::contact::rebound;
 use super::events::{Detail, Observer, Side};
 use super::landing::{Ending, Flight, Landing};
-use super::path::{Line, Path};
+use super::path::{Path, StraightLine};
 use super::phasor::Rates;
 use super::run::{Moment, Simulation, Stop};
-use super::sliding::{Course, Straight};
+use super::sliding::{CavityFlight, Straight};
 use super::walls::{self, Sticking};
 use crate::system::State;
 
@@ -80,7 +80,7 @@ impl Simulation {
 
     /// By the instructions that `simd` stands for.
     #[inline(always)]
-    fn fly_by<S: Simd, C: Course>(
+    fn fly_by<S: Simd, C: CavityFlight>(
         &self,
         simd: S,
         course: C,
@@ -96,7 +96,7 @@ impl Simulation {
         let mut leaves = false;
         loop {
             let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, sense, .. } = at;
-            if !leaves && walls::blocked(x, v, Line { y, velocity: y_velocity }) {
+            if !leaves && walls::blocked(x, v, StraightLine { y, velocity: y_velocity }) {
                 return (at, FlightEnd::Doubt);
             }
             let (x, path) = course.depart(&at);
@@ -110,7 +110,7 @@ impl Simulation {
                 return (at, FlightEnd::Doubt);
             };
             let Landing { end, time, x, v, steady } = landing;
-            let Line { y, velocity: y_velocity } = path.from(time).line();
+            let StraightLine { y, velocity: y_velocity } = path.from(time).line();
             let (x, y) = (course.arrive(sense, x), course.arrive(sense, y));
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
                 return (at, FlightEnd::Doubt);
@@ -127,7 +127,7 @@ impl Simulation {
                 at.state = self.rebounded(&before, side, &after);
                 at.sense = -side.sign();
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
-                let line = Line { y, velocity: y_velocity };
+                let line = StraightLine { y, velocity: y_velocity };
                 let sticking = &sticking[side.index()];
                 if sticking.possible(x, v, line, side.sign()) {
                     return (at, FlightEnd::MayStick(side));

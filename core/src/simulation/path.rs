@@ -5,7 +5,7 @@ use crate::numerics::lanes::Real;
 
 /// The absorber's flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Line<R> {
+pub(super) struct StraightLine<R> {
     /// Displacement at its beginning.
     pub y: R,
     /// Velocity.
@@ -17,7 +17,7 @@ pub(super) trait Path<R: Real>: Copy {
     /// The rest of it, from a time `s` on.
     fn from(self, s: R) -> Self;
     /// Displacement and velocity at its beginning.
-    fn line(self) -> Line<R>;
+    fn line(self) -> StraightLine<R>;
     /// The gap's acceleration where the oscillator has the acceleration `a`.
     fn bend(self, a: R) -> R;
     /// The reverse.
@@ -26,7 +26,7 @@ pub(super) trait Path<R: Real>: Copy {
     fn bound(self, largest: R) -> R;
 }
 
-impl<R: Real> Path<R> for Line<R> {
+impl<R: Real> Path<R> for StraightLine<R> {
     #[inline(always)]
     fn from(self, s: R) -> Self {
         Self { y: self.y + self.velocity * s, ..self }
@@ -52,20 +52,21 @@ impl<R: Real> Path<R> for Line<R> {
 /// A flight with a constant acceleration.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Parabola {
-    pub line: Line<f64>,
+    pub line: StraightLine<f64>,
     pub acceleration: f64,
 }
 
 impl Path<f64> for Parabola {
     #[inline(always)]
     fn from(self, s: f64) -> Self {
-        let Line { y, velocity } = self.line;
+        let StraightLine { y, velocity } = self.line;
         let gained = self.acceleration * s;
-        let line = Line { y: y + (velocity + 0.5 * gained) * s, velocity: velocity + gained };
+        let line =
+            StraightLine { y: y + (velocity + 0.5 * gained) * s, velocity: velocity + gained };
         Self { line, ..self }
     }
     #[inline(always)]
-    fn line(self) -> Line<f64> {
+    fn line(self) -> StraightLine<f64> {
         self.line
     }
     #[inline(always)]

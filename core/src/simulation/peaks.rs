@@ -5,14 +5,14 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::certificate::{Quintic, Slack};
-use super::integrals::{Ends, Integrals, Ringing, Turning};
-use super::path::Line;
-use super::phasor::{At, Rates, Steady};
+use super::integrals::{FlightEnds, Integrals, Ringing, Turning};
+use super::path::StraightLine;
+use super::phasor::{FlightState, Rates, Steady};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide};
 
 /// The oscillator at one moment, seen from where it would rest.
 #[derive(Debug, Clone, Copy)]
-struct Moment<R> {
+struct OscillatorMoment<R> {
     x: R,
     v: R,
     steady: Steady<R>,
@@ -20,13 +20,17 @@ struct Moment<R> {
 
 /// What flights add to what is measured.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Measured {
+pub(super) struct Contribution {
     pub peaks: [f64; LANES],
     pub integrals: Integrals<[f64; LANES]>,
 }
 
 /// Measures [`LANES`] flights.
-pub(super) fn together(ringing: &Ringing, flights: &Ends<[f64; LANES]>, measured: &mut Measured) {
+pub(super) fn together(
+    ringing: &Ringing,
+    flights: &FlightEnds<[f64; LANES]>,
+    measured: &mut Contribution,
+) {
     dispatch!(Level::new(), simd => side_by_side(simd, ringing, flights, measured));
 }
 
@@ -34,8 +38,8 @@ pub(super) fn together(ringing: &Ringing, flights: &Ends<[f64; LANES]>, measured
 fn side_by_side<S: Simd>(
     simd: S,
     ringing: &Ringing,
-    flights: &Ends<[f64; LANES]>,
-    measured: &mut Measured,
+    flights: &FlightEnds<[f64; LANES]>,
+    measured: &mut Contribution,
 ) {
     simd.vectorize(
         #[inline(always)]
@@ -59,19 +63,24 @@ fn side_by_side<S: Simd>(
 impl Ringing {
     /// The oscillator at either end of flights.
     #[inline(always)]
-    fn moment<R: Real>(&self, ends: &Ends<R>, excitation: &[Turning<R>; 2], k: usize) -> Moment<R> {
+    fn moment<R: Real>(
+        &self,
+        ends: &FlightEnds<R>,
+        excitation: &[Turning<R>; 2],
+        k: usize,
+    ) -> OscillatorMoment<R> {
         let steady = excitation[k].scaled(self.steady);
         let v = -(steady.im * self.rates.frequency);
         let x = ends.x[k] - ends.rest;
-        Moment { x, v: ends.v[k], steady: Steady { x: steady.re, v } }
+        OscillatorMoment { x, v: ends.v[k], steady: Steady { x: steady.re, v } }
     }
 }
 
 /// Flights side by side.
 #[inline(always)]
-fn gathered<S: Simd>(simd: S, flights: &Ends<[f64; LANES]>) -> Ends<Wide<S>> {
-    let Ends { phase, x, v, y, y_velocity, y_acceleration, rest } = flights;
-    Ends {
+fn gathered<S: Simd>(simd: S, flights: &FlightEnds<[f64; LANES]>) -> FlightEnds<Wide<S>> {
+    let FlightEnds { phase, x, v, y, y_velocity, y_acceleration, rest } = flights;
+    FlightEnds {
         phase: [Wide::load(simd, &phase[0]), Wide::load(simd, &phase[1])],
         x: [Wide::load(simd, &x[0]), Wide::load(simd, &x[1])],
         v: [Wide::load(simd, &v[0]), Wide::load(simd, &v[1])],
@@ -108,10 +117,10 @@ impl Integrals<[f64; LANES]> {
     }
 }
 
-impl<R: Real> Moment<R> {
+impl<R: Real> OscillatorMoment<R> {
     /// Seen from the base, where the gap is the displacement.
     #[inline(always)]
-    fn seen(&self, rates: &Rates<R>, base: Line<R>) -> (At<R>, Slack<R>) {
+    fn seen(&self, rates: &Rates<R>, base: StraightLine<R>) -> (FlightState<R>, Slack<R>) {
         rates.begin(self.x, self.v, self.steady, base)
     }
 }
@@ -119,8 +128,8 @@ impl<R: Real> Moment<R> {
 /// A panel at whose ends the velocity differs in sign.
 #[derive(Debug, Clone, Copy)]
 struct Turn<R> {
-    here: At<R>,
-    there: At<R>,
+    here: FlightState<R>,
+    there: FlightState<R>,
     length: R,
 }
 
@@ -131,7 +140,7 @@ impl<R: Real> Turn<R> {
         &self,
         simd: S,
         rates: &Rates<R>,
-        base: Line<R>,
+        base: StraightLine<R>,
         slack: &Slack<R>,
         lanes: R::Mask,
         known: R,
@@ -153,12 +162,12 @@ fn highest<R: Real, S: Simd>(
     simd: S,
     rates: &Rates<R>,
     base: R,
-    begin: &Moment<R>,
+    begin: &OscillatorMoment<R>,
     duration: R,
-    end: &Moment<R>,
+    end: &OscillatorMoment<R>,
 ) -> R {
     let zero = duration.like(0.0);
-    let base = Line { y: base, velocity: zero };
+    let base = StraightLine { y: base, velocity: zero };
     let (mut here, slack) = begin.seen(rates, base);
     let (end, _) = end.seen(rates, base);
     let (mut left, mut peak) = (duration, here.gap.abs());
@@ -170,7 +179,7 @@ fn highest<R: Real, S: Simd>(
         let length = rates.step.smaller(left);
         let mut there = rates.next(&here, base);
         if last.any() {
-            there = At::choose(last, &end, &there);
+            there = FlightState::choose(last, &end, &there);
         }
         peak = R::choose(flying, peak.larger(there.gap.abs()), peak);
         let turns = flying & (here.slope * there.slope).less(zero);
@@ -183,8 +192,8 @@ fn highest<R: Real, S: Simd>(
             return peak;
         }
         if turns.any() {
-            turn.here = At::choose(turns, &here, &turn.here);
-            turn.there = At::choose(turns, &there, &turn.there);
+            turn.here = FlightState::choose(turns, &here, &turn.here);
+            turn.there = FlightState::choose(turns, &there, &turn.there);
             turn.length = R::choose(turns, length, turn.length);
             turned = turned | turns;
         }

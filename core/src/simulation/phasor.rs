@@ -13,7 +13,7 @@ use fearless_simd::Simd;
 
 use super::certificate::Slack;
 use super::flow::Oscillator;
-use super::path::{Line, Path};
+use super::path::{Path, StraightLine};
 use super::small::{LARGEST_ANGLE, small_angles, small_exponential};
 use crate::numerics::lanes::{Mask, Real};
 
@@ -38,7 +38,7 @@ pub(super) struct Steady<R> {
 
 /// Oscillator and gap at one moment.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct At<R> {
+pub(super) struct FlightState<R> {
     /// Free phasor.
     pub z: [R; 2],
     pub steady: Steady<R>,
@@ -148,7 +148,7 @@ impl<R> Rates<R> {
     }
 }
 
-impl<R: Real> At<R> {
+impl<R: Real> FlightState<R> {
     /// `yes` where `mask`, else `no`.
     #[inline(always)]
     pub(super) fn choose(mask: R::Mask, yes: &Self, no: &Self) -> Self {
@@ -172,8 +172,8 @@ impl<R: Real> Rates<R> {
     pub(super) fn turning_point<S: Simd>(
         &self,
         simd: S,
-        here: &At<R>,
-        base: Line<R>,
+        here: &FlightState<R>,
+        base: StraightLine<R>,
         mut time: R,
         length: R,
         lanes: R::Mask,
@@ -209,7 +209,7 @@ impl<R: Real> Rates<R> {
         v: R,
         steady: Steady<R>,
         path: impl Path<R>,
-    ) -> (At<R>, Slack<R>) {
+    ) -> (FlightState<R>, Slack<R>) {
         let z = self.free(x - steady.x, v - steady.v);
         let size = (z[0] * z[0] + z[1] * z[1]).sqrt();
         let coefficient = self.sixth_free * size + self.sixth_steady;
@@ -223,7 +223,7 @@ impl<R: Real> Rates<R> {
     /// a chattering sequence: its parabola alone, from which the step-by-step search begins, is then
     /// nearer than any halving.
     #[inline(always)]
-    pub(super) fn short(&self, here: &At<R>) -> R::Mask {
+    pub(super) fn short(&self, here: &FlightState<R>) -> R::Mask {
         let one = here.gap.like(1.0);
         let wall = R::choose(here.gap.less(here.gap.like(0.0)), -one, one);
         let on = here.gap.like(ON_WALL).at_most(here.gap.abs());
@@ -232,7 +232,7 @@ impl<R: Real> Rates<R> {
 
     /// A whole panel after `here`, where the absorber is at the beginning of `path`.
     #[inline(always)]
-    pub(super) fn next(&self, here: &At<R>, path: impl Path<R>) -> At<R> {
+    pub(super) fn next(&self, here: &FlightState<R>, path: impl Path<R>) -> FlightState<R> {
         let [cos, fall, rise] = self.swing;
         let steady = Steady {
             x: here.steady.x * cos + here.steady.v * fall,
@@ -249,7 +249,7 @@ impl<R: Real> Rates<R> {
 
     /// Displacement and velocity of the oscillator.
     #[inline(always)]
-    pub(super) fn oscillator(&self, at: &At<R>) -> (R, R) {
+    pub(super) fn oscillator(&self, at: &FlightState<R>) -> (R, R) {
         (at.z[0] + at.steady.x, at.steady.v - self.slowing(at.z))
     }
 
@@ -269,17 +269,23 @@ impl<R: Real> Rates<R> {
     /// Oscillator and gap where the free phasor is `z`, the steady motion `steady`, and the absorber
     /// at the beginning of `path`.
     #[inline(always)]
-    pub(super) fn at(&self, z: [R; 2], steady: Steady<R>, path: impl Path<R>) -> At<R> {
+    pub(super) fn at(&self, z: [R; 2], steady: Steady<R>, path: impl Path<R>) -> FlightState<R> {
         let slowing = self.slowing(z);
         let (x, v) = (z[0] + steady.x, steady.v - slowing);
         let a = self.twice_decay * slowing - self.stiffness * z[0] - self.squared * steady.x;
-        let Line { y, velocity } = path.line();
-        At { z, steady, a: path.bend(a), gap: x - y, slope: v - velocity }
+        let StraightLine { y, velocity } = path.line();
+        FlightState { z, steady, a: path.bend(a), gap: x - y, slope: v - velocity }
     }
 
     /// A time `s`, less than a panel, after `here`, where the absorber's flight `path` begins.
     #[inline(always)]
-    pub(super) fn after<S: Simd>(&self, simd: S, here: &At<R>, s: R, path: impl Path<R>) -> At<R> {
+    pub(super) fn after<S: Simd>(
+        &self,
+        simd: S,
+        here: &FlightState<R>,
+        s: R,
+        path: impl Path<R>,
+    ) -> FlightState<R> {
         let [(sin, cos), (swing_sin, swing_cos)] =
             small_angles(simd, [self.ringing * s, self.frequency * s]);
         let envelope = small_exponential(-(self.decay * s));

@@ -5,7 +5,7 @@ use fearless_simd::Simd;
 
 use super::certificate::{Quintic, Slack};
 use super::path::Path;
-use super::phasor::{At, NEAR, Rates, Steady};
+use super::phasor::{FlightState, NEAR, Rates, Steady};
 use crate::numerics::lanes::{Mask, Real};
 
 /// Steps of Newton from an end of a panel in which the slope changes sign, before the one that every root
@@ -18,7 +18,7 @@ const LEFT: f64 = 1e-17;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corrected<R: Real> {
     /// Where it was evaluated.
-    pub at: At<R>,
+    pub at: FlightState<R>,
     pub time: R,
     pub x: R,
     pub v: R,
@@ -32,7 +32,13 @@ impl<R: Real> Rates<R> {
     /// slopes, or from the end where the slope is towards the wall, and Newton's iteration. Only `lanes`
     /// matter.
     #[inline(always)]
-    pub(super) fn guess(here: &At<R>, there: &At<R>, length: R, wall: R, lanes: R::Mask) -> R {
+    pub(super) fn guess(
+        here: &FlightState<R>,
+        there: &FlightState<R>,
+        length: R,
+        wall: R,
+        lanes: R::Mask,
+    ) -> R {
         let rise = there.gap - here.gap;
         let part = (wall - here.gap) / rise;
         let rest = -part + 1.0;
@@ -59,7 +65,7 @@ impl<R: Real> Rates<R> {
     pub(super) fn corrected<S: Simd>(
         &self,
         simd: S,
-        here: &At<R>,
+        here: &FlightState<R>,
         time: R,
         path: impl Path<R>,
         wall: R,
@@ -80,7 +86,7 @@ impl<R: Real> Rates<R> {
     pub(super) fn levelled<S: Simd>(
         &self,
         simd: S,
-        here: &At<R>,
+        here: &FlightState<R>,
         time: R,
         path: impl Path<R>,
         sense: R,
@@ -96,7 +102,7 @@ impl<R: Real> Rates<R> {
 
     /// The oscillator's second, third and fourth derivative.
     #[inline(always)]
-    fn derivatives(&self, at: &At<R>, path: impl Path<R>) -> [R; 3] {
+    fn derivatives(&self, at: &FlightState<R>, path: impl Path<R>) -> [R; 3] {
         let (_, v) = self.oscillator(at);
         let a = path.unbend(at.a);
         let free_v = v - at.steady.v;
@@ -126,7 +132,14 @@ impl<R: Real> Rates<R> {
 
     /// The motion a time `e` after `at`, where its derivatives are known.
     #[inline(always)]
-    fn moved(&self, at: At<R>, [a, j, s]: [R; 3], time: R, e: R, exact: R::Mask) -> Corrected<R> {
+    fn moved(
+        &self,
+        at: FlightState<R>,
+        [a, j, s]: [R; 3],
+        time: R,
+        e: R,
+        exact: R::Mask,
+    ) -> Corrected<R> {
         let (x, v) = self.oscillator(&at);
         let squared = self.squared;
         let Steady { x: from, v: rate } = at.steady;

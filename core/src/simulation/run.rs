@@ -13,7 +13,7 @@ use super::events::{Absorber, Impact, Observer, Segment, Side, StartError};
 use super::flow::Oscillator;
 use super::history::ImpactLog;
 use super::panels::{FlightEnd, Limits};
-use super::path::Line;
+use super::path::StraightLine;
 use super::phasor::{Rates, Steady};
 use super::sliding::Sliding;
 use super::walls::{Sticking, TOUCH_ULPS};
@@ -343,7 +343,7 @@ impl Simulation {
 
     pub(super) fn perhaps_stick(&mut self, side: Side, observer: &mut dyn Observer) {
         let State { x, x_velocity, y, y_velocity } = self.at.state;
-        let (r, line) = (self.restitution(side), Line { y, velocity: y_velocity });
+        let (r, line) = (self.restitution(side), StraightLine { y, velocity: y_velocity });
         let sticking = Sticking::of(self, side);
         if !sticking.possible(x, x_velocity, line, side.sign()) {
             return;

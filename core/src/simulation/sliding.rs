@@ -8,8 +8,8 @@
 use super::certificate::Hull;
 use super::events::{Observer, Reversal, Side};
 use super::flow::{Kinematics, Oscillator};
-use super::path::{Line, Parabola, Path};
-use super::phasor::{At, ON_WALL, Rates};
+use super::path::{Parabola, Path, StraightLine};
+use super::phasor::{FlightState, ON_WALL, Rates};
 use super::run::{Mode, Moment, Simulation};
 use super::walls::TOUCH_ULPS;
 use crate::system::{State, System};
@@ -82,13 +82,13 @@ impl Sliding {
 
     /// The absorber's flight, seen from where the oscillator would rest.
     fn path(&self, sense: f64, y: f64, velocity: f64) -> Parabola {
-        let line = Line { y: y - self.rest(sense), velocity };
+        let line = StraightLine { y: y - self.rest(sense), velocity };
         Parabola { line, acceleration: self.acceleration(sense) }
     }
 }
 
 /// How the cavity shapes flights through panels.
-pub(super) trait Course: Copy {
+pub(super) trait CavityFlight: Copy {
     type Path: Path<f64>;
     /// The oscillator's displacement and the absorber's flight, seen from where the oscillator would rest.
     fn depart(&self, at: &Moment) -> (f64, Self::Path);
@@ -97,24 +97,24 @@ pub(super) trait Course: Copy {
     /// Both displacements, as seen from there.
     fn arrive(&self, sense: f64, seen: f64) -> f64;
     /// Whether `w'` is proven to keep its sign in a panel, if that matters.
-    fn one_way(&self, sense: f64, hull: &Hull<f64>, ends: [&At<f64>; 2]) -> bool;
+    fn one_way(&self, sense: f64, hull: &Hull<f64>, ends: [&FlightState<f64>; 2]) -> bool;
     /// Length of the first part of a panel of length `step` to look into, if not all of it.
-    fn reach(&self, sense: f64, here: &At<f64>, step: f64) -> Option<f64>;
+    fn reach(&self, sense: f64, here: &FlightState<f64>, step: f64) -> Option<f64>;
     /// Whether a flight from a wall is one for the step-by-step search.
-    fn short(&self, rates: &Rates<f64>, here: &At<f64>) -> bool;
+    fn short(&self, rates: &Rates<f64>, here: &FlightState<f64>) -> bool;
     /// Whether it matters, and `w'` is proven to change its sign once.
-    fn turns(&self, sense: f64, hull: &Hull<f64>, ends: [&At<f64>; 2]) -> bool;
+    fn turns(&self, sense: f64, hull: &Hull<f64>, ends: [&FlightState<f64>; 2]) -> bool;
 }
 
 /// A straight flight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Straight;
 
-impl Course for Straight {
-    type Path = Line<f64>;
+impl CavityFlight for Straight {
+    type Path = StraightLine<f64>;
     #[inline(always)]
-    fn depart(&self, at: &Moment) -> (f64, Line<f64>) {
-        (at.state.x, Line { y: at.state.y, velocity: at.state.y_velocity })
+    fn depart(&self, at: &Moment) -> (f64, StraightLine<f64>) {
+        (at.state.x, StraightLine { y: at.state.y, velocity: at.state.y_velocity })
     }
     #[inline(always)]
     fn slope(&self, _: &Moment, rounded: f64) -> f64 {
@@ -125,24 +125,24 @@ impl Course for Straight {
         seen
     }
     #[inline(always)]
-    fn one_way(&self, _: f64, _: &Hull<f64>, _: [&At<f64>; 2]) -> bool {
+    fn one_way(&self, _: f64, _: &Hull<f64>, _: [&FlightState<f64>; 2]) -> bool {
         true
     }
     #[inline(always)]
-    fn reach(&self, _: f64, _: &At<f64>, _: f64) -> Option<f64> {
+    fn reach(&self, _: f64, _: &FlightState<f64>, _: f64) -> Option<f64> {
         None
     }
     #[inline(always)]
-    fn short(&self, rates: &Rates<f64>, here: &At<f64>) -> bool {
+    fn short(&self, rates: &Rates<f64>, here: &FlightState<f64>) -> bool {
         rates.short(here)
     }
     #[inline(always)]
-    fn turns(&self, _: f64, _: &Hull<f64>, _: [&At<f64>; 2]) -> bool {
+    fn turns(&self, _: f64, _: &Hull<f64>, _: [&FlightState<f64>; 2]) -> bool {
         false
     }
 }
 
-impl Course for Sliding {
+impl CavityFlight for Sliding {
     type Path = Parabola;
     #[inline(always)]
     fn depart(&self, at: &Moment) -> (f64, Parabola) {
@@ -160,11 +160,11 @@ impl Course for Sliding {
         seen + self.rest(sense)
     }
     #[inline(always)]
-    fn one_way(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&At<f64>; 2]) -> bool {
+    fn one_way(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&FlightState<f64>; 2]) -> bool {
         self.friction == 0.0 || hull.rises(sense, here.slope, there.slope)
     }
     #[inline(always)]
-    fn reach(&self, sense: f64, here: &At<f64>, step: f64) -> Option<f64> {
+    fn reach(&self, sense: f64, here: &FlightState<f64>, step: f64) -> Option<f64> {
         let (speed, bend, room) = (here.slope * sense, here.a * sense, 1.0 - here.gap * sense);
         let squared = speed * speed + 2.0 * bend * room;
         let reach = match squared < 0.0 {
@@ -175,13 +175,13 @@ impl Course for Sliding {
         short.then_some(reach.max(SHORTEST_REACH * step))
     }
     #[inline(always)]
-    fn short(&self, rates: &Rates<f64>, here: &At<f64>) -> bool {
+    fn short(&self, rates: &Rates<f64>, here: &FlightState<f64>) -> bool {
         let closing = here.a * here.gap.signum();
         let slow = here.slope * here.slope < 2.0 * SMALL_EXCURSION * closing;
         if self.friction == 0.0 { rates.short(here) } else { slow && ON_WALL <= here.gap.abs() }
     }
     #[inline(always)]
-    fn turns(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&At<f64>; 2]) -> bool {
+    fn turns(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&FlightState<f64>; 2]) -> bool {
         self.friction > 0.0 && hull.turns(sense, here.slope, there.slope)
     }
 }

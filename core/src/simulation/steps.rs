@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::contact::rebound;
 use super::events::{Absorber, Observer, Segment, Side};
 use super::flow::{Kinematics, Motion};
-use super::path::{Line, Parabola, Path};
+use super::path::{Parabola, Path, StraightLine};
 use super::run::{Mode, Simulation, Stop};
 use super::sliding::Sliding;
 use super::walls::{self, TOUCH_ULPS};
@@ -31,7 +31,7 @@ impl Simulation {
         self.resolves_walls()?;
         let Segment { motion, absorber, .. } = self.flown(&self.at, 0.0);
         let (touch, remaining) = (self.touch(), self.remaining());
-        let curve = Gap { motion, path: self.path() };
+        let curve = GapCurve { motion, path: self.path() };
         let from = self.tangential_start(&motion, touch).min(remaining);
         let band = Band { lower: -1.0, upper: 1.0, touch };
         let (found, which) = if self.sliding.friction == 0.0 {
@@ -49,8 +49,14 @@ impl Simulation {
     }
 
     /// What comes first where the absorber rubs: a wall, or that it ceases to slide.
-    fn first_event(&self, gap: &Gap, from: f64, remaining: f64, band: Band) -> (Search, usize) {
-        let Gap { motion, path } = gap;
+    fn first_event(
+        &self,
+        gap: &GapCurve,
+        from: f64,
+        remaining: f64,
+        band: Band,
+    ) -> (Search, usize) {
+        let GapCurve { motion, path } = gap;
         let (sense, State { x, x_velocity, y_velocity, .. }) = (self.at.sense, self.at.state);
         let size = 1.0 + x.abs() + x_velocity.abs() + y_velocity.abs();
         let touch = TOUCH_ULPS * f64::EPSILON * size;
@@ -59,7 +65,7 @@ impl Simulation {
         let slope = Band { lower: 0.0, upper: f64::INFINITY, touch };
         let samples = |s: f64| {
             let at = motion.at(s);
-            let Line { y, velocity } = path.from(s).line;
+            let StraightLine { y, velocity } = path.from(s).line;
             let bounds = motion.bounds(s, at, HORIZON);
             let speed = at.v - velocity;
             [
@@ -81,7 +87,7 @@ impl Simulation {
     /// The flight from here.
     fn path(&self) -> Parabola {
         let State { y, y_velocity, .. } = self.at.state;
-        let line = Line { y, velocity: y_velocity };
+        let line = StraightLine { y, velocity: y_velocity };
         Parabola { line, acceleration: self.sliding.acceleration(self.at.sense) }
     }
 
@@ -181,7 +187,7 @@ impl Simulation {
     /// Distance over the clearance that rounding can move the walls by.
     pub(super) fn touch(&self) -> f64 {
         let State { x, x_velocity, y, y_velocity } = self.at.state;
-        walls::touch(x, x_velocity, Line { y, velocity: y_velocity })
+        walls::touch(x, x_velocity, StraightLine { y, velocity: y_velocity })
     }
 
     /// A search among walls that rounding moves about would not end.
@@ -221,15 +227,15 @@ impl Simulation {
 }
 
 /// Relative displacement `w = x - y` during a flight.
-struct Gap {
+struct GapCurve {
     motion: Motion,
     path: Parabola,
 }
 
-impl Curve for Gap {
+impl Curve for GapCurve {
     fn sample(&self, s: f64) -> Sample {
         let at = self.motion.at(s);
-        let Line { y, velocity } = self.path.from(s).line;
+        let StraightLine { y, velocity } = self.path.from(s).line;
         let largest = self.motion.bounds(s, at, HORIZON).acceleration;
         Sample {
             value: at.x - y,

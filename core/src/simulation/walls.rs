@@ -1,7 +1,7 @@
 //! What rounding makes of the walls: touching them, and chattering down to sustained contact.
 
 use super::events::Side;
-use super::path::Line;
+use super::path::StraightLine;
 use super::run::Simulation;
 use crate::numerics::lanes::Real;
 
@@ -10,14 +10,14 @@ pub(super) const TOUCH_ULPS: f64 = 16.0;
 
 /// Distance over the clearance that rounding can move the walls by.
 #[inline(always)]
-pub(super) fn touch<R: Real>(x: R, v: R, line: Line<R>) -> R {
+pub(super) fn touch<R: Real>(x: R, v: R, line: StraightLine<R>) -> R {
     let scale = x.abs() + 1.0 + v.abs() + line.y.abs() + line.velocity.abs();
     scale * (TOUCH_ULPS * f64::EPSILON)
 }
 
 /// Where a flight does not begin between the walls, nor leaves one.
 #[inline(always)]
-pub(super) fn blocked<R: Real>(x: R, v: R, line: Line<R>) -> R::Mask {
+pub(super) fn blocked<R: Real>(x: R, v: R, line: StraightLine<R>) -> R::Mask {
     let (gap, slope) = (x - line.y, v - line.velocity);
     let touch = touch(x, v, line);
     let beyond = (touch + 1.0).less(gap.abs());
@@ -57,14 +57,14 @@ impl<R: Real> Sticking<R> {
     /// Tolerated opening of the gap. Rounding adds up to a touch to each, of which an impact takes a share:
     /// where the two balance a sequence would never end.
     #[inline(always)]
-    pub(super) fn tolerated(&self, x: R, v: R, line: Line<R>) -> R {
+    pub(super) fn tolerated(&self, x: R, v: R, line: StraightLine<R>) -> R {
         self.excursion.larger(touch(x, v, line) * self.inverse_loss)
     }
 
     /// Where the gap need not open further than tolerated after an impact on `wall`, whatever the
     /// acceleration is.
     #[inline(always)]
-    pub(super) fn possible(&self, x: R, v: R, line: Line<R>, wall: R) -> R::Mask {
+    pub(super) fn possible(&self, x: R, v: R, line: StraightLine<R>, wall: R) -> R::Mask {
         let opening = -wall * (v - line.velocity);
         let excursion = self.tolerated(x, v, line);
         let largest = self.largest_force + self.decay * 2.0 * v.abs() + self.stiffness * x.abs();

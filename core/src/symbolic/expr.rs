@@ -73,7 +73,7 @@ impl Expr {
     /// For a symbol that is not in the table, and for more of Rust than expressions need. The texts are
     /// constants of the program, all of which a test reads.
     pub fn parse(text: &str) -> Self {
-        let mut reader = Reader { text, rest: text.trim_start() };
+        let mut reader = ExpressionReader { text, rest: text.trim_start() };
         let expr = reader.sum();
         if reader.rest.is_empty() { expr } else { reader.fail("an operator") }
     }
@@ -110,12 +110,12 @@ impl Expr {
 }
 
 /// Reads by descent: a sum of products of signed atoms, each from left to right, as Rust does.
-struct Reader<'a> {
+struct ExpressionReader<'a> {
     text: &'a str,
     rest: &'a str,
 }
 
-impl Reader<'_> {
+impl ExpressionReader<'_> {
     fn fail(&self, expected: &str) -> ! {
         panic!("`{}`: expected {expected} before `{}`", self.text, self.rest)
     }

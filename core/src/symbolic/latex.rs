@@ -9,13 +9,13 @@ use super::{Expr, Symbol, Values};
 impl Expr {
     /// The expression in LaTeX.
     pub fn to_latex(&self) -> String {
-        Writer { values: &Values::default(), digits: 1 }.piece(self).text
+        TexWriter { values: &Values::default(), digits: 1 }.piece(self).text
     }
 
     /// The expression in LaTeX with numbers for the symbols that have values, to `digits`
     /// significant digits. `pi` remains a symbol, as do symbols without a value.
     pub fn to_latex_with(&self, values: &Values, digits: usize) -> String {
-        Writer { values, digits }.piece(self).text
+        TexWriter { values, digits }.piece(self).text
     }
 }
 
@@ -42,7 +42,7 @@ pub fn format_number(number: f64, digits: usize) -> String {
 
 /// What has to be known of a piece of LaTeX to put it next to others.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum TexKind {
     /// A letter, a root or a function: stands by itself.
     Closed,
     /// A number without sign or power of ten.
@@ -53,13 +53,13 @@ enum Kind {
     Sum,
 }
 
-struct Piece {
+struct TexPiece {
     text: String,
-    kind: Kind,
+    kind: TexKind,
 }
 
-impl Piece {
-    fn new(text: String, kind: Kind) -> Self {
+impl TexPiece {
+    fn new(text: String, kind: TexKind) -> Self {
         Self { text, kind }
     }
 
@@ -76,33 +76,33 @@ fn parenthesised(text: &str) -> String {
     format!(r"\left({text}\right)")
 }
 
-struct Writer<'a> {
+struct TexWriter<'a> {
     values: &'a Values,
     digits: usize,
 }
 
-impl Writer<'_> {
-    fn piece(&self, expr: &Expr) -> Piece {
+impl TexWriter<'_> {
+    fn piece(&self, expr: &Expr) -> TexPiece {
         match expr {
-            Expr::Number(number) => Piece::new(number.to_string(), Kind::Number),
+            Expr::Number(number) => TexPiece::new(number.to_string(), TexKind::Number),
             Expr::Symbol(symbol) => self.symbol(*symbol),
             Expr::Negative(inner) => {
                 let inner = self.piece(inner);
-                let needed = inner.kind == Kind::Sum || inner.is_negative();
-                Piece::new(format!("-{}", inner.parenthesised_if(needed)), Kind::Product)
+                let needed = inner.kind == TexKind::Sum || inner.is_negative();
+                TexPiece::new(format!("-{}", inner.parenthesised_if(needed)), TexKind::Product)
             }
             Expr::Binary('/', sides) => {
                 let below = self.piece(&sides[1]).text;
                 if let Expr::Negative(above) = &sides[0] {
                     let text = format!(r"-\frac{{{}}}{{{below}}}", self.piece(above).text);
-                    return Piece::new(text, Kind::Product);
+                    return TexPiece::new(text, TexKind::Product);
                 }
                 let above = self.piece(&sides[0]);
                 let (sign, above) = match above.text.strip_prefix('-') {
-                    Some(rest) if above.kind != Kind::Sum => ("-", rest),
+                    Some(rest) if above.kind != TexKind::Sum => ("-", rest),
                     _ => ("", above.text.as_str()),
                 };
-                Piece::new(format!(r"{sign}\frac{{{above}}}{{{below}}}"), Kind::Product)
+                TexPiece::new(format!(r"{sign}\frac{{{above}}}{{{below}}}"), TexKind::Product)
             }
             Expr::Binary('*', sides) => self.product(&sides[0], &sides[1]),
             Expr::Binary(sign, sides) => self.sum(*sign, &sides[0], &sides[1]),
@@ -110,77 +110,78 @@ impl Writer<'_> {
         }
     }
 
-    fn symbol(&self, symbol: Symbol) -> Piece {
+    fn symbol(&self, symbol: Symbol) -> TexPiece {
         match self.values.get(symbol) {
             Some(value) if symbol != Symbol::PI => {
                 let text = format_number(value, self.digits);
                 let is_plain = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
-                Piece::new(text, if is_plain { Kind::Number } else { Kind::Product })
+                TexPiece::new(text, if is_plain { TexKind::Number } else { TexKind::Product })
             }
-            _ => Piece::new(symbol.entry().latex.to_owned(), Kind::Closed),
+            _ => TexPiece::new(symbol.entry().latex.to_owned(), TexKind::Closed),
         }
     }
 
     /// A term that begins with a minus sign turns the sign before it.
-    fn sum(&self, sign: char, left: &Expr, right: &Expr) -> Piece {
+    fn sum(&self, sign: char, left: &Expr, right: &Expr) -> TexPiece {
         let (left, right) = (self.piece(left).text, self.piece(right));
         let turned = if sign == '+' { '-' } else { '+' };
         let text = match right.text.strip_prefix('-') {
-            Some(rest) if right.kind != Kind::Sum => format!("{left} {turned} {rest}"),
+            Some(rest) if right.kind != TexKind::Sum => format!("{left} {turned} {rest}"),
             _ => {
-                let needed = right.kind == Kind::Sum && (sign == '-' || right.is_negative());
+                let needed = right.kind == TexKind::Sum && (sign == '-' || right.is_negative());
                 format!("{left} {sign} {}", right.parenthesised_if(needed))
             }
         };
-        Piece::new(text, Kind::Sum)
+        TexPiece::new(text, TexKind::Sum)
     }
 
     /// Factors side by side: sums, and later factors that begin with a sign, in parentheses; a dot
     /// before a number.
-    fn product(&self, left: &Expr, right: &Expr) -> Piece {
+    fn product(&self, left: &Expr, right: &Expr) -> TexPiece {
         let (left, right) = (self.piece(left), self.piece(right));
         let digit = |c: char| c.is_ascii_digit();
         let mixed = left.text.ends_with(digit) && right.text.starts_with(r"\frac");
-        let needed = right.kind == Kind::Sum || right.is_negative();
+        let needed = right.kind == TexKind::Sum || right.is_negative();
         let right = right.parenthesised_if(needed);
         let dot = if mixed || right.starts_with(digit) { r"\cdot " } else { "" };
-        let needed = left.kind == Kind::Sum;
-        Piece::new(format!("{} {dot}{right}", left.parenthesised_if(needed)), Kind::Product)
+        let needed = left.kind == TexKind::Sum;
+        TexPiece::new(format!("{} {dot}{right}", left.parenthesised_if(needed)), TexKind::Product)
     }
 
-    fn function(&self, name: &str, arguments: &[Expr]) -> Piece {
+    fn function(&self, name: &str, arguments: &[Expr]) -> TexPiece {
         match name {
             "square" => self.power(&arguments[0], 2),
             "cube" => self.power(&arguments[0], 3),
             "sin" | "cos" => self.angle_function(&format!(r"\{name}"), &arguments[0]),
             "sqrt" => {
                 let text = format!(r"\sqrt{{{}}}", self.piece(&arguments[0]).text);
-                Piece::new(text, Kind::Closed)
+                TexPiece::new(text, TexKind::Closed)
             }
             _ => {
                 let all: Vec<String> = arguments.iter().map(|one| self.piece(one).text).collect();
                 let text = format!(r"\mathrm{{{name}}}{}", parenthesised(&all.join(", ")));
-                Piece::new(text, Kind::Closed)
+                TexPiece::new(text, TexKind::Closed)
             }
         }
     }
 
-    fn angle_function(&self, name: &str, argument: &Expr) -> Piece {
+    fn angle_function(&self, name: &str, argument: &Expr) -> TexPiece {
         let angle = self.piece(argument);
         let needed = !matches!(argument, Expr::Symbol(_)) || angle.is_negative();
-        Piece::new(format!("{name} {}", angle.parenthesised_if(needed)), Kind::Closed)
+        TexPiece::new(format!("{name} {}", angle.parenthesised_if(needed)), TexKind::Closed)
     }
 
-    fn power(&self, base: &Expr, exponent: u32) -> Piece {
+    fn power(&self, base: &Expr, exponent: u32) -> TexPiece {
         match base {
             Expr::Function(name @ ("sin" | "cos"), angle) => {
                 self.angle_function(&format!(r"\{name}^{{{exponent}}}"), &angle[0])
             }
             _ => {
                 let base = self.piece(base);
-                let kind = if base.kind == Kind::Number { Kind::Number } else { Kind::Closed };
-                let needed = matches!(base.kind, Kind::Sum | Kind::Product);
-                Piece::new(format!("{}^{{{exponent}}}", base.parenthesised_if(needed)), kind)
+                let kind =
+                    if base.kind == TexKind::Number { TexKind::Number } else { TexKind::Closed };
+                let needed = matches!(base.kind, TexKind::Sum | TexKind::Product);
+                TexPiece::new(format!("{}^{{{exponent}}}", base.parenthesised_if(needed)), kind)
             }
         }
     }

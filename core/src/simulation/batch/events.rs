@@ -2,15 +2,15 @@
 
 use fearless_simd::Simd;
 
-use super::queue::{Queue, Task};
+use super::queue::{Queue, Trajectory};
 use super::{Lanes, tightened};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::{Hull, Slack};
 use crate::simulation::contact::{Rebound, rebound};
 use crate::simulation::events::{Detail, Side};
 use crate::simulation::landing::CORRECTIONS;
-use crate::simulation::path::{Line, Path};
-use crate::simulation::phasor::{At, Rates, Steady};
+use crate::simulation::path::{Path, StraightLine};
+use crate::simulation::phasor::{FlightState, Rates, Steady};
 use crate::system::State;
 
 /// Halvings of panels side by side; what needs more goes on alone.
@@ -24,7 +24,7 @@ impl<S: Simd> Lanes<S> {
         &mut self,
         events: u64,
         clear: u64,
-        there: At<Wide<S>>,
+        there: FlightState<Wide<S>>,
         queue: &mut Queue<'_>,
     ) -> (u64, u64) {
         let panel = self.narrowed(events, clear, there);
@@ -36,7 +36,7 @@ impl<S: Simd> Lanes<S> {
         let through = self.last_turn.at_most(self.turns) | self.last_impact.at_most(self.impacts);
         let on = panel.on;
         if on.any() {
-            self.here = At::choose(on, &panel.there, &self.here);
+            self.here = FlightState::choose(on, &panel.there, &self.here);
             self.time = Wide::choose(on, self.time + panel.length, self.time);
             self.panels = Wide::choose(on, self.panels + 1.0, self.panels);
         }
@@ -61,7 +61,12 @@ impl<S: Simd> Lanes<S> {
 
     /// The panels of the waiting lanes, halved where nothing is proven about them and they are not `clear`.
     #[inline(always)]
-    fn narrowed(&mut self, events: u64, clear: u64, mut there: At<Wide<S>>) -> Panel<S> {
+    fn narrowed(
+        &mut self,
+        events: u64,
+        clear: u64,
+        mut there: FlightState<Wide<S>>,
+    ) -> PanelSearch<S> {
         let (simd, rates) = (self.simd, self.rates);
         let waiting = WideMask::from_bits(simd, events);
         let mut clear = WideMask::from_bits(simd, clear);
@@ -78,7 +83,7 @@ impl<S: Simd> Lanes<S> {
             length = Wide::choose(open, length * 0.5, length);
             slack = tightened(open, &slack.part(0.5), &slack);
             let middle = rates.after(simd, &self.here, length, self.line.from(self.time));
-            there = At::choose(open, &middle, &there);
+            there = FlightState::choose(open, &middle, &there);
             self.panels = Wide::choose(open, self.panels + 1.0, self.panels);
             wall = Wide::choose(open, nearest(&there), wall);
             let hull = Hull::of(&self.here, &there, length, &slack);
@@ -86,18 +91,18 @@ impl<S: Simd> Lanes<S> {
             crossing = crossing | (open & hull.meets(wall));
         }
         let on = waiting & clear & !self.left.at_most(self.time + length);
-        Panel { there, length, slack, wall, crossing, over: clear & !on, on }
+        PanelSearch { there, length, slack, wall, crossing, over: clear & !on, on }
     }
 
     /// What the flights end with.
     #[inline(always)]
-    fn event(&self, panel: &Panel<S>, end: &End<S>) -> Event<S> {
-        let Line { y, velocity } = self.line;
+    fn event(&self, panel: &PanelSearch<S>, end: &FlightEnd<S>) -> FlightEvents<S> {
+        let StraightLine { y, velocity } = self.line;
         let flight = Wide::choose(end.over, self.left, self.time + end.time);
         let (x, v, y) = (end.x, end.v, y + velocity * flight);
         let good = end.exact & x.is_finite() & y.is_finite();
         let phase = self.phase + self.rates.frequency * flight;
-        Event {
+        FlightEvents {
             good,
             impact: good & !end.over,
             flight,
@@ -112,8 +117,8 @@ impl<S: Simd> Lanes<S> {
 
     /// Lets the lanes stand where their flights have ended.
     #[inline(always)]
-    fn stand(&mut self, event: &Event<S>, end: &End<S>) {
-        let Event { good, impact, x, v, y, wall, after, .. } = event;
+    fn stand(&mut self, event: &FlightEvents<S>, end: &FlightEnd<S>) {
+        let FlightEvents { good, impact, x, v, y, wall, after, .. } = event;
         let (good, impact, over) = (*good, *impact, *good & end.over);
         let follows = self.restitution.at_most(x.like(0.0));
         let follows = Wide::choose(follows, after.x_velocity, after.y_velocity);
@@ -136,15 +141,15 @@ impl<S: Simd> Lanes<S> {
     /// Where the flights end within their panels: at a wall, or with the period in lanes that are
     /// clear until then or cross later.
     #[inline(always)]
-    fn end(&self, panel: &Panel<S>) -> End<S> {
-        let Panel { there, length, slack, wall, crossing, over: clear, .. } = *panel;
+    fn end(&self, panel: &PanelSearch<S>) -> FlightEnd<S> {
+        let PanelSearch { there, length, slack, wall, crossing, over: clear, .. } = *panel;
         let line = self.line.from(self.time);
         let (zero, none) = (self.x.like(0.0), WideMask::from_bits(self.simd, 0));
         let guess = Rates::guess(&self.here, &there, length, wall, crossing);
         let guess = guess.larger(zero).smaller(length);
         let rest = self.left - self.time;
         let mut time = guess;
-        let mut end = End {
+        let mut end = FlightEnd {
             over: clear,
             time: zero,
             x: zero,
@@ -184,11 +189,11 @@ impl<S: Simd> Lanes<S> {
 
     /// Tells observers of what has happened to their lanes.
     #[inline(always)]
-    fn tell(&self, event: &Event<S>, queue: &mut Queue<'_>) {
+    fn tell(&self, event: &FlightEvents<S>, queue: &mut Queue<'_>) {
         let (good, impact) = (event.good.bits() & self.observed, event.impact.bits());
         for lane in (0..LANES).filter(|lane| good >> lane & 1 == 1) {
             let Some(index) = self.task[lane] else { continue };
-            let Task { simulation, observer, detail, .. } = &mut queue.tasks[index];
+            let Trajectory { simulation, observer, detail, .. } = &mut queue.tasks[index];
             let flight = event.flight[lane];
             if flight > 0.0 && *detail == Detail::Flights {
                 observer.segment(&simulation.flown(&self.moment(lane), flight));
@@ -216,7 +221,7 @@ impl<S: Simd> Lanes<S> {
 }
 
 /// What flights ended with.
-struct Event<S: Simd> {
+struct FlightEvents<S: Simd> {
     /// Where that is known to rounding.
     good: WideMask<S>,
     /// Where it is at a wall.
@@ -231,8 +236,8 @@ struct Event<S: Simd> {
 }
 
 /// Where flights may end.
-struct Panel<S: Simd> {
-    there: At<Wide<S>>,
+struct PanelSearch<S: Simd> {
+    there: FlightState<Wide<S>>,
     length: Wide<S>,
     slack: Slack<Wide<S>>,
     wall: Wide<S>,
@@ -245,7 +250,7 @@ struct Panel<S: Simd> {
 }
 
 /// Where flights end within their panels, times from the panel's beginning.
-struct End<S: Simd> {
+struct FlightEnd<S: Simd> {
     /// With the period, not at a wall.
     over: WideMask<S>,
     time: Wide<S>,
@@ -263,7 +268,7 @@ fn side(wall: f64) -> Side {
 
 /// The wall on whose side each gap is.
 #[inline(always)]
-fn nearest<S: Simd>(there: &At<Wide<S>>) -> Wide<S> {
+fn nearest<S: Simd>(there: &FlightState<Wide<S>>) -> Wide<S> {
     let one = there.gap.like(1.0);
     Wide::choose(there.gap.like(0.0).less(there.gap), one, -one)
 }

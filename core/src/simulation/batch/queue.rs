@@ -5,7 +5,7 @@ use crate::simulation::panels::Limits;
 use crate::simulation::run::{Moment, Simulation, Stop};
 
 /// A trajectory on its way.
-pub(super) struct Task<'a> {
+pub(super) struct Trajectory<'a> {
     pub(super) simulation: &'a mut Simulation,
     pub(super) observer: &'a mut dyn Observer,
     /// What the observer needs to be told of.
@@ -14,7 +14,7 @@ pub(super) struct Task<'a> {
     pub(super) stop: Option<Stop>,
 }
 
-impl Task<'_> {
+impl Trajectory<'_> {
     /// Goes on alone until the trajectory flies through panels, or has ended; at least one step if
     /// `doubt`.
     pub(super) fn alone(&mut self, mut doubt: bool) -> Option<Moment> {
@@ -38,6 +38,6 @@ impl Task<'_> {
 
 /// Trajectories, and which of them is to be taken up next.
 pub(super) struct Queue<'a> {
-    pub(super) tasks: Vec<Task<'a>>,
+    pub(super) tasks: Vec<Trajectory<'a>>,
     pub(super) next: usize,
 }

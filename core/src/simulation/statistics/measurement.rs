@@ -5,7 +5,7 @@
 //! check.
 
 use super::super::events::{Absorber, Detail, Impact, Observer, Reversal, Segment};
-use super::super::integrals::{Ends, Quadrature, Ringing};
+use super::super::integrals::{FlightEnds, Quadrature, Ringing};
 use super::super::peaks;
 use super::super::sliding::Sliding;
 use super::Statistics;
@@ -55,7 +55,7 @@ pub struct Measurement {
     without_flights: u64,
     /// Flights that are yet to be measured, and the whole periods before each; after them, where the flight
     /// under way began.
-    flights: Ends<[f64; LANES]>,
+    flights: FlightEnds<[f64; LANES]>,
     periods: [u64; LANES],
     /// How many are yet to be measured: less than [`LANES`].
     open: usize,
@@ -76,7 +76,7 @@ impl Measurement {
             sliding: Sliding::of(system),
             sense: Sliding::first_sense(system, &start),
             without_flights: 0,
-            flights: Ends::default(),
+            flights: FlightEnds::default(),
             periods: [0; LANES],
             open: 0,
         };
@@ -150,9 +150,9 @@ impl Measurement {
         }
         operation_count::note(INTEGRALS * open as u64);
         // Those that are left have no duration.
-        let Ends { phase: [begin, end], .. } = &mut self.flights;
+        let FlightEnds { phase: [begin, end], .. } = &mut self.flights;
         end[open..].copy_from_slice(&begin[open..]);
-        let mut measured = peaks::Measured::default();
+        let mut measured = peaks::Contribution::default();
         peaks::together(ringing, &self.flights, &mut measured);
         let mut lane = 0;
         for flights in self.periods[..open].chunk_by(|one, next| one == next) {

@@ -1,6 +1,6 @@
 use crate::numerics::lanes::LANES;
 use crate::simulation::events::{Absorber, Observer, Segment};
-use crate::simulation::integrals::{Ends, Quadrature, Ringing};
+use crate::simulation::integrals::{FlightEnds, Quadrature, Ringing};
 use crate::simulation::{Simulation, Stop, peaks};
 use crate::system::{Cavity, Excitation, Parameters, State, System};
 
@@ -24,7 +24,7 @@ impl Observer for Comparison {
             lanes[0] = number;
             lanes
         };
-        let ends = Ends {
+        let ends = FlightEnds {
             phase: [segment.phase, over].map(alone),
             x: [begin.x, end.x].map(alone),
             v: [begin.x_velocity, end.x_velocity].map(alone),
@@ -33,7 +33,7 @@ impl Observer for Comparison {
             y_acceleration: alone(0.0),
             rest: alone(0.0),
         };
-        let mut measured = peaks::Measured::default();
+        let mut measured = peaks::Contribution::default();
         peaks::together(ringing, &ends, &mut measured);
         let closed = measured.integrals.at(0);
         let sampled = self.quadrature.over(segment);
