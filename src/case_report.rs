@@ -11,7 +11,7 @@ use crate::report::document::{self, Source};
 use crate::report::figure::Figure;
 use crate::report::render::{self, Files, RenderError};
 use crate::report::{equations, figures, template, transient};
-use crate::study::fidelity::Plan;
+use crate::study::fidelity::LayerPlan;
 use crate::study::plots::Plot;
 use crate::study::{CaseStudy, StudyError};
 
@@ -46,7 +46,7 @@ impl Report {
     pub fn of(
         name: &str,
         case: &Case,
-        plan: Option<&Plan>,
+        plan: Option<&LayerPlan>,
         executor: &dyn Executor,
     ) -> Result<Self, ReportError> {
         let answer = Answer::of(case, Asked::Report, plan, executor)?;

@@ -17,7 +17,7 @@ use vinesink::motions::Effort;
 use vinesink::report::console::Analysed;
 use vinesink::report::transient as page;
 use vinesink::store::Reach;
-use vinesink::study::fidelity::Plan;
+use vinesink::study::fidelity::LayerPlan;
 use vinesink::system::State;
 
 use crate::simulate::{self, Impacts, Wanted};
@@ -240,7 +240,7 @@ impl Case {
 
     fn analysed(&self, work: &Work) -> PyResult<serde_json::Value> {
         let case = &self.inner;
-        let plan = Plan::of_case(case, None).map_err(refused)?;
+        let plan = LayerPlan::of_case(case, None).map_err(refused)?;
         let answer = Answer::of(case, Asked::Analysis, plan.as_ref(), work).map_err(refused)?;
         if let Some(document) = self.unsteady(&answer) {
             return Ok(document);

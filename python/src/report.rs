@@ -8,13 +8,13 @@ use vinesink::case::Case;
 use vinesink::case_report::Report;
 use vinesink::report::render::{self, Files};
 use vinesink::store;
-use vinesink::study::fidelity::Plan;
+use vinesink::study::fidelity::LayerPlan;
 
 use crate::work::{Work, refused};
 
 /// The files, and whether simulations are to be trusted and what was asked of accuracy holds.
 pub fn rendered(case: &Case, name: &str, work: &Work) -> PyResult<(Files, bool)> {
-    let plan = Plan::of_case(case, None).map_err(refused)?;
+    let plan = LayerPlan::of_case(case, None).map_err(refused)?;
     let report = Report::of(name, case, plan.as_ref(), work).map_err(refused)?;
     let holds = report.answer.trusted() && report.answer.exact_enough();
     Ok((report.files(case).map_err(refused)?, holds))

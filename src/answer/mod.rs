@@ -16,7 +16,7 @@ use crate::executor::Executor;
 use crate::motions::{Effort, Measured, Motions, Place, measured, motions};
 use crate::orbits::FullSystem;
 use crate::simulation::ImpactLog;
-use crate::study::fidelity::{Answers, Plan};
+use crate::study::fidelity::{Answers, LayerPlan};
 use crate::study::{CaseStudy, StudyError};
 use crate::system::System;
 use crate::transient::Study;
@@ -80,7 +80,7 @@ impl Answer {
     pub fn of(
         case: &Case,
         asked: Asked,
-        plan: Option<&Plan>,
+        plan: Option<&LayerPlan>,
         on: &dyn Executor,
     ) -> Result<Self, StudyError> {
         Self::with(case, asked, plan, case.effort(), on)
@@ -93,7 +93,7 @@ impl Answer {
     pub fn with(
         case: &Case,
         asked: Asked,
-        plan: Option<&Plan>,
+        plan: Option<&LayerPlan>,
         effort: Effort,
         on: &dyn Executor,
     ) -> Result<Self, StudyError> {
@@ -103,7 +103,7 @@ impl Answer {
         let system = case.system();
         let studies = matches!(asked, Asked::Study | Asked::Report);
         let judges = matches!(asked, Asked::Criteria | Asked::Report) && !case.criteria.is_empty();
-        let layers = plan.is_none_or(Plan::needs_simulation);
+        let layers = plan.is_none_or(LayerPlan::needs_simulation);
         let simulates = layers || judges && criteria::needs_simulation(&case.criteria);
         let found = match simulates {
             true => motions(&[Place::new(&system, effort.starts)], &effort, on)?.pop(),

@@ -16,14 +16,14 @@ const HALVINGS: u32 = 7;
 /// Distance of the clearance from the nearest end of the stretch with a stable symmetric 1:1 orbit, or, in a cavity that
 /// is not ideal, with a stable orbit of one impact on each wall.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Gap {
+pub struct ClearanceMargin {
     /// By which share the clearance may shrink.
     pub down: f64,
     /// By which share it may grow.
     pub up: f64,
 }
 
-impl Gap {
+impl ClearanceMargin {
     /// The smaller of the two.
     pub fn smaller(&self) -> f64 {
         self.down.min(self.up)
@@ -45,7 +45,7 @@ impl Gap {
 /// The smallest gap and where it is. A place without a stable 1:1 motion has none: the smallest is
 /// then 0, there.
 pub fn smallest(band: &Band) -> (f64, f64) {
-    let gap = |at: f64| (at, Gap::of(band, at).map_or(0.0, |gap| gap.smaller()));
+    let gap = |at: f64| (at, ClearanceMargin::of(band, at).map_or(0.0, |gap| gap.smaller()));
     if band.is_point() {
         return gap(0.5 * (band.range[0] + band.range[1]));
     }

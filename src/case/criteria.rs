@@ -9,7 +9,7 @@ use super::Design;
 use super::number::{Bound, Form, sign_of};
 use super::reader::{Reader, Table, kind};
 use super::schema::add_names;
-use super::value::Place;
+use super::value::ValuePlace;
 use crate::excitation::Scene;
 use crate::measure::{Device, Measure};
 use crate::quantity::Dimension;
@@ -179,12 +179,13 @@ fn criterion(
         return None;
     }
     let as_written = reader.as_written(value.span());
-    let place = Place { alone: false, ..reader.place(table, key, value) };
+    let place = ValuePlace { alone: false, ..reader.place(table, key, value) };
     let found = match (value.get_ref(), subject.dimension()) {
         (DeValue::Boolean(flag), None) => Ok((Relation::Equal, f64::from(u8::from(*flag)))),
         (DeValue::String(text), Some(of)) => match relation_of(text) {
             Some((relation, sign)) => {
-                let limit = reader.number(&Place { sign, ..place.clone() }, &form(of, design))?;
+                let limit =
+                    reader.number(&ValuePlace { sign, ..place.clone() }, &form(of, design))?;
                 possible(limit, &as_written, of).map(|()| (relation, limit))
             }
             None => Err(format!("is \"{text}\", which says neither >= nor <=")),
@@ -249,7 +250,7 @@ fn possible(limit: f64, written: &str, of: Dimension) -> Result<(), String> {
     Err(format!("asks for {number}, and {why}"))
 }
 
-fn refuse(reader: &mut Reader, place: &Place, subject: Subject, problem: &str) {
+fn refuse(reader: &mut Reader, place: &ValuePlace, subject: Subject, problem: &str) {
     let mut help = format!("write for example {}", place.line);
     let expected = match subject {
         Subject::NoCoexistence => "expected true or false",

@@ -17,7 +17,7 @@ use crate::quantity::catalogue as of;
 use crate::system::{Excitation, Parameter};
 
 /// A parameter as designs of one kind hold it.
-pub(super) struct Row {
+pub(super) struct ParameterRow {
     pub parameter: Parameter,
     /// The table and the key in the case file.
     place: [&'static str; 2],
@@ -37,11 +37,11 @@ pub(super) struct Writing {
     pub tables: &'static [&'static str],
     /// What else may vary under steady excitation.
     pub steady: &'static str,
-    rows: &'static [Row],
+    rows: &'static [ParameterRow],
 }
 
 impl Writing {
-    fn rows() -> impl Iterator<Item = &'static Row> {
+    fn rows() -> impl Iterator<Item = &'static ParameterRow> {
         PHYSICAL.rows.iter().chain(REDUCED.rows)
     }
 }
@@ -50,7 +50,7 @@ impl Writing {
 /// it is and how it is set.
 macro_rules! rows {
     (@row [$design:ident $parameter:ident $table:ident $key:ident $kind:ident] $held:ident $get:expr, $value:ident $set:expr) => {
-        Row {
+        ParameterRow {
             parameter: Parameter::$parameter,
             place: [stringify!($table), stringify!($key)],
             kind: &of::$kind,
@@ -152,7 +152,7 @@ impl Design {
     }
 
     /// The row of a parameter; none of what is a part of the start, or what the design has not.
-    pub(super) fn row(&self, parameter: Parameter) -> Option<&'static Row> {
+    pub(super) fn row(&self, parameter: Parameter) -> Option<&'static ParameterRow> {
         self.writing().rows.iter().find(|row| row.parameter == parameter)
     }
 

@@ -9,7 +9,7 @@ use super::error::Problem;
 use super::inputs::Input;
 use super::reader::{Reader, kind};
 use super::restitution::alternatives;
-use super::value::Place;
+use super::value::ValuePlace;
 use crate::quantity::Dimension;
 
 /// How a number is written, and what it may be.
@@ -141,7 +141,7 @@ pub(super) fn toml(value: &Value) -> String {
 
 impl Reader<'_> {
     /// A number, in SI units, which is kept as an input of the case.
-    pub fn number(&mut self, place: &Place, form: &Form) -> Option<f64> {
+    pub fn number(&mut self, place: &ValuePlace, form: &Form) -> Option<f64> {
         let text = place.value.get_ref().as_str().unwrap_or_default();
         let of_text = |one: Dimension| if form.exact { one } else { one.of_namesake(text) };
         let dimension = form.dimension.map(of_text);
@@ -156,8 +156,8 @@ impl Reader<'_> {
     }
 
     /// A quantity, or a plain number behind a sign.
-    fn quoted(&mut self, place: &Place, form: &Form, text: &str) -> Option<f64> {
-        let Place { line, key, sign, .. } = place;
+    fn quoted(&mut self, place: &ValuePlace, form: &Form, text: &str) -> Option<f64> {
+        let ValuePlace { line, key, sign, .. } = place;
         let behind = text[*sign..].trim();
         let plain = behind.parse::<f64>().ok().filter(|_| form.plain);
         match (plain, form.dimension) {
@@ -198,7 +198,7 @@ impl Reader<'_> {
     }
 
     /// Reports what is not written as its form says.
-    fn no_number(&mut self, place: &Place, form: &Form) -> Option<f64> {
+    fn no_number(&mut self, place: &ValuePlace, form: &Form) -> Option<f64> {
         let written = self.as_written(place.value.span());
         let kind = kind(place.value.get_ref());
         let mut help = format!("write for example {}", place.line);
@@ -220,7 +220,7 @@ impl Reader<'_> {
         None
     }
 
-    fn bounded(&mut self, place: &Place, form: &Form, value: f64) -> Option<f64> {
+    fn bounded(&mut self, place: &ValuePlace, form: &Form, value: f64) -> Option<f64> {
         let as_written = self.as_written(place.value.span());
         if value.is_finite() && form.bound.holds(value) {
             if place.alone {

@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use super::inputs::Input;
 use super::number::toml;
 use super::reader::Reader;
-use super::value::Place;
+use super::value::ValuePlace;
 
 /// Restitution at both walls, or at the walls x - y = +b and x - y = -b.
 #[derive(Deserialize, Clone, Copy)]
@@ -53,9 +53,9 @@ pub(super) fn alternatives(schema: &'static Value) -> Option<[&'static Value; 2]
 
 impl Reader<'_> {
     /// Reads the pair, which is one input of the case: its value is the mean.
-    pub fn each(&mut self, place: &Place, [one, each]: [&'static Value; 2]) -> Option<Value> {
+    pub fn each(&mut self, place: &ValuePlace, [one, each]: [&'static Value; 2]) -> Option<Value> {
         let line = format!("{} = {}", place.key, toml(&each["examples"][0]));
-        let read = self.item(Place { line, ..place.clone() }, each)?;
+        let read = self.item(ValuePlace { line, ..place.clone() }, each)?;
         let mean = serde_json::from_value::<Restitution>(read.clone()).ok()?.mean();
         let span = Spanned::<DeValue>::span(place.value);
         self.inputs.push(Input {

@@ -9,7 +9,7 @@ use super::inputs::Input;
 use super::number::{Form, sign_of};
 use super::reader::{Reader, Table};
 use super::schema::NUMBER;
-use super::value::Place;
+use super::value::ValuePlace;
 use crate::system::Parameter;
 
 /// How the error of one parameter is distributed around what is written, in the units of its design.
@@ -102,14 +102,14 @@ impl Input {
 }
 
 /// Reads one error, whose size is written as `form` says.
-pub(super) fn read_error(reader: &mut Reader, place: Place, form: Form) -> Option<Value> {
+pub(super) fn read_error(reader: &mut Reader, place: ValuePlace, form: Form) -> Option<Value> {
     let sign = place.value.get_ref().as_str().and_then(|text| sign_of(text, &SIGNS)).unwrap_or(0);
     let symbol = match form.symbol.as_str() {
         symbol if sign == 0 => format!("s_{symbol}"),
         symbol if symbol.starts_with('\\') => format!(r"\Delta{symbol}"),
         symbol => format!(r"\Delta {symbol}"),
     };
-    let size = reader.number(&Place { sign, ..place }, &Form { symbol, ..form })?;
+    let size = reader.number(&ValuePlace { sign, ..place }, &Form { symbol, ..form })?;
     serde_json::to_value(match size {
         0.0 => None,
         largest if sign > 0 => Some(Distribution::Uniform(largest)),

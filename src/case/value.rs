@@ -12,7 +12,7 @@ use crate::system::Parameter;
 
 /// A value, and what to call it.
 #[derive(Clone)]
-pub(super) struct Place<'a> {
+pub(super) struct ValuePlace<'a> {
     /// The last part of its table's name.
     pub table: &'a str,
     pub key: &'static str,
@@ -34,14 +34,14 @@ impl Reader<'_> {
         table: &'a Table,
         key: &'static str,
         value: &'a Spanned<DeValue<'a>>,
-    ) -> Place<'a> {
+    ) -> ValuePlace<'a> {
         let name = table.path.rsplit('.').next().unwrap_or_default();
         let (subject, line) = (format!("`{key}`"), self.line(table, key));
-        Place { table: name, key, subject, line, value, sign: 0, alone: true }
+        ValuePlace { table: name, key, subject, line, value, sign: 0, alone: true }
     }
 
     /// A value that its schema allows, quantities in SI units; `None` for a table, and for what was reported.
-    pub fn item(&mut self, place: Place, schema: &'static Value) -> Option<Value> {
+    pub fn item(&mut self, place: ValuePlace, schema: &'static Value) -> Option<Value> {
         if let (Some(either), DeValue::Array(_)) = (alternatives(schema), place.value.get_ref()) {
             return self.each(&place, either);
         }
@@ -126,12 +126,12 @@ impl Reader<'_> {
     }
 
     /// Reports a value.
-    pub fn refuse(&mut self, place: &Place, problem: &str, expected: String, help: String) {
+    pub fn refuse(&mut self, place: &ValuePlace, problem: &str, expected: String, help: String) {
         let message = format!("{} {problem}", place.subject);
         self.report(place.value.span(), message, expected, help);
     }
 
-    fn name(&mut self, place: &Place, schema: &Value) -> Option<Value> {
+    fn name(&mut self, place: &ValuePlace, schema: &Value) -> Option<Value> {
         let names = names(schema);
         let text = place.value.get_ref().as_str().unwrap_or_default();
         let quoted = format!("\"{text}\"");
@@ -149,12 +149,17 @@ impl Reader<'_> {
     }
 
     /// A list of values, or of pairs of them.
-    fn list(&mut self, place: &Place, items: &DeArray, schema: &'static Value) -> Option<Value> {
+    fn list(
+        &mut self,
+        place: &ValuePlace,
+        items: &DeArray,
+        schema: &'static Value,
+    ) -> Option<Value> {
         let mut found = Vec::with_capacity(items.len());
         for (k, value) in items.iter().enumerate() {
             let own = schema["prefixItems"].get(k).unwrap_or(&schema["items"]);
             let subject = format!("a value of `{}`", place.key);
-            let read = self.item(Place { subject, value, alone: false, ..place.clone() }, own);
+            let read = self.item(ValuePlace { subject, value, alone: false, ..place.clone() }, own);
             if let (Some(read), true) = (&read, schema["uniqueItems"] == true)
                 && found.contains(read)
             {

@@ -5,7 +5,7 @@ use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::answer::{Answer, Asked};
 use vinesink::method::Method;
 use vinesink::report::console::Analysed;
-use vinesink::study::fidelity::Plan;
+use vinesink::study::fidelity::LayerPlan;
 
 use super::budget::{self, Work};
 use super::case_file::{self, OneCase};
@@ -40,7 +40,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     if case.design.release().is_none() {
         case_file::steady(&case, path, "an analysis")?;
     }
-    let plan = Plan::of_case(&case, arguments.fidelity).into_diagnostic()?;
+    let plan = LayerPlan::of_case(&case, arguments.fidelity).into_diagnostic()?;
     let work = Work::of(&case, Asked::Analysis, plan.as_ref());
     long.allows(path, &case, &work)?;
     let progress = budget::progress("analysis", &case, &work, 0.0);

@@ -15,7 +15,7 @@ use vinesink::motions::{Effort, SettlingTime, longest_window};
 use vinesink::optimize::Task;
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::study::fidelity;
-use vinesink::sweep::{Plan, Point};
+use vinesink::sweep::{GridPoint, Plan};
 use vinesink::system::{State, System};
 use vinesink::transient::{DecayStudy, RELEASES, RecordStudy, SweepStudy, looked_at};
 
@@ -153,8 +153,8 @@ pub struct Work {
 
 impl Work {
     /// All that is done to answer for a case, by the layers that a plan needs, or all of them.
-    pub fn of(case: &Case, asked: Asked, plan: Option<&fidelity::Plan>) -> Vec<Self> {
-        let simulates = plan.is_none_or(fidelity::Plan::needs_simulation);
+    pub fn of(case: &Case, asked: Asked, plan: Option<&fidelity::LayerPlan>) -> Vec<Self> {
+        let simulates = plan.is_none_or(fidelity::LayerPlan::needs_simulation);
         if case.design.scene() != Scene::Steady {
             let flown = Self::transient(case).filter(|_| asked != Asked::Analysis);
             return flown.into_iter().collect();
@@ -296,7 +296,7 @@ impl Work {
         let points = (0..count).map(|k| plan.point(plan.points() / count * k));
         let starts = plan.settings.starts;
         let counts = vec![(count, "points (of each sixty)"), (starts.into(), "starts")];
-        let points: Vec<Point> = points.collect();
+        let points: Vec<GridPoint> = points.collect();
         let seconds = points.iter().map(|point| plan.seconds(point)).sum::<Option<f64>>();
         if let Some(seconds) = seconds {
             // What takes longer than a flight, or is done but once, is told as flights.

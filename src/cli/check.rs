@@ -8,7 +8,7 @@ use serde_json::json;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, CaseError};
 use vinesink::report::criteria::{Checked, junit};
-use vinesink::report::document::place::Place;
+use vinesink::report::document::place::FilePlace;
 use vinesink::report::render::RenderError;
 
 use super::budget::{self, Long, Work};
@@ -29,7 +29,7 @@ pub struct Arguments {
     cases: Vec<PathBuf>,
     /// How the result is printed
     #[arg(long, value_enum, default_value = "text")]
-    format: Format,
+    format: CheckFormat,
     #[command(flatten)]
     long: Long,
     #[command(flatten)]
@@ -50,7 +50,7 @@ A criterion is a line such as
 
 /// How the result is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum CheckFormat {
     /// A table for people
     Text,
     /// One JSON document
@@ -73,11 +73,11 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         texts.map(|texts| texts.join(between)).into_diagnostic()
     };
     match arguments.format {
-        Format::Text => output::print(each(Checked::text, "\n")?)?,
-        Format::Markdown => output::print(each(Checked::markdown, "\n")?)?,
-        Format::Github => output::print_commands(&each(Checked::annotations, "")?)?,
-        Format::Junit => output::print(junit(&cases).into_diagnostic()?)?,
-        Format::Json => {
+        CheckFormat::Text => output::print(each(Checked::text, "\n")?)?,
+        CheckFormat::Markdown => output::print(each(Checked::markdown, "\n")?)?,
+        CheckFormat::Github => output::print_commands(&each(Checked::annotations, "")?)?,
+        CheckFormat::Junit => output::print(junit(&cases).into_diagnostic()?)?,
+        CheckFormat::Json => {
             let cases: Vec<_> = cases.iter().map(|one| &one.document).collect();
             let document = json!({ "format": "vinesink/check@2", "holds": holds, "cases": cases });
             output::print_json(&document)?;
@@ -96,7 +96,7 @@ fn checked(path: &Path, arguments: &Arguments, failures: &mut Vec<Report>) -> Ch
         Err(error) => {
             let problems =
                 error.downcast_ref::<CaseError>().into_iter().flat_map(CaseError::problems);
-            let problems: Vec<Place> = problems.map(Place::from).collect();
+            let problems: Vec<FilePlace> = problems.map(FilePlace::from).collect();
             let failed = Checked::failed(&place, &stem, &error.to_string(), &problems);
             failures.push(error);
             failed

@@ -7,7 +7,7 @@ use vinesink::diff::markdown::markdown;
 
 use super::case_file::Reading;
 use super::output;
-use side::Side;
+use side::ComparedSide;
 
 mod side;
 
@@ -37,7 +37,7 @@ pub struct Arguments {
     cases: Option<String>,
     /// Markdown for a comment or JSON for programs
     #[arg(long, value_enum, default_value = "markdown")]
-    format: Format,
+    format: DiffFormat,
     /// Address of OLD's folder, to show figures in a comment [default: OLD, if it is a folder]
     #[arg(long, value_name = "URL")]
     old_url: Option<String>,
@@ -57,7 +57,7 @@ Examples:
 
 /// How a difference is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum DiffFormat {
     /// GitHub-flavoured Markdown
     Markdown,
     /// One JSON document
@@ -66,8 +66,8 @@ enum Format {
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let Arguments { path, format, cases, reading, .. } = &arguments;
-    let mut old = Side::read(&arguments.old, path, reading.reach())?;
-    let mut new = Side::read(&arguments.new, path, reading.reach())?;
+    let mut old = ComparedSide::read(&arguments.old, path, reading.reach())?;
+    let mut new = ComparedSide::read(&arguments.new, path, reading.reach())?;
     new.find_cases(cases.as_deref())?;
     old.find_cases(cases.as_deref())?;
     old.forget_cases_of(&new);
@@ -100,8 +100,8 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     }
     let difference = Difference::of((&arguments.old, &old.reports), (&arguments.new, &new.reports));
     match format {
-        Format::Json => output::print_json(&difference)?,
-        Format::Markdown => {
+        DiffFormat::Json => output::print_json(&difference)?,
+        DiffFormat::Markdown => {
             let old = arguments.old_url.or(old.address);
             let new = arguments.new_url.or(new.address);
             let addresses = [old.as_deref(), new.as_deref()];

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
-use vinesink::report::index::{self, CaseReport, OtherPage, Summary};
+use vinesink::report::index::{self, IndexedReport, OtherPage, Summary};
 use vinesink::report::render::Files;
 use vinesink::store::{self, Listing, Output, Reach};
 
@@ -105,14 +105,14 @@ fn write(folder: &Path, reach: Reach) -> Result<()> {
 }
 
 /// The reports among some folders; a folder without one is something else.
-fn members(folder: &Path, names: Vec<String>, reach: Reach) -> Result<Vec<CaseReport>> {
+fn members(folder: &Path, names: Vec<String>, reach: Reach) -> Result<Vec<IndexedReport>> {
     let mut members = Vec::new();
     for name in names {
         let path = Path::new(&name).join("report.json");
         let Some(text) = store::read_text_below(folder, &path, reach)? else { continue };
         let summary = Summary::read(&folder.join(path).display().to_string(), &text)?;
         let files = store::list(&folder.join(&name))?.files;
-        members.push(CaseReport { name, summary, files });
+        members.push(IndexedReport { name, summary, files });
     }
     Ok(members)
 }

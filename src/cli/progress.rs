@@ -33,14 +33,14 @@ pub struct Progress {
 }
 
 struct Shown {
-    work: Work,
+    work: ProgressWork,
     done: AtomicU64,
     begin: Instant,
     bar: Option<ProgressBar>,
 }
 
 /// What is done, and how much of it there is.
-struct Work {
+struct ProgressWork {
     name: String,
     size: Size,
 }
@@ -49,24 +49,24 @@ enum Size {
     /// So many steps.
     Steps(u64),
     /// About so many seconds, where steps cannot be counted; estimated when it is first told.
-    Seconds(Estimate),
+    Seconds(Forecast),
 }
 
-type Estimate = LazyLock<f64, Box<dyn FnOnce() -> f64 + Send>>;
+type Forecast = LazyLock<f64, Box<dyn FnOnce() -> f64 + Send>>;
 
 impl Progress {
     /// Of a number of steps, which [`Progress::advance`] counts.
     pub fn new(name: &str, steps: u64) -> Self {
-        Self::begin(Work { name: name.to_owned(), size: Size::Steps(steps) })
+        Self::begin(ProgressWork { name: name.to_owned(), size: Size::Steps(steps) })
     }
 
     /// Of work that cannot be counted and takes about so many seconds.
     pub fn estimated(name: &str, seconds: impl FnOnce() -> f64 + Send + 'static) -> Self {
-        let estimate = Estimate::new(Box::new(seconds));
-        Self::begin(Work { name: name.to_owned(), size: Size::Seconds(estimate) })
+        let estimate = Forecast::new(Box::new(seconds));
+        Self::begin(ProgressWork { name: name.to_owned(), size: Size::Seconds(estimate) })
     }
 
-    fn begin(work: Work) -> Self {
+    fn begin(work: ProgressWork) -> Self {
         let bar = io::stderr().is_terminal().then(|| hidden_bar(&work));
         let mut wait = match (&bar, PACE.1.lock()) {
             (Some(_), _) => FRAME,
@@ -140,7 +140,7 @@ impl Shown {
 /// Length of a bar in its own steps.
 const BAR: u64 = 1000;
 
-fn hidden_bar(work: &Work) -> ProgressBar {
+fn hidden_bar(work: &ProgressWork) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(BAR), ProgressDrawTarget::hidden());
     // The template is a constant; without it the bar keeps its default look.
     if let Ok(style) = ProgressStyle::with_template("[{bar:30}] {msg}") {
@@ -182,7 +182,7 @@ impl Pace {
     }
 }
 
-impl Work {
+impl ProgressWork {
     /// How far it is after so many steps and seconds, in a line.
     fn line(&self, done: u64, elapsed: f64) -> String {
         let name = &self.name;
@@ -248,14 +248,14 @@ mod tests {
 
     #[test]
     fn a_line_says_how_far_and_how_long() {
-        let counted = |steps| Work { name: "objective".into(), size: Size::Steps(steps) };
+        let counted = |steps| ProgressWork { name: "objective".into(), size: Size::Steps(steps) };
         // 120 in 10.7 s are 281 more in 25.06 s.
         assert_eq!(counted(401).line(120, 10.7), "objective: 120 of 401, about 25 s left");
         assert_eq!(counted(401).line(0, 10.0), "objective: 0 of 401");
         assert_eq!(counted(401).line(403, 30.0), "objective: 401 of 401, ending");
         assert_eq!(counted(1001).line(1, 60.0), "objective: 1 of 1001, about 16.7 h left");
-        let seconds = Estimate::new(Box::new(|| 300.0));
-        let estimated = Work { name: "band".into(), size: Size::Seconds(seconds) };
+        let seconds = Forecast::new(Box::new(|| 300.0));
+        let estimated = ProgressWork { name: "band".into(), size: Size::Seconds(seconds) };
         assert_eq!(estimated.line(0, 60.0), "band: about 4 min left");
         assert_eq!(estimated.line(0, 310.0), "band: 5 min so far, 5 min were expected");
         assert_eq!([estimated.part(0, 60.0), estimated.part(0, 400.0)], [200, 1000]);

@@ -13,7 +13,7 @@ use vinesink::method::Method;
 use vinesink::report::live;
 use vinesink::report::render::{self, Files};
 use vinesink::store::{self, Output};
-use vinesink::study::fidelity::Plan;
+use vinesink::study::fidelity::LayerPlan;
 
 use super::budget::{self, Long, Work};
 use super::case_file::{self, Reading};
@@ -168,7 +168,7 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
 
 /// The files of a report, and whether it is exact enough and to be trusted.
 fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Result<(Files, bool)> {
-    let plan = Plan::of_case(case, arguments.fidelity).into_diagnostic()?;
+    let plan = LayerPlan::of_case(case, arguments.fidelity).into_diagnostic()?;
     let work = Work::of(case, Asked::Report, plan.as_ref());
     arguments.long.allows(path, case, &work)?;
     let _progress = budget::progress(name, case, &work, ORDINARY);

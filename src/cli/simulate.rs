@@ -14,7 +14,7 @@ use vinesink::report::console::Simulated;
 use vinesink::report::transient as page;
 use vinesink::store;
 use vinesink::system::State;
-use vinesink::transient::Flight;
+use vinesink::transient::OneFlight;
 
 use super::budget::Work;
 use super::case_file::{self, OneCase};
@@ -121,13 +121,13 @@ impl Arguments {
                 self.one.long.allows(&self.one.path, case, &Work::search(case, &case.effort()))?;
                 let answer = Answer::of(case, Asked::Motions, None, &Parallel).into_diagnostic()?;
                 let study = answer.transient.as_ref();
-                let start = study.and_then(|study| Flight::worst_start(case, study));
+                let start = study.and_then(|study| OneFlight::worst_start(case, study));
                 start.ok_or_else(|| miette!("no start was flown; ask for more than 0 starts"))?
             }
         };
         let mut log = ImpactLog::default();
         let mut told = |impact: &Impact| log.impacts.push(*impact);
-        let flown = Flight::of_case(case, start, self.periods, &mut told).transpose();
+        let flown = OneFlight::of_case(case, start, self.periods, &mut told).transpose();
         let none = || miette!("{} is driven steadily", self.one.path.display());
         let document = page::flight(case, &flown.into_diagnostic()?.ok_or_else(none)?);
         self.one.print(|| page::flight_text(case, &document), || &document)?;

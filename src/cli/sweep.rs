@@ -39,7 +39,7 @@ pub struct Arguments {
     #[command(flatten)]
     long: Long,
     #[command(flatten)]
-    wanted: results::Wanted,
+    wanted: results::ResultFiles,
 }
 
 /// Which sweep, and where its results are.
@@ -94,7 +94,7 @@ enum Verb {
         #[command(flatten)]
         sweep: Where,
         #[command(flatten)]
-        wanted: results::Wanted,
+        wanted: results::ResultFiles,
     },
 }
 

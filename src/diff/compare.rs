@@ -56,7 +56,7 @@ pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDif
         ..ReportDifference::default()
     };
     let [given, renumbered] = [Vec::new(), Vec::new()];
-    let mut comparison = Comparison { old, new, found, given, renumbered };
+    let mut comparison = Comparator { old, new, found, given, renumbered };
     comparison.fields("", &old.report, &new.report);
     sorted(comparison.ended())
 }
@@ -122,7 +122,7 @@ fn figures(old: &Document, new: &Document) -> Vec<Value> {
     changed.into_iter().map(change).collect()
 }
 
-struct Comparison<'a> {
+struct Comparator<'a> {
     old: &'a Document,
     new: &'a Document,
     found: ReportDifference,
@@ -132,7 +132,7 @@ struct Comparison<'a> {
     renumbered: Vec<Change>,
 }
 
-impl Comparison<'_> {
+impl Comparator<'_> {
     /// Of what has a way of its own, the fields that are on one side only; all else value by value.
     fn fields(&mut self, path: &str, old: &Value, new: &Value) {
         match (old, new) {

@@ -17,14 +17,14 @@ pub struct Document {
     /// The drawings, by file stem.
     pub figures: BTreeMap<String, Vec<u8>>,
     /// The case file, where there is one.
-    pub case: Option<CaseFile>,
+    pub case: Option<CurrentCase>,
     /// What writes the report again.
     pub remedy: Remedy,
 }
 
 /// A case file as it is now.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CaseFile {
+pub struct CurrentCase {
     /// Where it was read from.
     pub place: String,
     /// SHA-256 of its text.

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use serde_json::Value;
 
-pub use document::{CaseFile, Document, Remedy};
+pub use document::{CurrentCase, Document, Remedy};
 
 /// Reports of one side, by the name of their folder.
 pub type Reports = BTreeMap<String, Document>;

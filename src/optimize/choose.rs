@@ -3,20 +3,21 @@
 use std::sync::Mutex;
 
 use super::OptimizeError;
-use super::design::{Design, Judge, missed_by};
-use super::search::{self, Effort, Found, Seen, distance, shortlist};
+use super::design::{Judge, JudgedDesign, missed_by};
+use super::search::{self, ScoredPlace, SearchEffort, SearchResult, distance, shortlist};
 use super::task::Task;
 use crate::band::{Survey, SurveySettings};
 use crate::case::Objective;
 use crate::criteria;
 use crate::executor::{Executor, Serial, map};
-use crate::motions::{BandEffort, Effort as Thoroughness};
+use crate::motions::{BandEffort, Effort};
 
 /// How thoroughly an exact objective is looked for.
-const EXACT: Effort = Effort { pieces: 400, particles: 40, steps: 30, width: 1e-7, smooth: true };
+const EXACT: SearchEffort =
+    SearchEffort { pieces: 400, particles: 40, steps: 30, width: 1e-7, smooth: true };
 /// How thoroughly a coarse survey is: a place costs a thousand times as much.
-const SCREENED: Effort =
-    Effort { pieces: 96, particles: 16, steps: 12, width: 1e-2, smooth: false };
+const SCREENED: SearchEffort =
+    SearchEffort { pieces: 96, particles: 16, steps: 12, width: 1e-2, smooth: false };
 /// Starts, and periods, of a coarse survey at a single excitation, and along a band.
 const AT_ONE: (u32, u64) = (8, 120);
 const ALONG: (u32, u64) = (3, 60);
@@ -30,7 +31,7 @@ const MISSED: f64 = 3.0;
 /// What the cheap layers propose.
 pub struct Proposed {
     /// Every place that was asked for, with its cheap score.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<ScoredPlace>,
     /// The best of them; none where the cheap layer only ranks.
     pub best: Option<Vec<f64>>,
     /// The clearances that are as good as that.
@@ -51,7 +52,7 @@ pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, Optimiz
     if task.objective != Objective::WorstAmplitude {
         let score =
             |parts: &[f64]| task.score(&task.choice(parts), &Serial).unwrap_or(f64::NEG_INFINITY);
-        let Found { line, seen, best } = found(EXACT, &score);
+        let SearchResult { line, seen, best } = found(EXACT, &score);
         let best = best.ok_or(OptimizeError::Nowhere)?;
         let place = |(at, score): &(f64, f64)| (task.bounds[0].at(*at), task.value(*score));
         return Ok(Proposed {
@@ -61,7 +62,7 @@ pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, Optimiz
             seen,
         });
     }
-    let amplitudes: Mutex<Vec<Seen>> = Mutex::default();
+    let amplitudes: Mutex<Vec<ScoredPlace>> = Mutex::default();
     let score = |parts: &[f64]| {
         let Some([amplitude, missed]) = screened(task, parts) else { return f64::NEG_INFINITY };
         if let Ok(mut all) = amplitudes.lock() {
@@ -69,7 +70,7 @@ pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, Optimiz
         }
         -amplitude * (1.0 + MISSED * missed)
     };
-    let Found { line, seen, best } = found(SCREENED, &score);
+    let SearchResult { line, seen, best } = found(SCREENED, &score);
     if best.is_none() && dimensions > 1 {
         return Err(OptimizeError::Nowhere);
     }
@@ -90,14 +91,8 @@ fn screened(task: &Task, parts: &[f64]) -> Option<[f64; 2]> {
     let case = task.case.with_design(task.choice(parts))?;
     let (starts, periods) = if case.band.is_some() { ALONG } else { AT_ONE };
     let band = BandEffort::SCREENING;
-    let effort = Thoroughness {
-        starts,
-        periods,
-        patience: 0.0,
-        most_impacts: MOST_IMPACTS,
-        band,
-        ..task.effort
-    };
+    let effort =
+        Effort { starts, periods, patience: 0.0, most_impacts: MOST_IMPACTS, band, ..task.effort };
     let settings = SurveySettings { effort: Some(effort), ..criteria::settings(&case) };
     let survey = Survey::of(&case.range(), &settings, None, &Serial).ok()?;
     let peak = survey.worst()?.peak;
@@ -128,8 +123,8 @@ pub fn judged(
     judge: &Judge,
     proposed: &Proposed,
     executor: &dyn Executor,
-) -> Result<Vec<Design>, OptimizeError> {
-    let mut known = Known { judge, executor, designs: Vec::new() };
+) -> Result<Vec<JudgedDesign>, OptimizeError> {
+    let mut known = KnownDesigns { judge, executor, designs: Vec::new() };
     if let Some(best) = &proposed.best {
         known.add(vec![best.clone()])?;
         if known.designs[0].1.is_feasible() {
@@ -163,18 +158,18 @@ pub fn judged(
 }
 
 /// The preferred one; of equals the first.
-pub fn best(designs: &[Design], objective: Objective) -> Option<&Design> {
+pub fn best(designs: &[JudgedDesign], objective: Objective) -> Option<&JudgedDesign> {
     designs.iter().reduce(|a, b| if a.is_worse_than(b, objective) { b } else { a })
 }
 
 /// Designs that are judged, with their places between the bounds.
-struct Known<'a> {
+struct KnownDesigns<'a> {
     judge: &'a Judge<'a>,
     executor: &'a dyn Executor,
-    designs: Vec<(Vec<f64>, Design)>,
+    designs: Vec<(Vec<f64>, JudgedDesign)>,
 }
 
-impl Known<'_> {
+impl KnownDesigns<'_> {
     fn add(&mut self, parts: Vec<Vec<f64>>) -> Result<(), OptimizeError> {
         // Many designs side by side, or the survey of a single one.
         let side_by_side = parts.len() > 1;
@@ -192,7 +187,7 @@ impl Known<'_> {
 
     /// Places around the best: on a line the middles between them and their neighbours, otherwise what the
     /// cheap layer has seen nearby and liked best.
-    fn neighbours_of_best(&self, seen: &[Seen]) -> Vec<Vec<f64>> {
+    fn neighbours_of_best(&self, seen: &[ScoredPlace]) -> Vec<Vec<f64>> {
         let objective = self.judge.task.objective;
         let mut order: Vec<usize> = (0..self.designs.len()).collect();
         order.sort_by(|a, b| {
@@ -205,7 +200,7 @@ impl Known<'_> {
             if parts.len() == 1 {
                 next.extend(self.middles_around(parts[0]));
             } else {
-                let near: Vec<Seen> =
+                let near: Vec<ScoredPlace> =
                     seen.iter().filter(|one| distance(&one.0, parts) < APART).cloned().collect();
                 next.extend(shortlist(&near, CLOSE, 4).into_iter().map(|seen| seen.0));
             }
@@ -226,7 +221,7 @@ impl Known<'_> {
             .collect()
     }
 
-    fn into_designs(self) -> Vec<Design> {
+    fn into_designs(self) -> Vec<JudgedDesign> {
         self.designs.into_iter().map(|(_, design)| design).collect()
     }
 }

@@ -13,7 +13,7 @@ const SAME_PLACE: f64 = 0.01;
 
 /// Where the stable 1:1 orbit vibrates least, and where it disappears. Over the case's own clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Claim {
+pub struct OptimumClaim {
     /// Clearance at which the stable symmetric orbit vibrates least.
     pub best_clearance: f64,
     /// Its amplitude there.
@@ -32,7 +32,7 @@ pub struct Claim {
     pub holds: bool,
 }
 
-impl Claim {
+impl OptimumClaim {
     /// That of a system; `None` where no symmetric orbit is stable at any clearance.
     pub fn of(system: &System) -> Option<Self> {
         let full = FullSystem::of(system);

@@ -11,7 +11,7 @@ use crate::measure::Measure;
 
 /// A judged absorber. Lengths in the units of its design.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Design {
+pub struct JudgedDesign {
     /// The design with the absorber, rounded as it is written.
     pub choice: case::Design,
     /// Its case file.
@@ -28,7 +28,7 @@ pub struct Design {
     pub survey: Survey,
 }
 
-impl Design {
+impl JudgedDesign {
     /// The score in the order of preference: the more the better, with its error.
     pub fn score(&self, objective: Objective) -> f64 {
         match objective {
@@ -112,7 +112,7 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// As [`Judge::design`].
-    pub fn own(&self, executor: &dyn Executor) -> Result<Design, OptimizeError> {
+    pub fn own(&self, executor: &dyn Executor) -> Result<JudgedDesign, OptimizeError> {
         let written = Rewritten { text: self.text.to_owned(), case: self.task.case.clone() };
         self.judged(written, executor)
     }
@@ -121,7 +121,11 @@ impl Judge<'_> {
     ///
     /// # Errors
     /// [`OptimizeError`] where it cannot be written into the case, or not be simulated.
-    pub fn design(&self, parts: &[f64], executor: &dyn Executor) -> Result<Design, OptimizeError> {
+    pub fn design(
+        &self,
+        parts: &[f64],
+        executor: &dyn Executor,
+    ) -> Result<JudgedDesign, OptimizeError> {
         self.judged(self.rounded(parts)?, executor)
     }
 
@@ -133,7 +137,7 @@ impl Judge<'_> {
         &self,
         written: Rewritten,
         executor: &dyn Executor,
-    ) -> Result<Design, OptimizeError> {
+    ) -> Result<JudgedDesign, OptimizeError> {
         let case = &written.case;
         let amplitude = self.task.objective == Objective::WorstAmplitude;
         let mut settings = criteria::settings(case);
@@ -148,7 +152,7 @@ impl Judge<'_> {
             (true, None) => (f64::INFINITY, 0.0),
             _ => (self.task.exact_score(survey.band()).unwrap_or(f64::NAN), 0.0),
         };
-        Ok(Design {
+        Ok(JudgedDesign {
             choice,
             value,
             error,

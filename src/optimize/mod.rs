@@ -18,7 +18,7 @@ pub mod task;
 
 mod choose;
 
-pub use design::Design;
+pub use design::JudgedDesign;
 pub use task::{Bounds, Task};
 
 use crate::analysis::Strip;
@@ -54,17 +54,17 @@ pub struct Optimization {
     /// What was looked for.
     pub task: Task,
     /// The best of all that were judged: of those whose criteria hold, if there are any.
-    pub best: Design,
+    pub best: JudgedDesign,
     /// Its objective and error once more, by a check of the case as it is written.
     pub checked: (f64, f64),
     /// The case's own absorber.
-    pub own: Design,
+    pub own: JudgedDesign,
     /// Where no absorber meets all criteria: the one that misses them least.
-    pub closest: Option<Design>,
+    pub closest: Option<JudgedDesign>,
     /// The best in expectation, where something is uncertain.
     pub robust: Option<robust::Robust>,
     /// Every absorber that was judged, in the order of the clearance.
-    pub judged: Vec<Design>,
+    pub judged: Vec<JudgedDesign>,
     /// Clearances whose objective is as good as the best one's, all else held, before rounding.
     pub plateau: [f64; 2],
     /// What the cheap layer says over the clearance: places with the objective's value. A line joins them
@@ -73,7 +73,7 @@ pub struct Optimization {
     /// What a change of each parameter does at the best.
     pub sensitivities: Vec<sensitivity::Sensitivity>,
     /// The paper's claim on the case itself.
-    pub claim: Option<claim::Claim>,
+    pub claim: Option<claim::OptimumClaim>,
     /// Where the share in Z3 is looked for, how much of it is in the strips A1 and A2, in which the motion is
     /// not, or not always, a steady 1:1 one.
     pub strips: Option<[f64; 2]>,
@@ -121,7 +121,7 @@ impl Optimization {
             plateau: proposed.plateau,
             landscape: proposed.landscape,
             sensitivities: sensitivity::of(task, &best.choice, executor),
-            claim: claim::Claim::of(&task.case.system()),
+            claim: claim::OptimumClaim::of(&task.case.system()),
             strips: strips(task, &best.choice),
             chart: chart::chart(task, &best.choice, executor),
             task: task.clone(),

@@ -3,12 +3,12 @@
 
 use super::OptimizeError;
 use super::choose::Proposed;
-use super::design::{Design, Judge};
-use super::search::{self, Effort};
+use super::design::{Judge, JudgedDesign};
+use super::search::{self, SearchEffort};
 use super::task::Task;
 use crate::case::{self, Distribution, Objective, Uncertainty};
 use crate::executor::{Executor, Serial, map};
-use crate::motions::Effort as Thoroughness;
+use crate::motions::Effort;
 use crate::numerics::gauss;
 use crate::system::Parameter;
 
@@ -16,7 +16,7 @@ use crate::system::Parameter;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robust {
     /// The absorber, judged as it is written.
-    pub design: Design,
+    pub design: JudgedDesign,
     /// What it and what the best as written achieve under deviations.
     pub under: [UnderDeviations; 2],
 }
@@ -31,10 +31,11 @@ pub struct UnderDeviations {
 }
 
 /// Errors of some parameters, and the weight that they have in an average.
-pub type Deviation = (Vec<(Parameter, f64)>, f64);
+pub type WeightedErrors = (Vec<(Parameter, f64)>, f64);
 
 /// How thoroughly the expectation of an exact objective is looked for.
-const ROBUST: Effort = Effort { pieces: 48, particles: 16, steps: 12, width: 1e-3, smooth: true };
+const ROBUST: SearchEffort =
+    SearchEffort { pieces: 48, particles: 16, steps: 12, width: 1e-3, smooth: true };
 /// Nodes of each uncertain parameter where that many are uncertain, from none to six, for an
 /// objective in closed form: at most 625 together. Shares have kinks, which many nodes even out.
 const CLOSED_FORM: [usize; 7] = [1, 21, 15, 7, 5, 3, 2];
@@ -61,8 +62,8 @@ const CANDIDATES: usize = 5;
 pub fn best(
     judge: &Judge,
     proposed: &Proposed,
-    designs: &[Design],
-    own: &Design,
+    designs: &[JudgedDesign],
+    own: &JudgedDesign,
     executor: &dyn Executor,
 ) -> Result<Option<Robust>, OptimizeError> {
     let task = judge.task;
@@ -71,15 +72,15 @@ pub fn best(
         return Ok(None);
     }
     let deviations = task.deviations();
-    let effort = Thoroughness { periods: PERIODS, patience: PATIENCE, ..task.effort };
+    let effort = Effort { periods: PERIODS, patience: PATIENCE, ..task.effort };
     let averaged = Task { effort, ..task.clone() };
     let under = |choice: &case::Design| averaged.under(choice, &deviations, executor);
     let of_nominal = under(&nominal.choice);
-    let mut candidates: Vec<Design> = match task.objective {
+    let mut candidates: Vec<JudgedDesign> = match task.objective {
         Objective::WorstAmplitude => smoothed(task, proposed, designs),
         _ => {
             let parts = expected_best(task, &deviations, executor)?;
-            let mut best: Vec<Design> = designs.to_vec();
+            let mut best: Vec<JudgedDesign> = designs.to_vec();
             best.sort_by(|a, b| b.value.total_cmp(&a.value));
             best.insert(0, judge.design(&parts, executor)?);
             best
@@ -108,7 +109,7 @@ pub fn best(
 /// Parts of the way at which the expectation of an exact objective is best.
 fn expected_best(
     task: &Task,
-    deviations: &[Deviation],
+    deviations: &[WeightedErrors],
     executor: &dyn Executor,
 ) -> Result<Vec<f64>, OptimizeError> {
     let fewer = combinations(&task.case.uncertainty, task.nodes_looked_at());
@@ -124,15 +125,15 @@ fn expected_best(
 
 /// Judged absorbers in the order in which the coarse survey likes them once it is averaged over the deviation
 /// of the clearance.
-fn smoothed(task: &Task, proposed: &Proposed, designs: &[Design]) -> Vec<Design> {
+fn smoothed(task: &Task, proposed: &Proposed, designs: &[JudgedDesign]) -> Vec<JudgedDesign> {
     let only_clearance =
         Uncertainty { clearance: task.case.uncertainty.clearance, ..Uncertainty::default() };
     let nodes = combinations(&only_clearance, SIMULATED[1]);
-    let expected = |design: &Design| -> f64 {
+    let expected = |design: &JudgedDesign| -> f64 {
         let at = |off: &[(Parameter, f64)]| design.choice.deviating(off).clearance();
         nodes.iter().map(|(off, weight)| weight * coarse(&proposed.landscape, at(off))).sum()
     };
-    let mut order: Vec<(f64, &Design)> =
+    let mut order: Vec<(f64, &JudgedDesign)> =
         designs.iter().map(|one| (expected(one).max(one.value), one)).collect();
     order.sort_by(|a, b| a.0.total_cmp(&b.0));
     order.into_iter().map(|(_, design)| design.clone()).collect()
@@ -166,18 +167,18 @@ fn ends(distribution: Distribution) -> Vec<(f64, f64)> {
 
 /// All combinations of deviations with their weights, which add up to 1; `count` nodes of each
 /// uncertain parameter.
-pub fn combinations(uncertainty: &Uncertainty, count: usize) -> Vec<Deviation> {
+pub fn combinations(uncertainty: &Uncertainty, count: usize) -> Vec<WeightedErrors> {
     products(uncertainty, |one| nodes(one, count))
 }
 
 fn products(
     uncertainty: &Uncertainty,
     values: impl Fn(Distribution) -> Vec<(f64, f64)>,
-) -> Vec<Deviation> {
+) -> Vec<WeightedErrors> {
     let mut found = vec![(Vec::new(), 1.0)];
     for (parameter, distribution) in uncertainty.parameters() {
         let values = values(distribution);
-        let combined = found.iter().flat_map(|(off, weight): &Deviation| {
+        let combined = found.iter().flat_map(|(off, weight): &WeightedErrors| {
             values.iter().map(move |(value, share)| {
                 ([off.as_slice(), &[(parameter, *value)]].concat(), weight * share)
             })
@@ -209,7 +210,7 @@ impl Task {
     }
 
     /// The combinations of deviations over which is averaged.
-    pub fn deviations(&self) -> Vec<Deviation> {
+    pub fn deviations(&self) -> Vec<WeightedErrors> {
         combinations(&self.case.uncertainty, self.nodes())
     }
 
@@ -217,7 +218,7 @@ impl Task {
     pub fn expected(
         &self,
         choice: &case::Design,
-        deviations: &[Deviation],
+        deviations: &[WeightedErrors],
         executor: &dyn Executor,
     ) -> Option<f64> {
         let score = |k: usize| self.score(&choice.deviating(&deviations[k].0), &Serial);
@@ -230,7 +231,7 @@ impl Task {
     fn under(
         &self,
         choice: &case::Design,
-        deviations: &[Deviation],
+        deviations: &[WeightedErrors],
         executor: &dyn Executor,
     ) -> UnderDeviations {
         let corners = products(&self.case.uncertainty, ends);

@@ -17,7 +17,7 @@ pub type Score<'f> = &'f (dyn Fn(&[f64]) -> f64 + Sync);
 
 /// How thoroughly is looked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Effort {
+pub struct SearchEffort {
     /// Pieces of a line.
     pub pieces: usize,
     /// Particles of a swarm.
@@ -31,11 +31,11 @@ pub struct Effort {
 }
 
 /// A place with its score.
-pub type Seen = (Vec<f64>, f64);
+pub type ScoredPlace = (Vec<f64>, f64);
 
 /// The best place.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Best {
+pub struct BestPlace {
     /// Where.
     pub parts: Vec<f64>,
     /// The score there.
@@ -43,7 +43,7 @@ pub struct Best {
     /// The first coordinate's stretch that is as good, all others held; the place is its middle.
     pub plateau: [f64; 2],
     /// Every place that was asked for on the way.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<ScoredPlace>,
 }
 
 /// Relative difference of two scores that are the same: the rounding of roots.
@@ -64,12 +64,12 @@ const SEED: u64 = 2016;
 const NOTHING: f64 = 1e300;
 
 /// A problem for the optimiser, which remembers all that it was asked.
-struct Problem<'f> {
+struct ScoredProblem<'f> {
     score: Score<'f>,
-    seen: RefCell<Vec<Seen>>,
+    seen: RefCell<Vec<ScoredPlace>>,
 }
 
-impl<'f> Problem<'f> {
+impl<'f> ScoredProblem<'f> {
     fn new(score: Score<'f>) -> Self {
         Self { score, seen: RefCell::default() }
     }
@@ -83,18 +83,18 @@ impl<'f> Problem<'f> {
     }
 
     /// The best of all that was asked; `None` where nothing has a score.
-    fn best(&self) -> Option<Best> {
+    fn best(&self) -> Option<BestPlace> {
         let seen = self.seen.borrow();
         let mut scored = seen.iter().filter(|one| one.1 > f64::NEG_INFINITY);
         let first = scored.next()?;
         // What is better by rounding only does not replace the middle of a plateau.
-        let better = |a: &Seen, b: &Seen| b.1 > a.1 && !same(a.1, b.1);
+        let better = |a: &ScoredPlace, b: &ScoredPlace| b.1 > a.1 && !same(a.1, b.1);
         let (parts, score) = scored.fold(first, |a, b| if better(a, b) { b } else { a }).clone();
-        Some(Best { plateau: [parts[0]; 2], parts, score, seen: seen.clone() })
+        Some(BestPlace { plateau: [parts[0]; 2], parts, score, seen: seen.clone() })
     }
 }
 
-impl CostFunction for &Problem<'_> {
+impl CostFunction for &ScoredProblem<'_> {
     type Param = Vec<f64>;
     type Output = f64;
     fn cost(&self, parts: &Self::Param) -> Result<f64, Error> {
@@ -126,9 +126,9 @@ pub fn on_line(
     scanned: &[(f64, f64)],
     width: f64,
     score: &(dyn Fn(f64) -> f64 + Sync),
-) -> Option<Best> {
+) -> Option<BestPlace> {
     let asked = |parts: &[f64]| score(parts[0]);
-    let problem = Problem::new(&asked);
+    let problem = ScoredProblem::new(&asked);
     let last = scanned.len().checked_sub(1)?;
     let around = |k: usize| (scanned[k.saturating_sub(1)], scanned[(k + 1).min(last)]);
     let mut peaks: Vec<usize> = (0..=last)
@@ -145,7 +145,7 @@ pub fn on_line(
     let widest = runs.max_by(|a, b| a.len().cmp(&b.len()).then(b[0].cmp(&a[0])))?;
     if widest.len() == scanned.len() && last > 0 {
         let seen = scanned.iter().map(|(part, score)| (vec![*part], *score)).collect();
-        return Some(Best { parts: vec![0.5], score: score(0.5), plateau: [0.0, 1.0], seen });
+        return Some(BestPlace { parts: vec![0.5], score: score(0.5), plateau: [0.0, 1.0], seen });
     }
     let middle = scanned[widest[widest.len() / 2]];
     problem.asked(&[middle.0]);
@@ -163,13 +163,13 @@ pub fn on_line(
 }
 
 /// What was found between all bounds.
-pub struct Found {
+pub struct SearchResult {
     /// The score along the first coordinate, the others being those that were given.
     pub line: Vec<(f64, f64)>,
     /// Every place of that line, and every one that was asked for in several dimensions.
-    pub seen: Vec<Seen>,
+    pub seen: Vec<ScoredPlace>,
     /// The best place; `None` where nothing has a score, and on a line whose score is not smooth.
-    pub best: Option<Best>,
+    pub best: Option<BestPlace>,
 }
 
 /// The best place between all bounds: in all dimensions, then along the first coordinate from there. Where a search begins has
@@ -177,11 +177,11 @@ pub struct Found {
 pub fn everywhere(
     what: &str,
     dimensions: usize,
-    effort: &Effort,
+    effort: &SearchEffort,
     executor: &dyn Evaluations,
     score: Score,
-) -> Found {
-    let mut seen: Vec<Seen> = Vec::new();
+) -> SearchResult {
+    let mut seen: Vec<ScoredPlace> = Vec::new();
     let mut found = match (dimensions, effort.smooth) {
         (1, _) => None,
         (_, true) => in_box(dimensions, effort, score),
@@ -197,20 +197,21 @@ pub fn everywhere(
     seen.extend(line.iter().map(|(part, score)| (at(*part), *score)));
     if effort.smooth {
         let narrowed = on_line(&line, effort.width, &along);
-        let narrowed = narrowed.map(|best| Best { parts: at(best.parts[0]), ..best });
-        let better =
-            |known: &Best, one: &Best| one.score > known.score || same(one.score, known.score);
+        let narrowed = narrowed.map(|best| BestPlace { parts: at(best.parts[0]), ..best });
+        let better = |known: &BestPlace, one: &BestPlace| {
+            one.score > known.score || same(one.score, known.score)
+        };
         found = match (found, narrowed) {
             (Some(known), Some(one)) if !better(&known, &one) => Some(known),
             (known, one) => one.or(known),
         };
     }
-    Found { line, seen, best: found }
+    SearchResult { line, seen, best: found }
 }
 
 /// Golden section between two places, until it moves by less than `width`; what it finds is remembered by the
 /// problem.
-fn narrowed(problem: &Problem, from: f64, to: f64, width: f64) {
+fn narrowed(problem: &ScoredProblem, from: f64, to: f64, width: f64) {
     let mut last = f64::INFINITY;
     narrow([from, to], |part| {
         let moved = (part - last).abs();
@@ -222,8 +223,8 @@ fn narrowed(problem: &Problem, from: f64, to: f64, width: f64) {
 
 /// The best place in several dimensions: a swarm with a fixed beginning, then for a smooth score a simplex
 /// from the best of it; `None` where nothing has a score.
-fn in_box(dimensions: usize, effort: &Effort, score: Score) -> Option<Best> {
-    let problem = Problem::new(score);
+fn in_box(dimensions: usize, effort: &SearchEffort, score: Score) -> Option<BestPlace> {
+    let problem = ScoredProblem::new(score);
     problem.asked(&vec![0.5; dimensions]);
     let bounds = (vec![0.0; dimensions], vec![1.0; dimensions]);
     let swarm = ParticleSwarm::new(bounds, effort.particles)
@@ -264,15 +265,15 @@ const REACH: [f64; 2] = [0.08, 0.03];
 fn spread_out(
     what: &str,
     dimensions: usize,
-    effort: &Effort,
+    effort: &SearchEffort,
     executor: &dyn Evaluations,
     score: Score,
-) -> Option<Best> {
+) -> Option<BestPlace> {
     let even = |k: usize| -> Vec<f64> {
         let part = |prime: &f64| (0.5 + prime.sqrt() * (k + 1) as f64).fract();
         PRIMES.iter().cycle().take(dimensions).map(part).collect()
     };
-    let of = |places: &[Vec<f64>]| -> Vec<Seen> {
+    let of = |places: &[Vec<f64>]| -> Vec<ScoredPlace> {
         let scores = map(executor, what, places.len(), |k| score(&places[k]));
         places.iter().cloned().zip(scores).collect()
     };
@@ -289,7 +290,7 @@ fn spread_out(
         seen.extend(of(&places.collect::<Vec<_>>()));
     }
     let (parts, score) = shortlist(&seen, 0.0, 1).pop()?;
-    Some(Best { plateau: [parts[0]; 2], parts, score, seen })
+    Some(BestPlace { plateau: [parts[0]; 2], parts, score, seen })
 }
 
 /// How far two places are apart, in the coordinate in which they are farthest.
@@ -298,11 +299,12 @@ pub fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The best of the places that were seen, each this far from every better one, the best first.
-pub fn shortlist(seen: &[Seen], apart: f64, most: usize) -> Vec<Seen> {
-    let mut sorted: Vec<&Seen> = seen.iter().filter(|(_, score)| score.is_finite()).collect();
+pub fn shortlist(seen: &[ScoredPlace], apart: f64, most: usize) -> Vec<ScoredPlace> {
+    let mut sorted: Vec<&ScoredPlace> =
+        seen.iter().filter(|(_, score)| score.is_finite()).collect();
     // Equal scores keep the order in which they were seen.
     sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut found: Vec<Seen> = Vec::new();
+    let mut found: Vec<ScoredPlace> = Vec::new();
     for one in sorted {
         if found.len() < most && found.iter().all(|known| distance(&known.0, &one.0) >= apart) {
             found.push(one.clone());
@@ -312,7 +314,7 @@ pub fn shortlist(seen: &[Seen], apart: f64, most: usize) -> Vec<Seen> {
 }
 
 /// A place moved to the middle of the stretch that is as good, coordinate by coordinate.
-fn centred(mut best: Best, width: f64, score: Score) -> Best {
+fn centred(mut best: BestPlace, width: f64, score: Score) -> BestPlace {
     for k in (0..best.parts.len()).rev() {
         let at = best.parts[k];
         let as_good = |part: f64| {

@@ -10,7 +10,7 @@
 
 use serde_json::{Value, json};
 
-use super::document::place::Place;
+use super::document::place::FilePlace;
 use super::document::{Scale, motions, theory, theory_limits};
 use super::render::RenderError;
 use super::template;
@@ -248,7 +248,7 @@ impl Simulated<'_> {
 
 /// A document with what is probably a slip in the case; left out where nothing is.
 fn warned(mut document: Value, case: &Case) -> Value {
-    let warnings: Vec<Place> = case.warnings().iter().map(Place::from).collect();
+    let warnings: Vec<FilePlace> = case.warnings().iter().map(FilePlace::from).collect();
     if !warnings.is_empty() {
         document["warnings"] = json!(warnings);
     }

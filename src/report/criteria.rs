@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::document::criteria::{criteria, place};
-use super::document::{self, Scale, motions, place::Place};
+use super::document::{self, Scale, motions, place::FilePlace};
 use super::render::RenderError;
 use super::template::render;
 use crate::answer::Answer;
@@ -32,7 +32,7 @@ impl Checked {
         let survey = survey.filter(|survey| !survey.band().is_point());
         let outside = survey.filter(|survey| !survey.band().holds_own());
         let outside = outside.map(|survey| document::outside(&scale, survey.band()));
-        let warnings: Vec<Place> = case.warnings().iter().map(Place::from).collect();
+        let warnings: Vec<FilePlace> = case.warnings().iter().map(FilePlace::from).collect();
         let mut document = json!({
             "case": name,
             "title": case.title,
@@ -57,7 +57,7 @@ impl Checked {
 
     /// A case that could not be read, or not be judged: why in a sentence, and where its file is wrong, in the
     /// order of its lines.
-    pub fn failed(path: &str, name: &str, error: &str, problems: &[Place]) -> Self {
+    pub fn failed(path: &str, name: &str, error: &str, problems: &[FilePlace]) -> Self {
         let document = json!({ "case": name, "error": error, "problems": problems });
         let mut page = document.clone();
         page["path"] = json!(path);

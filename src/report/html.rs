@@ -25,7 +25,7 @@ pub fn page(
     markdown: &str,
     drawings: &BTreeMap<String, String>,
 ) -> Result<String, RenderError> {
-    let mut writer = Writer { tone, drawings: Some(drawings), ..Writer::default() };
+    let mut writer = PageWriter { tone, drawings: Some(drawings), ..PageWriter::default() };
     let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
     let mut events = Vec::new();
     for event in Parser::new_ext(markdown, options) {
@@ -46,7 +46,7 @@ pub fn page(
 
 /// Turns the events of Markdown into those of the page.
 #[derive(Default)]
-struct Writer<'a> {
+struct PageWriter<'a> {
     tone: &'a str,
     drawings: Option<&'a BTreeMap<String, String>>,
     /// The first heading.
@@ -80,7 +80,7 @@ enum Caption {
     Open,
 }
 
-impl<'a> Writer<'a> {
+impl<'a> PageWriter<'a> {
     fn take(&mut self, event: Event<'a>, out: &mut Vec<Event<'a>>) -> Result<(), RenderError> {
         match event {
             Event::Start(Tag::Heading { level, .. }) => {

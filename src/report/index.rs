@@ -27,7 +27,7 @@ const USUAL_CLEARANCE: f64 = 1e-3;
 
 /// A report in its folder.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CaseReport {
+pub struct IndexedReport {
     /// Name of its folder, which is that of the case.
     pub name: String,
     /// What its `report.json` says.
@@ -43,7 +43,7 @@ pub struct Summary {
     title: String,
     /// `si` or `reduced`.
     units: String,
-    verdict: Answer,
+    verdict: AnswerFacts,
     criteria: Value,
     quantities: BTreeMap<String, Value>,
     notes: Vec<Value>,
@@ -52,7 +52,7 @@ pub struct Summary {
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Answer {
+struct AnswerFacts {
     tone: Tone,
     word: Word,
 }
@@ -125,7 +125,10 @@ impl Summary {
 ///
 /// # Errors
 /// [`RenderError::Template`] if template and index do not fit.
-pub fn files(mut cases: Vec<CaseReport>, mut others: Vec<OtherPage>) -> Result<Files, RenderError> {
+pub fn files(
+    mut cases: Vec<IndexedReport>,
+    mut others: Vec<OtherPage>,
+) -> Result<Files, RenderError> {
     cases.sort_by(|a, b| a.name.cmp(&b.name));
     others.sort_by(|a, b| a.file.cmp(&b.file));
     let mut words: BTreeMap<Word, usize> = BTreeMap::new();
@@ -176,7 +179,7 @@ impl OtherPage {
 mod tests {
     use super::*;
 
-    fn case(name: &str, word: &str, units: &str, peak: f64) -> CaseReport {
+    fn case(name: &str, word: &str, units: &str, peak: f64) -> IndexedReport {
         let number =
             |id: &str, value: f64| serde_json::json!({"id": id, "value": value, "error": 0});
         let text = serde_json::json!({
@@ -185,7 +188,7 @@ mod tests {
             "quantities": {"clearance": number("clearance", 0.02), "peak_displacement": number("peak_displacement", peak)},
         });
         let summary = Summary::read(name, &text.to_string()).expect("a report");
-        CaseReport { name: name.to_owned(), summary, files: Vec::new() }
+        IndexedReport { name: name.to_owned(), summary, files: Vec::new() }
     }
 
     #[test]

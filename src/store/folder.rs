@@ -9,7 +9,7 @@ use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;
 
 use super::error::{StoreError, linked, refused};
-use super::reading::{self, Kind};
+use super::reading::{self, FileKind};
 use super::{folder_of, ordinary, unusable, write_file};
 
 /// A folder that somebody named to be written into. Others who would write into it through this type wait until this
@@ -175,7 +175,8 @@ pub fn read_folder(
     ours: fn(&Path) -> bool,
 ) -> Result<BTreeMap<PathBuf, Vec<u8>>, StoreError> {
     let files = files_below(path)?.into_iter().filter(|file| ours(file));
-    let read = |file: PathBuf| Ok((file.clone(), reading::read(&path.join(file), Kind::Other)?));
+    let read =
+        |file: PathBuf| Ok((file.clone(), reading::read(&path.join(file), FileKind::Other)?));
     files.map(read).collect()
 }
 

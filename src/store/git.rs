@@ -5,7 +5,7 @@ use std::io::{self, Seek as _, Write as _};
 use std::process::{Command, Output, Stdio};
 
 use super::error::StoreError;
-use super::reading::Kind;
+use super::reading::FileKind;
 use super::reports::{DRAWING, REPORT, StoredReports, group};
 
 /// The reports below `path`, relative to the working folder, at a revision; none where the folder is
@@ -86,7 +86,7 @@ fn files(tree: &str) -> Result<BTreeMap<String, Vec<u8>>, String> {
             continue;
         }
         let size = facts.rsplit(' ').next().and_then(|size| size.parse().ok());
-        Kind::Other.allows(size.unwrap_or(0)).map_err(|why| format!("`{path}` {why}"))?;
+        FileKind::Other.allows(size.unwrap_or(0)).map_err(|why| format!("`{path}` {why}"))?;
         wanted.push(path.to_owned());
     }
     let names: Vec<String> = wanted.iter().map(|path| format!("{tree}:{path}")).collect();

@@ -28,14 +28,14 @@ pub struct CaseText {
 
 /// What a file is read as, which bounds its size.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Kind {
+pub(super) enum FileKind {
     Case,
     Record,
     Results,
     Other,
 }
 
-impl Kind {
+impl FileKind {
     /// Most MiB: a case has a few kB, and one with ten thousand values in lists a hundred; a record of 64 has three
     /// million samples, whose flights take longer than what is ordinary; a chunk of a sweep that follows motions has
     /// 16 lines of at most a million points; the largest report has less than one.
@@ -93,7 +93,7 @@ pub fn open(path: &Path) -> Result<File, StoreError> {
 }
 
 /// Reads a regular file whole.
-pub(super) fn read(path: &Path, kind: Kind) -> Result<Vec<u8>, StoreError> {
+pub(super) fn read(path: &Path, kind: FileKind) -> Result<Vec<u8>, StoreError> {
     let mut bytes = Vec::new();
     let mut file = open(path)?.take((kind.most() << 20) + 1);
     file.read_to_end(&mut bytes).map_err(|cause| refused("read", path, cause))?;
@@ -108,7 +108,7 @@ pub(super) fn read(path: &Path, kind: Kind) -> Result<Vec<u8>, StoreError> {
 /// # Errors
 /// [`StoreError`] when it cannot be read, is no regular file, is too large or is not text.
 pub fn read_text(path: &Path) -> Result<String, StoreError> {
-    text_of(path, read(path, Kind::Other)?)
+    text_of(path, read(path, FileKind::Other)?)
 }
 
 /// Reads a case file.
@@ -118,7 +118,7 @@ pub fn read_text(path: &Path) -> Result<String, StoreError> {
 pub fn read_case(path: &Path, reach: Reach) -> Result<CaseText, StoreError> {
     let file = within(folder_of(path)?, path, reach)?;
     let quotable = reach == Reach::Anywhere || !is_linked(path);
-    Ok(CaseText { text: text_of(path, read(&file, Kind::Case)?)?, quotable })
+    Ok(CaseText { text: text_of(path, read(&file, FileKind::Case)?)?, quotable })
 }
 
 /// Reads the record that a case in `folder` names, with the path that messages give it.
@@ -132,7 +132,7 @@ pub fn read_record(
 ) -> Result<(PathBuf, String), StoreError> {
     let path = folder.join(name);
     let folder = if folder == Path::new("") { Path::new(".") } else { folder };
-    let text = text_of(&path, read(&within(folder, &path, reach)?, Kind::Record)?)?;
+    let text = text_of(&path, read(&within(folder, &path, reach)?, FileKind::Record)?)?;
     Ok((path, text))
 }
 

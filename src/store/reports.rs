@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::reading::{self, Kind, Reach, within};
+use super::reading::{self, FileKind, Reach, within};
 use super::{StoreError, text_of};
 
 /// The file that makes a folder a report.
@@ -75,7 +75,7 @@ fn read_report(
     root: &Path,
     reach: Reach,
 ) -> Result<StoredReport, StoreError> {
-    let read = |path: &Path| reading::read(&within(root, path, reach)?, Kind::Other);
+    let read = |path: &Path| reading::read(&within(root, path, reach)?, FileKind::Other);
     let json = text_of(file, read(file)?)?;
     let mut figures = BTreeMap::new();
     for name in drawings(folder)? {

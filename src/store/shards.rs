@@ -4,7 +4,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::reading::{self, Kind};
+use super::reading::{self, FileKind};
 use super::{Growing, StoreError, TEMPORARY, folder_below, refused};
 use crate::digest::sha256;
 
@@ -53,7 +53,7 @@ impl Shards {
     /// # Errors
     /// [`StoreError`] where a file is there and cannot be read.
     pub fn holds(&self, chunk: u64) -> Result<bool, StoreError> {
-        let read = |path: &Path| match reading::read(path, Kind::Results) {
+        let read = |path: &Path| match reading::read(path, FileKind::Results) {
             Err(error) if error.refusal == Some(io::ErrorKind::NotFound) => Ok(None),
             read => read.map(Some),
         };

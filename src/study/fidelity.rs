@@ -113,7 +113,7 @@ pub struct Answered {
 
 /// Which layer answers, decided without simulating.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Plan {
+pub struct LayerPlan {
     /// The system.
     pub system: System,
     /// What was asked for.
@@ -157,11 +157,11 @@ impl Answers {
     }
 }
 
-impl Plan {
+impl LayerPlan {
     /// The plan of a case that asks for accuracy, or where a layer is insisted on.
     ///
     /// # Errors
-    /// As [`Plan::of`].
+    /// As [`LayerPlan::of`].
     pub fn of_case(case: &Case, forced: Option<Method>) -> Result<Option<Self>, StudyError> {
         if case.design.scene() != Scene::Steady {
             return Ok(None);
@@ -242,7 +242,7 @@ impl Plan {
         self.layer == Method::Simulation || (self.demand.coexistence && self.forced.is_none())
     }
 
-    /// The answers; `simulated` are the long-term motions, where [`Plan::needs_simulation`], and why the main one of them
+    /// The answers; `simulated` are the long-term motions, where [`LayerPlan::needs_simulation`], and why the main one of them
     /// is not to be trusted.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! What is recorded of points, as columns with names and units.
 
-use super::facts::{Facts, Found};
-use super::{Plan, Point};
+use super::facts::{PointFacts, PointMotions};
+use super::{GridPoint, Plan};
 use crate::analysis::{Area, Strip};
 use crate::case::Recorded;
 use crate::motions::Motion;
@@ -135,7 +135,7 @@ pub fn names(recorded: Recorded) -> Vec<String> {
 }
 
 /// Adds a point and what is recorded of it to the columns of its sweep.
-pub(super) fn push(columns: &mut [Column], point: &Point, recorded: Vec<Option<Cell>>) {
+pub(super) fn push(columns: &mut [Column], point: &GridPoint, recorded: Vec<Option<Cell>>) {
     let place = [point.number as f64].into_iter().chain(point.coordinates.iter().copied());
     let cells = place.map(|value| Some(Cell::Number(value))).chain(recorded);
     let known = |cell: &Cell| cell.number().is_none_or(f64::is_finite);
@@ -145,8 +145,8 @@ pub(super) fn push(columns: &mut [Column], point: &Point, recorded: Vec<Option<C
 }
 
 /// What is recorded of a point.
-pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
-    let nothing = Found::default();
+pub(super) fn cells(plan: &Plan, facts: &PointFacts) -> Vec<Option<Cell>> {
+    let nothing = PointMotions::default();
     let point = facts.point;
     let mut cells = Vec::new();
     for (recorded, direction) in recorded(plan) {
@@ -170,7 +170,7 @@ pub(super) fn cells(plan: &Plan, facts: &Facts) -> Vec<Option<Cell>> {
 }
 
 /// The value of what fills one column of numbers, whole numbers or flags.
-fn number(recorded: Recorded, facts: &Facts, found: &Found) -> Option<f64> {
+fn number(recorded: Recorded, facts: &PointFacts, found: &PointMotions) -> Option<f64> {
     let units = &facts.point.units;
     let length = |over_clearance: f64| units.length(over_clearance);
     let motions = &found.motions;

@@ -3,22 +3,22 @@
 
 use std::cell::OnceCell;
 
-use super::Point;
+use super::GridPoint;
 use crate::analysis::{AsymmetricLimits, FixedPointCurve, Manifold, Zone, fixed_points};
 use crate::motions::{Motion, Motions, Section, steady};
 use crate::system::System;
 
 /// A point and what was found there.
-pub(super) struct Facts<'a> {
-    pub point: &'a Point,
+pub(super) struct PointFacts<'a> {
+    pub point: &'a GridPoint,
     /// What simulation finds: from several starts; or followed upwards and downwards.
-    pub found: Vec<Found>,
+    pub found: Vec<PointMotions>,
     orbit: OnceCell<Option<Motion>>,
 }
 
 /// What simulation finds, from several starts or in one direction.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Found {
+pub(super) struct PointMotions {
     /// The long-term motions.
     pub motions: Motions,
     /// A second look at the main one.
@@ -28,8 +28,8 @@ pub(super) struct Found {
 /// Relative distance from a boundary to where it is looked whether the area there is another.
 const BESIDE: f64 = 1e-9;
 
-impl<'a> Facts<'a> {
-    pub fn of(point: &'a Point, found: Vec<Found>) -> Self {
+impl<'a> PointFacts<'a> {
+    pub fn of(point: &'a GridPoint, found: Vec<PointMotions>) -> Self {
         Self { point, found, orbit: OnceCell::new() }
     }
 

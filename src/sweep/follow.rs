@@ -1,8 +1,8 @@
 //! Where motions start that are not looked for from several starts: as axes say, or where the motion at
 //! the point before has ended.
 
-use super::facts::Found;
-use super::{Plan, Point};
+use super::facts::PointMotions;
+use super::{GridPoint, Plan};
 use crate::motions::starts::FROM_REST;
 use crate::motions::{Effort, Motions, carried_over, follow};
 use crate::quantity::Units;
@@ -33,10 +33,13 @@ pub(super) fn start(axes: impl Iterator<Item = (Parameter, f64)>, units: &Units)
 ///
 /// # Errors
 /// [`StartError`] where a start is not finite.
-pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartError> {
+pub(super) fn along(
+    plan: &Plan,
+    points: &[GridPoint],
+) -> Result<Vec<Vec<PointMotions>>, StartError> {
     let length = plan.settings.axes.last().map_or(1, |axis| axis.values.len());
     let effort = Effort::over(plan.settings.periods);
-    let mut found: Vec<Vec<Found>> = points.iter().map(|_| Vec::with_capacity(2)).collect();
+    let mut found: Vec<Vec<PointMotions>> = points.iter().map(|_| Vec::with_capacity(2)).collect();
     // Where the motion of each line stands, and at which point.
     let mut stands: Vec<Option<(State, &Units)>> = vec![None; points.len().div_ceil(length)];
     for k in (0..length).chain((0..length).rev()) {
@@ -51,7 +54,7 @@ pub(super) fn along(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, St
             let motion = point.system.and_then(|_| motions.next().flatten());
             stands[line] = motion.as_ref().map(|motion| (motion.state(), &point.units));
             let motions = motion.map(Motions::of_one).unwrap_or_default();
-            found[line * length + k].push(Found { motions, ..Found::default() });
+            found[line * length + k].push(PointMotions { motions, ..PointMotions::default() });
         }
     }
     Ok(found)

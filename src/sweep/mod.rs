@@ -50,7 +50,7 @@ pub struct Plan {
 
 /// A point of the grid.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Point {
+pub struct GridPoint {
     /// Its number.
     pub number: u64,
     /// Its place on each axis, in the units of [`SweepAxis::values`](crate::case::SweepAxis::values).
@@ -102,7 +102,7 @@ impl Plan {
     }
 
     /// About how many seconds a point takes where the structure is not driven steadily; none where it is.
-    pub fn seconds(&self, point: &Point) -> Option<f64> {
+    pub fn seconds(&self, point: &GridPoint) -> Option<f64> {
         self.unsteady.as_ref().map(|unsteady| unsteady.seconds(self, point))
     }
 
@@ -134,7 +134,7 @@ impl Plan {
     }
 
     /// The point of a number; the last axis varies fastest.
-    pub fn point(&self, number: u64) -> Point {
+    pub fn point(&self, number: u64) -> GridPoint {
         let axes = &self.settings.axes;
         let indices = indices(number, axes.iter().map(|axis| axis.values.len()));
         let coordinates: Vec<f64> =
@@ -150,7 +150,7 @@ impl Plan {
         let units = design.units();
         let steady = self.unsteady.is_none();
         let start = follow::start(values.into_iter().filter(|_| steady), &units);
-        Point { number, design, system: design.possible_system(), units, start, coordinates }
+        GridPoint { number, design, system: design.possible_system(), units, start, coordinates }
     }
 
     /// Whether anything is recorded that only simulation knows.

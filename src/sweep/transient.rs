@@ -4,7 +4,7 @@
 use std::sync::OnceLock;
 
 use super::columns::Cell;
-use super::{Plan, Point};
+use super::{GridPoint, Plan};
 use crate::case::{Case, RecordSource, Recorded, Recording};
 use crate::excitation::{Record, Transient};
 use crate::executor::Serial;
@@ -51,7 +51,7 @@ impl Unsteady {
     }
 
     /// What is recorded of a point, in the order of the settings.
-    pub fn cells(&self, plan: &Plan, point: &Point) -> Vec<Option<Cell>> {
+    pub fn cells(&self, plan: &Plan, point: &GridPoint) -> Vec<Option<Cell>> {
         let study = self.study(plan, point);
         let number = |of: &Recorded| {
             let (measure, device) = of.asked();
@@ -60,7 +60,7 @@ impl Unsteady {
         plan.settings.record.iter().map(number).collect()
     }
 
-    fn study(&self, plan: &Plan, point: &Point) -> Option<Study> {
+    fn study(&self, plan: &Plan, point: &GridPoint) -> Option<Study> {
         let of = Brief {
             transient: point.design.transient()?,
             records: self.records(),
@@ -75,7 +75,7 @@ impl Unsteady {
     }
 
     /// About how many seconds a point takes.
-    pub fn seconds(&self, plan: &Plan, point: &Point) -> f64 {
+    pub fn seconds(&self, plan: &Plan, point: &GridPoint) -> f64 {
         let (Some(system), Some(of)) = (&point.system, point.design.transient()) else {
             return 0.0;
         };

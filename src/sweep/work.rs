@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::columns::{self, Column, SECTION};
-use super::facts::{Facts, Found};
+use super::facts::{PointFacts, PointMotions};
 use super::follow;
-use super::{Plan, Point};
+use super::{GridPoint, Plan};
 use crate::case::{Recorded, SweepSettings};
 use crate::executor::Serial;
 use crate::motions::{Effort, Motion, Place, Section, motions, sections};
@@ -35,13 +35,13 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
     let mut begin = numbers.start;
     while begin < numbers.end {
         let end = numbers.end.min(begin + at_once);
-        let some: Vec<Point> = (begin..end).map(|number| plan.point(number)).collect();
+        let some: Vec<GridPoint> = (begin..end).map(|number| plan.point(number)).collect();
         let found = match plan.needs_simulation() {
             true => simulated(plan, &some)?,
             false => vec![Vec::new(); some.len()],
         };
         for (point, found) in some.iter().zip(found) {
-            columns::push(&mut results, point, columns::cells(plan, &Facts::of(point, found)));
+            columns::push(&mut results, point, columns::cells(plan, &PointFacts::of(point, found)));
         }
         begin = end;
     }
@@ -49,7 +49,7 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
 }
 
 /// What simulation finds at points, for each from several starts or in two directions.
-fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartError> {
+fn simulated(plan: &Plan, points: &[GridPoint]) -> Result<Vec<Vec<PointMotions>>, StartError> {
     let mut found = match plan.settings.follow {
         true => follow::along(plan, points)?,
         false => from_starts(plan, points)?,
@@ -61,13 +61,13 @@ fn simulated(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartErro
     Ok(found)
 }
 
-fn from_starts(plan: &Plan, points: &[Point]) -> Result<Vec<Vec<Found>>, StartError> {
+fn from_starts(plan: &Plan, points: &[GridPoint]) -> Result<Vec<Vec<PointMotions>>, StartError> {
     let places: Vec<Option<Place>> = points.iter().map(|point| place(plan, point)).collect();
     let there: Vec<Place> = places.iter().flatten().cloned().collect();
     let mut all = motions(&there, &effort(plan), &Serial)?.into_iter();
     let found = places.iter().map(|place| {
         let motions = place.as_ref().and_then(|_| all.next()).unwrap_or_default();
-        vec![Found { motions, ..Found::default() }]
+        vec![PointMotions { motions, ..PointMotions::default() }]
     });
     Ok(found.collect())
 }
@@ -79,7 +79,7 @@ fn effort(plan: &Plan) -> Effort {
 }
 
 /// The system of a point and its starts: the one that axes say, if it is possible, or the usual ones.
-fn place(plan: &Plan, point: &Point) -> Option<Place> {
+fn place(plan: &Plan, point: &GridPoint) -> Option<Place> {
     let system = point.system?;
     Some(match point.start {
         Some(start) if start.relative_displacement().abs() > 1.0 => return None,
@@ -89,7 +89,11 @@ fn place(plan: &Plan, point: &Point) -> Option<Place> {
 }
 
 /// Adds what only a second look at the main motions tells: exponents and sections.
-fn look_closer(plan: &Plan, points: &[Point], found: &mut [Vec<Found>]) -> Result<(), StartError> {
+fn look_closer(
+    plan: &Plan,
+    points: &[GridPoint],
+    found: &mut [Vec<PointMotions>],
+) -> Result<(), StartError> {
     let ways = points.iter().zip(&*found).flat_map(|(point, ways)| {
         ways.iter().map(|one| Some((point.system?, one.motions.main()?)))
     });

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::record_study::over_records;
-use super::{Measured, Run, Runs, Study};
+use super::{Run, Runs, Study, WithError};
 use crate::linear::reduction;
 use crate::measure::{Device, Measure};
 use crate::method::Method;
@@ -12,17 +12,17 @@ use crate::quantity::{Quantity, Units};
 
 /// A value with its error, dimensionless, and the layer that it is from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Asked {
+pub struct Answered {
     /// Lengths over the clearance, fast time; and how much worse other places of the absorber may be, or twice the
     /// standard error of the mean over records; NaN where nobody knows.
-    pub value: Measured,
+    pub value: WithError,
     /// The layer.
     pub method: Method,
 }
 
 /// What is compared under one condition: a record, or the only release or sweep.
-struct Condition<'a> {
-    largest: &'a dyn Fn(Measure) -> Option<Measured>,
+struct Compared<'a> {
+    largest: &'a dyn Fn(Measure) -> Option<WithError>,
     without: &'a dyn Run,
     damper: &'a dyn Run,
 }
@@ -36,9 +36,9 @@ impl Run for Alone {
     }
 }
 
-impl Condition<'_> {
+impl Compared<'_> {
     /// With the absorber the largest from any place that counts; a reduction is that of the largest displacement.
-    fn ask(&self, of: Measure, by: Device) -> Option<Measured> {
+    fn ask(&self, of: Measure, by: Device) -> Option<WithError> {
         let linear = |by: Device| if by == Device::Damper { self.damper } else { self.without };
         match (by, of.against()) {
             (Device::Absorber, Some(other)) => {
@@ -69,21 +69,21 @@ impl Study {
     }
 
     /// What is known of a measure; none where it says nothing, or nothing was simulated.
-    pub fn ask(&self, of: Measure, by: Device) -> Option<Asked> {
-        let time = |[value, error]: Measured| [TAU * value, TAU * error];
-        let exact = |value: f64| Some(Asked { value: [value, 0.0], method: Method::ClosedForm });
+    pub fn ask(&self, of: Measure, by: Device) -> Option<Answered> {
+        let time = |[value, error]: WithError| [TAU * value, TAU * error];
+        let exact = |value: f64| Some(Answered { value: [value, 0.0], method: Method::ClosedForm });
         let value = match (self, by, of) {
             (Self::Release(study), Device::Absorber, Measure::DecayTime) => {
                 study.worst()?;
                 let found = study.decay();
                 let method = if found.inactive { Method::ClosedForm } else { Method::Simulation };
-                return Some(Asked { value: time(found.oscillations), method });
+                return Some(Answered { value: time(found.oscillations), method });
             }
             (Self::Release(study), _, Measure::TheoryDecayTime) => {
                 let theory = &study.predicted;
                 // Of first order in the mass ratio, and more below the end of capture: nobody knows how much.
                 let value = [TAU * theory.oscillations?, f64::NAN];
-                return Some(Asked { value, method: theory.method });
+                return Some(Answered { value, method: theory.method });
             }
             (Self::Release(study), _, Measure::InactiveShare) => {
                 return exact(study.inactive.share);
@@ -98,12 +98,12 @@ impl Study {
         };
         let method = if by == Device::Absorber { Method::Simulation } else { Method::ClosedForm };
         let value = if of == Measure::DecayTime { time(value) } else { value };
-        Some(Asked { value, method })
+        Some(Answered { value, method })
     }
 
     /// The same in SI, or in the units of a reduced case.
     pub fn quantity(&self, units: &Units, of: Measure, by: Device) -> Option<Quantity> {
-        let Asked { value, method } = self.ask(of, by)?;
+        let Answered { value, method } = self.ask(of, by)?;
         let kind = match by {
             Device::Absorber => of.kind_under(self.records()),
             _ => of.kind(by),
@@ -126,11 +126,11 @@ impl Study {
     /// What each condition says.
     fn conditions(
         &self,
-        asked: &dyn Fn(&Condition<'_>) -> Option<Measured>,
-    ) -> Option<Vec<Measured>> {
-        let only = |runs: &dyn Fn(Measure) -> Option<Measured>,
+        asked: &dyn Fn(&Compared<'_>) -> Option<WithError>,
+    ) -> Option<Vec<WithError>> {
+        let only = |runs: &dyn Fn(Measure) -> Option<WithError>,
                     [without, damper]: [&dyn Run; 2]| {
-            asked(&Condition { largest: runs, without, damper })
+            asked(&Compared { largest: runs, without, damper })
         };
         match self {
             Self::Release(study) => {

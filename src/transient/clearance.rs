@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use super::record_study::{flown, over_records};
-use super::{DecayStudy, DecayTime, Measured, SweepStudy};
+use super::{DecayStudy, DecayTime, SweepStudy, WithError};
 use crate::case::{Case, Design, Recording, Rounding};
 use crate::excitation::{Record, Release, SineSweep, Transient};
 use crate::executor::{Executor, Serial, map};
@@ -32,15 +32,15 @@ const CLEARANCES: [f64; 2] = [0.2, 5.0];
 /// may be: the time to come to rest of the slowest release, or the largest displacement, mean over records; infinite
 /// where a structure does not come to rest, or cannot be followed.
 #[derive(Debug, Clone)]
-pub struct Best {
+pub struct BestClearance {
     /// The design with it: the case's own where none is better.
     pub design: Design,
     /// From the places of the absorber by which all clearances were looked at.
-    pub claimed: Measured,
+    pub claimed: WithError,
     /// From those of a study, as every command says it of the design.
-    pub checked: Measured,
+    pub checked: WithError,
     /// The same of the case's own clearance.
-    pub own: Measured,
+    pub own: WithError,
     /// The bound beside which it lies, if any: beyond it may be better ones.
     pub bound: Option<f64>,
     /// Clearances, in the units of the design, and the values by which they were looked at.
@@ -64,7 +64,7 @@ fn screened(records: usize) -> u32 {
 ///
 /// All clearances are looked at from even places. The best of them is judged by a study, as the next best is until none is
 /// left that promises more than the best that was judged.
-pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<Best> {
+pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<BestClearance> {
     let transient = case.design.transient()?;
     let records = case.recording.as_ref().map_or_else(Vec::new, Recording::records);
     let own = case.design.clearance();
@@ -83,7 +83,7 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<Best> {
         let even = screened(records.len()).into();
         value(clearance, Places { even, closer: false, executor: &Serial })
     };
-    let mut all: Vec<(f64, Measured)> = Vec::new();
+    let mut all: Vec<(f64, WithError)> = Vec::new();
     let mut within = bounds;
     let mut beside = [f64::NEG_INFINITY, f64::INFINITY];
     for (round, count) in CLEARANCES_OF_ROUND.into_iter().enumerate() {
@@ -125,7 +125,7 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<Best> {
         _ if clearance > beside[1] => Some(bounds[1]),
         _ => None,
     };
-    Some(Best {
+    Some(BestClearance {
         design: case.design.with(Parameter::Clearance, clearance),
         claimed,
         checked,
@@ -135,7 +135,7 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<Best> {
     })
 }
 
-fn least(all: &[(f64, Measured)]) -> usize {
+fn least(all: &[(f64, WithError)]) -> usize {
     let least = all.iter().enumerate().min_by(|a, b| a.1.1[0].total_cmp(&b.1.1[0]));
     least.map_or(0, |(index, _)| index)
 }
@@ -146,7 +146,7 @@ fn slowest(
     release: &Release,
     design: &Design,
     places: Places<'_>,
-) -> Option<Measured> {
+) -> Option<WithError> {
     let (system, units) = (design.system().ok()?, design.units());
     let factors = match case.optimize.releases {
         None => vec![1.0],
@@ -166,13 +166,13 @@ fn slowest(
         let time = DecayTime::of(&found.ok()?, alone, case.count_inactive, &inactive);
         Some(time.oscillations)
     };
-    let times = factors.iter().map(time).collect::<Option<Vec<Measured>>>()?;
+    let times = factors.iter().map(time).collect::<Option<Vec<WithError>>>()?;
     let slowest = times.into_iter().max_by(|a, b| a[0].total_cmp(&b[0]))?;
     Some(slowest.map(|oscillations| units.time(TAU * oscillations)))
 }
 
 /// Largest displacement of the passage from the worst start.
-fn swept(case: &Case, sweep: &SineSweep, design: &Design, places: Places<'_>) -> Option<Measured> {
+fn swept(case: &Case, sweep: &SineSweep, design: &Design, places: Places<'_>) -> Option<WithError> {
     let (system, units) = (design.system().ok()?, design.units());
     let starts = SweepStudy::starts(&system, &units, sweep, places, case.count_inactive).ok()?;
     Some(starts.largest(Measure::Peak)?.map(|peak| units.length(peak)))
@@ -184,12 +184,12 @@ fn shaken(
     records: &[Record],
     design: &Design,
     places: Places<'_>,
-) -> Option<Measured> {
+) -> Option<WithError> {
     let (system, units) = (design.system().ok()?, design.units());
     let of_record = |record: &Record| {
         let pieces = record.pieces(&units, Record::LONGEST);
         flown(&system, &pieces, places, case.count_inactive).ok()?.largest(Measure::Peak)
     };
-    let each = records.iter().map(of_record).collect::<Option<Vec<Measured>>>()?;
+    let each = records.iter().map(of_record).collect::<Option<Vec<WithError>>>()?;
     Some(over_records(&each).map(|peak| units.length(peak)))
 }

@@ -13,7 +13,7 @@ use crate::system::State;
 
 /// What one flight did. Lengths over the clearance, fast time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Flight {
+pub struct OneFlight {
     /// The state in which it began.
     pub start: State,
     /// How long it was.
@@ -29,7 +29,7 @@ pub struct Flight {
     pub settles: Option<f64>,
 }
 
-impl Flight {
+impl OneFlight {
     /// Flies a case that is not driven steadily from a state, for so many oscillations of the structure or periods of the
     /// excitation at the most, under the first of its records; `told` hears of every impact, its time that since the
     /// start. None for another case.

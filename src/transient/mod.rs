@@ -16,11 +16,11 @@ mod record_study;
 mod runs;
 mod study;
 
-pub use ask::Asked;
-pub use clearance::{Best, RELEASES, best_clearance, looked_at};
-pub use flight::Flight;
+pub use ask::Answered;
+pub use clearance::{BestClearance, RELEASES, best_clearance, looked_at};
+pub use flight::OneFlight;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
-pub use record_study::{Measured, Realisation, RecordStudy, SpectrumPoint};
+pub use record_study::{Realisation, RecordStudy, SpectrumPoint, WithError};
 pub use runs::{Run, Runs};
 pub(crate) use study::followed;
 pub use study::{Decay, DecayStudy, DecayTime};

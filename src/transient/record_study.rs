@@ -14,7 +14,7 @@ use crate::system::{Scales, System};
 
 /// A value and its error: of one record how much worse other places of the absorber may be, of several twice the
 /// standard error of the mean over records.
-pub type Measured = [f64; 2];
+pub type WithError = [f64; 2];
 
 /// What becomes of the structure under one record.
 #[derive(Debug, Clone, PartialEq)]
@@ -138,7 +138,7 @@ impl Realisation {
 }
 
 /// What is known of all records: of one its own, of several the mean.
-pub(super) fn over_records(each: &[Measured]) -> Measured {
+pub(super) fn over_records(each: &[WithError]) -> WithError {
     if let [only] = each {
         return *only;
     }

@@ -4,7 +4,7 @@ use crate::flights::{Passage, Response, worst_of_places};
 use crate::linear::Linear;
 use crate::measure::Measure;
 
-use super::{Decay, Measured};
+use super::{Decay, WithError};
 
 /// One run, with the absorber, a damper or neither. Lengths over the clearance, times in oscillations of the structure.
 pub trait Run {
@@ -43,7 +43,7 @@ impl<R: Run> Runs<R> {
     }
 
     /// The largest, and by how much those of other places may exceed it.
-    pub fn largest(&self, of: Measure) -> Option<Measured> {
+    pub fn largest(&self, of: Measure) -> Option<WithError> {
         self.values(of).map(|values| worst_of_places(&values))
     }
 

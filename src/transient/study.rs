@@ -1,7 +1,7 @@
 //! A released structure with everything that is known of it: from all places of the absorber, beside its
 //! alternatives and theory.
 
-use super::{Measured, Runs};
+use super::{Runs, WithError};
 use crate::case::Case;
 use crate::excitation::{Release, amplitude};
 use crate::executor::{Executor, Serial};
@@ -178,7 +178,7 @@ impl DecayStudy {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DecayTime {
     /// Oscillations, and by how much those of other places may exceed them.
-    pub oscillations: Measured,
+    pub oscillations: WithError,
     /// Whether it is that of an absorber that no wall reaches, and so of the structure alone.
     pub inactive: bool,
 }

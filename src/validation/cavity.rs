@@ -15,7 +15,7 @@ use crate::simulation::StartError;
 use crate::system::System;
 
 /// What the theory and an orbit both have; lengths over the clearance.
-struct Numbers {
+struct SharedNumbers {
     oscillator_amplitude: f64,
     absorber_amplitude: f64,
     eta: f64,
@@ -23,7 +23,7 @@ struct Numbers {
     between: f64,
 }
 
-impl Numbers {
+impl SharedNumbers {
     fn of_point(point: &FixedPoint) -> Self {
         Self {
             oscillator_amplitude: point.motion.oscillator_amplitude,
@@ -61,11 +61,11 @@ pub fn fixed_points(exact: &FullSystem) -> Vec<Claim> {
     let Some(found) = &exact.two_impact else { return Vec::new() };
     let (theory, forcing) = (CavityTheory::of(system), Forcing::of(system));
     let points = theory.fixed_points(&forcing);
-    let numbers: Vec<Numbers> = points.iter().map(Numbers::of_point).collect();
+    let numbers: Vec<SharedNumbers> = points.iter().map(SharedNumbers::of_point).collect();
     // One whose flights cross a wall or slide back is no motion.
     let orbits = found.orbits.iter().filter(|orbit| orbit.admissibility.admissible);
-    let orbits: Vec<(&Orbit, Numbers)> =
-        orbits.filter_map(|one| Some((one, Numbers::of_orbit(system, one)?))).collect();
+    let orbits: Vec<(&Orbit, SharedNumbers)> =
+        orbits.filter_map(|one| Some((one, SharedNumbers::of_orbit(system, one)?))).collect();
     let error = asymptotic_error(system);
     let mut claims = Vec::new();
     for (index, point) in points.iter().enumerate().filter(|(_, point)| point.motion.admissible) {
@@ -99,11 +99,11 @@ pub fn fixed_points(exact: &FullSystem) -> Vec<Claim> {
 
 /// By how much the phase between the impacts moves when the forcing is off by an error: next to symmetry breaking it goes
 /// with the root of the distance.
-fn moved(theory: &CavityTheory, forcing: &Forcing, own: &Numbers, error: f64) -> f64 {
+fn moved(theory: &CavityTheory, forcing: &Forcing, own: &SharedNumbers, error: f64) -> f64 {
     let there = [1.0 - error, 1.0 + error].map(|factor| {
         let forcing_per_clearance = factor * forcing.forcing_per_clearance;
         let points = theory.fixed_points(&Forcing { forcing_per_clearance, ..*forcing });
-        let all = points.iter().map(Numbers::of_point);
+        let all = points.iter().map(SharedNumbers::of_point);
         let nearest = all.min_by(|a, b| a.distance(own).total_cmp(&b.distance(own)));
         nearest.map_or(0.0, |one| (one.between - own.between).abs())
     });
@@ -111,7 +111,11 @@ fn moved(theory: &CavityTheory, forcing: &Forcing, own: &Numbers, error: f64) ->
 }
 
 /// `errors` of amplitudes and phase, and of the phase between the impacts.
-fn numbers_claims(point: usize, [theory, orbit]: [&Numbers; 2], errors: [f64; 2]) -> [Claim; 4] {
+fn numbers_claims(
+    point: usize,
+    [theory, orbit]: [&SharedNumbers; 2],
+    errors: [f64; 2],
+) -> [Claim; 4] {
     [
         ("C", [theory.oscillator_amplitude, orbit.oscillator_amplitude]),
         ("B", [theory.absorber_amplitude, orbit.absorber_amplitude]),

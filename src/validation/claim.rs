@@ -87,7 +87,7 @@ impl Statement {
 
 /// Where a motion led.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Reached {
+pub struct ReachedMotion {
     /// Its regime.
     pub regime: Regime,
     /// Excitation periods after which it repeats; none on a torus, as next to a Neimark–Sacker limit.
@@ -96,7 +96,7 @@ pub struct Reached {
     pub rests: bool,
 }
 
-impl Reached {
+impl ReachedMotion {
     /// A regime is named by its impacts alone, which a small torus shares with the orbit inside of it.
     pub(super) fn is_steady_flight(self) -> bool {
         self.regime == Regime::TwoSymmetric && self.repeats_after == Some(1) && !self.rests
@@ -131,7 +131,7 @@ pub enum Finding {
     /// Whether 1:1 resonance is steady on either side; where it is not, it may go on with rests on a wall.
     Steady { below: bool, above: bool, rests: bool },
     /// Where motions led on either side.
-    Reached { below: Reached, above: Reached },
+    ReachedMotion { below: ReachedMotion, above: ReachedMotion },
     /// Steady 1:1 resonance and nothing else.
     OnlySteady,
     /// Steady 1:1 resonance beside a modulated response.

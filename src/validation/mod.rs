@@ -18,7 +18,7 @@ pub mod orbits;
 pub mod tolerance;
 
 pub use asymptotic_error::AsymptoticError;
-pub use claim::{Claim, Finding, NearBoundary, Reached, Reason, Statement, Verdict};
+pub use claim::{Claim, Finding, NearBoundary, ReachedMotion, Reason, Statement, Verdict};
 
 use crate::analysis::Analysis;
 use crate::motions::{Measured, Motion, Motions, RestKind, Window};

@@ -4,7 +4,7 @@
 //! event. A motion near an orbit that attracts is never simulated for longer than it takes to see
 //! its disturbance shrink.
 
-use super::{Claim, Finding, Reached, Reason, Statement, Verdict};
+use super::{Claim, Finding, ReachedMotion, Reason, Statement, Verdict};
 use crate::motions::{Measured, Window};
 use crate::orbits::{AfterImpact, Bifurcation, FullSystem, ImpactMap, Limit, Orbit, Peaks};
 use crate::regimes::AbsorberAmplitude;
@@ -102,7 +102,7 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
     let mut claims = Vec::new();
     for limit in exact.stability_limits().filter(around) {
         let Ok(cycle) = limit.cycle(&exact.system) else { continue };
-        let side = |factor: f64| -> Result<Option<(bool, Reached)>, StartError> {
+        let side = |factor: f64| -> Result<Option<(bool, ReachedMotion)>, StartError> {
             let scaled = exact.system.with_clearance_scaled(limit.clearance * factor);
             let Ok(there) = scaled else { return Ok(None) };
             let found = FullSystem::of(&there);
@@ -118,13 +118,14 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
         let (Some(below), Some(above)) = (side(1.0 - ASIDE)?, side(1.0 + ASIDE)?) else {
             continue;
         };
-        let agrees = |(attracts, reached): (bool, Reached)| attracts == reached.is_steady_flight();
+        let agrees =
+            |(attracts, reached): (bool, ReachedMotion)| attracts == reached.is_steady_flight();
         let rests = limit.kind == Bifurcation::Sticking;
         claims.push(Claim::of_outcome(
             Statement::Limit { bifurcation: limit.kind },
             [
                 Finding::Steady { below: below.0, above: above.0, rests },
-                Finding::Reached { below: below.1, above: above.1 },
+                Finding::ReachedMotion { below: below.1, above: above.1 },
             ],
             Reason::EitherSide,
             Verdict::of(agrees(below) && agrees(above)),
@@ -133,7 +134,7 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
     Ok(claims)
 }
 
-fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {
+fn stays(system: &System, after: &AfterImpact) -> Result<ReachedMotion, StartError> {
     let simulation = begun(system, after)?;
     let found = Measured::reach(system, simulation.state(), &WINDOW)?;
     let AbsorberAmplitude { smallest, largest, .. } =
@@ -141,7 +142,7 @@ fn stays(system: &System, after: &AfterImpact) -> Result<Reached, StartError> {
     // A modulation no deeper than the disturbance is left of it, where the motion is slow to settle.
     let steady = largest - smallest <= SMALL * (largest + smallest);
     let repeats = found.classification.evidence.periodicity.map(|repetition| repetition.periods);
-    Ok(Reached {
+    Ok(ReachedMotion {
         regime: found.regime(),
         repeats_after: repeats.or(steady.then_some(1)),
         rests: found.sustained_contact.duration_tau > 0.0,

@@ -9,7 +9,7 @@ use vinesink::linear::{TunedMassDamper, released};
 use vinesink::measure::Measure;
 use vinesink::method::Method;
 use vinesink::system::State;
-use vinesink::transient::{DecayStudy, Flight, Study, best_clearance};
+use vinesink::transient::{DecayStudy, OneFlight, Study, best_clearance};
 
 use crate::common::unforced as system;
 
@@ -111,7 +111,7 @@ fn a_structure_comes_to_rest_at_an_impact_or_between_two() {
         let velocity = release.impulse / 4000.0 / case.units().velocity(1.0);
         let start = State { x_velocity: velocity, y: -place, ..State::AT_REST };
         let mut impacts = Vec::new();
-        let flight = Flight::of_case(&case, start, None, &mut |impact| impacts.push(*impact));
+        let flight = OneFlight::of_case(&case, start, None, &mut |impact| impacts.push(*impact));
         let settles = flight.expect("released").expect("flown").settles.expect("a time");
         assert_eq!(settles / std::f64::consts::TAU, decay.oscillations);
         // Just before it the amplitude is above the level, behind it below: by the impacts beside it.

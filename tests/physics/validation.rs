@@ -10,7 +10,7 @@ use vinesink::orbits::FullSystem;
 use vinesink::regimes::Regime;
 use vinesink::study::CaseStudy;
 use vinesink::system::{Cavity, Excitation, Parameters, System};
-use vinesink::validation::{Finding, Reached, Reason, Verdict, motions, orbits};
+use vinesink::validation::{Finding, ReachedMotion, Reason, Verdict, motions, orbits};
 
 #[test]
 fn in_strip_a1_answers_coexist_and_close_fixed_points_are_told_apart() {
@@ -129,7 +129,7 @@ fn a_small_torus_beyond_a_limit_is_no_steady_motion() {
     let predicted = Finding::Steady { below: true, above: false, rests: false };
     assert_eq!(limit.predicted, predicted);
     let reached =
-        |repeats_after| Reached { regime: Regime::TwoSymmetric, repeats_after, rests: false };
-    let seen = Finding::Reached { below: reached(Some(1)), above: reached(None) };
+        |repeats_after| ReachedMotion { regime: Regime::TwoSymmetric, repeats_after, rests: false };
+    let seen = Finding::ReachedMotion { below: reached(Some(1)), above: reached(None) };
     assert_eq!((&limit.observed, limit.verdict), (&seen, Verdict::Confirmed));
 }

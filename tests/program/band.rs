@@ -143,7 +143,7 @@ fn the_smallest_gap_keeps_the_motion_along_the_band() {
         let (at, gap) = margin::smallest(&band);
         let scanned = band
             .places(400)
-            .map(|at| margin::Gap::of(&band, at).expect("stable throughout").smaller())
+            .map(|at| margin::ClearanceMargin::of(&band, at).expect("stable throughout").smaller())
             .fold(f64::INFINITY, f64::min);
         // A dip found to a thousandth of the band is flat to a millionth.
         assert!((gap - scanned).abs() <= 1e-5 * gap, "{gap} {scanned} at {at}");

@@ -12,7 +12,7 @@ use vinesink::case::{Case, Design, Distribution, Objective, Uncertainty};
 use vinesink::criteria;
 use vinesink::executor::{Executor, Serial};
 use vinesink::measure::Measure;
-use vinesink::optimize::claim::Claim;
+use vinesink::optimize::claim::OptimumClaim;
 use vinesink::optimize::{Optimization, Task};
 use vinesink::orbits::symmetric_orbits;
 use vinesink::report::figure::Layer;
@@ -95,7 +95,7 @@ fn the_winner_is_what_check_says_of_it() {
     assert_eq!((peak.found, peak.error), (Some(best.value), best.error));
     assert_eq!(found.checked, (best.value, best.error));
     assert!(!best.is_worse_than(&found.own, Objective::WorstAmplitude));
-    let preferred = |one: &vinesink::optimize::Design| {
+    let preferred = |one: &vinesink::optimize::JudgedDesign| {
         (one.is_feasible(), -(one.value + one.error))
             > (best.is_feasible(), -(best.value + best.error))
     };
@@ -120,7 +120,7 @@ fn the_best_of_those_that_meet_the_criteria_wins() {
     assert!(bound.succeeds() && bound.closest.is_none(), "{:?}", bound.best.criteria);
     // The free optimum has an absorber that may never wake at resonance, and then a larger peak.
     assert!(free.best.value > bound.best.value + 0.01, "{} {}", free.best.value, bound.best.value);
-    let preferred = |one: &&vinesink::optimize::Design| one.value > bound.best.value;
+    let preferred = |one: &&vinesink::optimize::JudgedDesign| one.value > bound.best.value;
     let preferred: Vec<_> = bound.judged.iter().filter(preferred).collect();
     assert!(
         !preferred.is_empty() && preferred.iter().all(|one| !one.is_feasible()),
@@ -327,7 +327,7 @@ fn the_claim_is_measured_where_a_scan_finds_it() {
     for name in ["li2016-8p5hz-fig4a", "li2016-8hz-b7p5mm", "force-on-mass"] {
         let text = fs::read_to_string(format!("cases/{name}.toml")).expect("a case");
         let system = case(&text).system();
-        let claim = Claim::of(&system).expect("a stable orbit somewhere");
+        let claim = OptimumClaim::of(&system).expect("a stable orbit somewhere");
         let amplitude = |factor: f64| {
             let there = system.with_clearance_scaled(factor).expect("valid");
             let orbits = symmetric_orbits(&there).expect("steady");

@@ -20,7 +20,7 @@ use vinesink::orbits::{Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
 use vinesink::simulation::{Measurement, Simulation};
 use vinesink::study::estimate::{WhyNot, measured};
-use vinesink::study::fidelity::{AccuracyTarget, Answers, KnownBy, Plan, Question};
+use vinesink::study::fidelity::{AccuracyTarget, Answers, KnownBy, LayerPlan, Question};
 use vinesink::study::{CaseStudy, StudyError};
 use vinesink::symbolic::Symbol;
 use vinesink::system::{Parameters, State, System};
@@ -390,8 +390,8 @@ fn a_transient_that_lasts_is_no_scatter() {
     assert_eq!(simulated(&modulated), None);
 }
 
-fn plan(system: &System, amplitude: f64, forced: Option<Known>) -> Result<Plan, StudyError> {
-    Plan::of(system, AccuracyTarget { amplitude, ..DEMAND }, forced)
+fn plan(system: &System, amplitude: f64, forced: Option<Known>) -> Result<LayerPlan, StudyError> {
+    LayerPlan::of(system, AccuracyTarget { amplitude, ..DEMAND }, forced)
 }
 
 /// The theory's error at 8 Hz and 7.5 mm is 2.6 %, at 8.5 Hz and 15 mm 0.6 %.
@@ -423,7 +423,7 @@ fn the_cheapest_layer_that_is_known_to_be_exact_enough_answers() {
 fn coexistence_is_only_known_to_simulation() {
     let system = common::table_1(8.0, 7.5);
     let demand = AccuracyTarget { coexistence: true, ..DEMAND };
-    let asked = Plan::of(&system, demand, None).expect("planned");
+    let asked = LayerPlan::of(&system, demand, None).expect("planned");
     assert_eq!(asked.layer, Known::ExactOrbit);
     assert!(asked.needs_simulation());
     let motions = found(&system, &Effort { starts: 4, ..Effort::default() });
@@ -434,7 +434,7 @@ fn coexistence_is_only_known_to_simulation() {
     assert!(answers.enough());
     assert_eq!(answers.answers[0].layer, Known::ExactOrbit);
     // Insisting on the orbit leaves the question open, and says so.
-    let forced = Plan::of(&system, demand, Some(Known::ExactOrbit)).expect("planned");
+    let forced = LayerPlan::of(&system, demand, Some(Known::ExactOrbit)).expect("planned");
     assert!(!forced.needs_simulation());
     let answers = forced.answers(None).expect("answered");
     assert!(!answers.enough() && !answers.coexistence_looked_for);
@@ -464,7 +464,7 @@ fn simulation_measures_as_long_as_the_accuracy_takes() {
         let effort = Effort { starts: 2, discard: Some(200), accuracy, ..Effort::over(400) };
         let motions = found(&system, &effort);
         let demand = AccuracyTarget { amplitude, impacts_per_period: 1.0, coexistence: false };
-        let plan = Plan::of(&system, demand, None).expect("planned");
+        let plan = LayerPlan::of(&system, demand, None).expect("planned");
         let answers = plan.answers(Some((&motions, Vec::new()))).expect("answered");
         let first = &answers.answers[0];
         assert!(first.enough && first.error.expect("known") <= amplitude, "{first:?}");
@@ -503,7 +503,7 @@ fn what_an_orbit_answers_is_not_simulated() {
 fn the_averaged_flow_answers_where_it_is_asked_to() {
     let demand = AccuracyTarget { amplitude: 0.2, impacts_per_period: 1.0, coexistence: false };
     let answered = |system: &System| {
-        let plan = Plan::of(system, demand, Some(Known::AveragedFlow)).expect("an answer");
+        let plan = LayerPlan::of(system, demand, Some(Known::AveragedFlow)).expect("an answer");
         let answers = plan.answers(None).expect("answers").answers;
         let [amplitude, impacts, regime] = <[_; 3]>::try_from(answers).expect("three");
         (plan, amplitude, impacts, regime)
@@ -526,6 +526,6 @@ fn the_averaged_flow_answers_where_it_is_asked_to() {
     let measured = measured(&mut simulation, 8000).expect("measured").rms.expect("a number");
     let off = amplitude.value.expect("a number") / measured - 1.0;
     assert!(off.abs() < error, "{off} {error}");
-    let chosen = Plan::of(&modulated, demand, None).expect("simulated");
+    let chosen = LayerPlan::of(&modulated, demand, None).expect("simulated");
     assert_eq!((chosen.layer, chosen.averaged_flow), (Known::Simulation, None));
 }

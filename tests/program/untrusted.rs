@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use vinesink::diff::markdown::markdown;
 use vinesink::diff::{Difference, Document, Reports};
 use vinesink::quantity::Units;
-use vinesink::report::index::{self, CaseReport, Summary};
+use vinesink::report::index::{self, IndexedReport, Summary};
 use vinesink::report::{document::FORMAT, escape, template};
 use vinesink::store;
 
@@ -317,7 +317,7 @@ fn reviewed(old: &str, new: &str) -> Option<(String, bool)> {
 
 fn indexed(report: &str) -> Option<(String, String)> {
     let summary = Summary::read("c/report.json", report).ok()?;
-    let case = CaseReport { name: "c".to_owned(), summary, files: Vec::new() };
+    let case = IndexedReport { name: "c".to_owned(), summary, files: Vec::new() };
     let files = index::files(vec![case], Vec::new()).ok()?;
     let file = |name: &str| text(&files[&PathBuf::from(name)]);
     Some((file(index::MARKDOWN), file(index::HTML)))

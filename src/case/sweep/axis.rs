@@ -23,7 +23,7 @@ pub struct SweepAxis {
 names! { name:
     /// How values are spread between the ends of an axis.
     #[derive(schemars::JsonSchema)]
-    pub(super) enum Scale {
+    pub(super) enum Spacing {
         /// Evenly.
         Linear = "linear",
         /// Each so many times the one before.
@@ -45,7 +45,7 @@ pub(super) struct AxisTable {
     #[schemars(range(min = 2, max = 1_000_000), extend("x-symbol" = "n"), example = 100)]
     count: Option<u64>,
     /// How they are spread: evenly unless given.
-    scale: Option<Scale>,
+    scale: Option<Spacing>,
     /// The values themselves, ascending, in place of ends and count.
     #[schemars(with = "Option<Vec<Value>>", length(min = 1), extend("x-ascending" = true))]
     values: Option<Vec<f64>>,
@@ -91,7 +91,7 @@ pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> 
         return Some(SweepAxis { parameter, values, logarithmic: false });
     }
     let (from, to, count) = (read.from?, read.to?, read.count?);
-    let logarithmic = read.scale == Some(Scale::Logarithmic);
+    let logarithmic = read.scale == Some(Spacing::Logarithmic);
     if from >= to {
         let help = "write the smaller end first";
         let message = format!("`from` of [sweep.{name}] is not below its `to`");

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::super::output::word;
 use miette::Result;
-use vinesink::diff::{CaseFile, Document, Remedy, Reports};
+use vinesink::diff::{CurrentCase, Document, Remedy, Reports};
 use vinesink::digest::sha256;
 use vinesink::store::{self, Reach, StoredReport};
 
@@ -13,7 +13,7 @@ use vinesink::store::{self, Reach, StoredReport};
 const ABOVE: usize = 4;
 
 /// One of the two that are compared.
-pub struct Side {
+pub struct ComparedSide {
     pub reports: Reports,
     /// Where they were looked for, for messages.
     pub place: String,
@@ -25,7 +25,7 @@ pub struct Side {
     revision: Option<(String, String)>,
 }
 
-impl Side {
+impl ComparedSide {
     /// Reads the reports of a folder or file, or of `folder` at a revision.
     pub fn read(argument: &str, folder: &str, reach: Reach) -> Result<Self> {
         let path = Path::new(argument);
@@ -85,7 +85,7 @@ impl Side {
                 let place = path.display().to_string();
                 let before = self.revision.as_ref().map_or("", |(_, before)| before);
                 let place = format!("{before}{place}");
-                report.case = Some(CaseFile { place, sha256: sha256(&text) });
+                report.case = Some(CurrentCase { place, sha256: sha256(&text) });
                 report.remedy = remedy(&path, &self.folder.join(&name), &self.revision);
             }
         }

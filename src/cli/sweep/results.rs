@@ -20,7 +20,7 @@ use super::{Sweep, shown};
 
 /// What is written besides the results.
 #[derive(Debug, Args)]
-pub struct Wanted {
+pub struct ResultFiles {
     /// Also write sweep.csv, with the units in its first line
     #[arg(long)]
     csv: bool,
@@ -31,7 +31,7 @@ pub struct Wanted {
 
 impl Sweep {
     /// Puts all chunks together, one at a time, and writes what else is wanted.
-    pub(super) fn merge(&self, wanted: &Wanted) -> Result<bool> {
+    pub(super) fn merge(&self, wanted: &ResultFiles) -> Result<bool> {
         if let [first, ..] = self.missing()?.as_slice() {
             return Err(miette!(
                 help = "`vinesink sweep run CASE` works out what is missing",

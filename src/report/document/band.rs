@@ -41,7 +41,7 @@ pub fn inactive(
 }
 
 /// What a tuned mass damper is held against along a band.
-pub(in crate::report) struct Absorber<'a> {
+pub(in crate::report) struct AbsorberAlong<'a> {
     pub over: BandOver,
     /// The absorber's worst motion, where anything was simulated.
     pub worst: Option<&'a Worst>,
@@ -51,7 +51,11 @@ pub(in crate::report) struct Absorber<'a> {
 
 /// A tuned mass damper of the absorber's mass: at a single excitation, or along a band, where both devices are
 /// also held against a structure whose frequency is off.
-pub(in crate::report) fn damper(scale: &Scale, rivals: &Rivals, along: Option<&Absorber>) -> Value {
+pub(in crate::report) fn damper(
+    scale: &Scale,
+    rivals: &Rivals,
+    along: Option<&AbsorberAlong>,
+) -> Value {
     let length = |kind, value| scale.units.quantity(kind, value, ClosedForm);
     let Rivals { damper, damped, detuned, .. } = rivals;
     let absorber = |k: usize| along.and_then(|one| one.detuned.get(k)?.as_ref());
@@ -127,7 +131,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
     let resting =
         resting.and_then(|(at, one)| inactive(scale, one, Some(place(at)), survey.count_rest));
     let (worst_motion, detuned) = (worst_motion.as_ref(), survey.detuned.as_slice());
-    let absorber = Absorber { over: band.over, worst: worst_motion, detuned };
+    let absorber = AbsorberAlong { over: band.over, worst: worst_motion, detuned };
     let bare_peak = scale.units.quantity(&of::BARE_PEAK, bare, ClosedForm);
     let (gap_at, gap) = survey.smallest_gap();
     let gap = Quantity::new(&of::GAP, gap, ExactOrbit).with_error(ROOT_OF_ROUNDING * gap);

@@ -21,7 +21,7 @@ const SPOILT: f64 = 0.05;
 /// What the table comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-enum Outcome {
+enum DeviationsOutcome {
     /// The first deviation raises the peak by more than a reader would pass over.
     First,
     /// None does, but one lowers it by as much.
@@ -38,13 +38,13 @@ pub fn deviations(scale: &Scale, case: &Case, found: &Deviations) -> Value {
     let largest = changes().fold(0.0, f64::max);
     let smallest = changes().fold(0.0, f64::min);
     let outcome = match () {
-        () if largest > SPOILT => Outcome::First,
-        () if changes().next().is_none() => Outcome::Scatter,
-        () if smallest < -SPOILT => Outcome::NoneRaises,
-        () => Outcome::NoneChanges,
+        () if largest > SPOILT => DeviationsOutcome::First,
+        () if changes().next().is_none() => DeviationsOutcome::Scatter,
+        () if smallest < -SPOILT => DeviationsOutcome::NoneRaises,
+        () => DeviationsOutcome::NoneChanges,
     };
     let most = match outcome {
-        Outcome::NoneChanges => largest.max(-smallest),
+        DeviationsOutcome::NoneChanges => largest.max(-smallest),
         _ => largest,
     };
     json!({

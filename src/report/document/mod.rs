@@ -27,7 +27,7 @@ use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
 use crate::system::Parameter;
 
-pub(super) use band::{Absorber, damper, outside};
+pub(super) use band::{AbsorberAlong, damper, outside};
 pub use notes::theory_limits;
 pub use scale::{Scale, cavity};
 pub use verdict::{Tone, Word};

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::place::Place;
+use super::place::FilePlace;
 use crate::case::Case;
 use crate::method::Method;
 use crate::quantity::Quantity;
@@ -38,7 +38,7 @@ pub fn notes(case: &Case, study: &CaseStudy) -> Vec<Value> {
         note["kind"] = json!(kind);
         note
     };
-    let warnings = case.warnings().iter().map(|one| noted("warning", json!(Place::from(one))));
+    let warnings = case.warnings().iter().map(|one| noted("warning", json!(FilePlace::from(one))));
     let claims = study.claims.iter().enumerate();
     let refuted = claims
         .filter(|(_, claim)| claim.verdict == Verdict::Refuted)

@@ -7,7 +7,7 @@ use crate::case::Problem;
 
 /// A place at which a case file is wrong, or probably is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Place {
+pub struct FilePlace {
     /// The line, from 1.
     pub line: usize,
     /// The column in characters, from 1.
@@ -16,7 +16,7 @@ pub struct Place {
     pub message: String,
 }
 
-impl From<&Problem> for Place {
+impl From<&Problem> for FilePlace {
     fn from(problem: &Problem) -> Self {
         let Problem { line, column, message, expected, help, severity, .. } = problem;
         let more = match severity {

@@ -29,7 +29,7 @@ const BRACKETS: f64 = 2.0;
 /// Where theory and orbits place a system, without margins.
 pub fn theory(scale: &Scale, analysis: &Analysis, exact: &FullSystem) -> Value {
     let errors = &asymptotic_errors(analysis, exact);
-    let facts = Facts { scale, analysis, exact, errors };
+    let facts = TheoryFacts { scale, analysis, exact, errors };
     let stretches = exact.stable_stretches();
     let mut told = json!({
         "area": analysis.zone.area,
@@ -58,7 +58,7 @@ pub fn theory(scale: &Scale, analysis: &Analysis, exact: &FullSystem) -> Value {
 /// The same of a study, with margins.
 pub fn with_margins(scale: &Scale, study: &CaseStudy) -> Value {
     let (analysis, exact) = (&study.analysis, &study.exact);
-    let facts = Facts { scale, analysis, exact, errors: &study.asymptotic_errors };
+    let facts = TheoryFacts { scale, analysis, exact, errors: &study.asymptotic_errors };
     // Of the amplitude of the stable fixed point.
     let mut told = theory(scale, analysis, exact);
     let points = told.get("cavity").unwrap_or(&told)["fixed_points"].as_array();
@@ -85,14 +85,14 @@ pub fn with_margins(scale: &Scale, study: &CaseStudy) -> Value {
     told
 }
 
-struct Facts<'a> {
+struct TheoryFacts<'a> {
     scale: &'a Scale,
     analysis: &'a Analysis,
     exact: &'a FullSystem,
     errors: &'a [AsymptoticError],
 }
 
-impl Facts<'_> {
+impl TheoryFacts<'_> {
     /// A fixed point of the slow flow.
     fn point(&self, point: &FixedPoint) -> Value {
         let number = |kind, value| Quantity::new(kind, value, Theory);

@@ -11,7 +11,7 @@ use crate::regimes::Regime;
 use crate::report::figure::{
     Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
-use crate::study::plots::dissipation::{Known, Look, Looks};
+use crate::study::plots::dissipation::{AverageSource, Look, Looks};
 use crate::study::plots::{Dissipation, Line};
 
 use super::Scene;
@@ -95,10 +95,10 @@ fn layers(looks: &Looks, chart: &Chart, named: bool) -> Vec<Layer> {
         let dash = if look.stable { Dash::Solid } else { Dash::Dashed };
         let width = match look.known {
             _ if !look.stable => 1.0,
-            Known::ClosedForm => 3.4,
+            AverageSource::ClosedForm => 3.4,
             _ => 1.8,
         };
-        if look.known != Known::Scattered {
+        if look.known != AverageSource::Scattered {
             return chart.curve(Style::new(color, width, dash), line);
         }
         let points = line.iter().filter(|at| at[1].is_finite()).map(|at| chart.at(*at));

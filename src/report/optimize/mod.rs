@@ -6,7 +6,7 @@ mod figure;
 use serde_json::json;
 
 use super::document::criteria::criterion;
-use super::document::{Absorber, Scale, damper};
+use super::document::{AbsorberAlong, Scale, damper};
 use super::render::{Files, RenderError, page_files};
 use super::template::{render, worded};
 use crate::case::{self, BandOver, Case, Objective};
@@ -14,7 +14,7 @@ use crate::criteria::method;
 use crate::method::Method;
 use crate::motions::{Motion, Value};
 use crate::optimize::sensitivity::Sensitivity;
-use crate::optimize::{Bounds, Design, Optimization, Task};
+use crate::optimize::{Bounds, JudgedDesign, Optimization, Task};
 use crate::quantity::{Kind, Quantity, catalogue};
 use crate::system::Parameter;
 
@@ -30,7 +30,7 @@ const SHOWN: usize = 9;
 /// What an optimisation found: `vinesink/optimization@3`. Lengths in metres or the case's own unit.
 pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
     let (best, task) = (&found.best, &found.task);
-    let row = |design: &Design| absorber(case, task, design);
+    let row = |design: &JudgedDesign| absorber(case, task, design);
     let robust = found.robust.as_ref().map(|one| {
         let [of_robust, of_best] = one.under;
         let mut robust = row(&one.design);
@@ -41,7 +41,7 @@ pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
         robust["optimum_worst_corner"] = json!(of_best.worst_corner);
         robust
     });
-    let along = Absorber { over: over(task), worst: best.worst.as_ref(), detuned: &[] };
+    let along = AbsorberAlong { over: over(task), worst: best.worst.as_ref(), detuned: &[] };
     let mut page = json!({
         "format": "vinesink/optimization@3",
         "title": case.title,
@@ -136,7 +136,7 @@ fn bounds(task: &Task) -> Vec<serde_json::Value> {
 }
 
 /// An absorber with its objective, as a quantity is written, and the criteria that it misses of all.
-fn absorber(case: &Case, task: &Task, design: &Design) -> serde_json::Value {
+fn absorber(case: &Case, task: &Task, design: &JudgedDesign) -> serde_json::Value {
     let missed = design.criteria.iter().filter(|one| one.holds != Some(true));
     let mut row = json!(objective(task, design, [design.value, design.error]));
     for (key, value) in built(&design.choice).as_object().into_iter().flatten() {
@@ -158,7 +158,7 @@ fn kind(objective: Objective) -> &'static Kind {
     }
 }
 
-fn objective(task: &Task, design: &Design, [value, error]: [f64; 2]) -> Quantity {
+fn objective(task: &Task, design: &JudgedDesign, [value, error]: [f64; 2]) -> Quantity {
     let worst = design.worst.as_ref().map_or(Method::Simulation, |worst| method(&worst.motion));
     let method = match task.objective {
         Objective::Z3Share => Method::Theory,
@@ -195,13 +195,13 @@ pub fn written(
     case: &Case,
     found: &Optimization,
     file: &str,
-    written: Option<&Design>,
+    written: Option<&JudgedDesign>,
     robust: bool,
 ) -> Result<String, RenderError> {
     let context = json!({
         "file": file,
         "choice": written.map(|design| built(&design.choice)),
-        "feasible": written.is_some_and(Design::is_feasible),
+        "feasible": written.is_some_and(JudgedDesign::is_feasible),
         "none_meets": !found.best.is_feasible(),
         "robust": robust,
         "reached": found.reached(),
@@ -267,7 +267,7 @@ fn on_bounds(found: &Optimization) -> Vec<serde_json::Value> {
 
 /// What the survey finds with the best absorber at some of its places.
 fn places(over: BandOver, found: &Optimization) -> Vec<serde_json::Value> {
-    let Design { survey, written, worst, .. } = &found.best;
+    let JudgedDesign { survey, written, worst, .. } = &found.best;
     let motions = &survey.motions;
     let places = if motions.simulated() { motions.places() } else { &[] };
     let scale = Scale::of(&written.case);

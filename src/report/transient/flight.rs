@@ -9,10 +9,10 @@ use crate::quantity::catalogue as of;
 use crate::report::document::Scale;
 use crate::report::render::RenderError;
 use crate::report::template::render;
-use crate::transient::Flight;
+use crate::transient::OneFlight;
 
 /// What was found: `vinesink/flight@1`.
-pub fn flight(case: &Case, flight: &Flight) -> Value {
+pub fn flight(case: &Case, flight: &OneFlight) -> Value {
     let scale = Scale::of(case);
     let simulated = Method::Simulation;
     let start = &flight.start;

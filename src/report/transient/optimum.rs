@@ -10,10 +10,10 @@ use crate::quantity::catalogue as of;
 use crate::report::document::NOTICEABLE;
 use crate::report::render::RenderError;
 use crate::report::template::render;
-use crate::transient::{Best, Measured};
+use crate::transient::{BestClearance, WithError};
 
 /// What was found: `vinesink/optimization@3`, in SI. `written` is the document of the case with the best clearance.
-pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
+pub fn optimum(case: &Case, best: &BestClearance, written: &Value) -> Value {
     let records = written["records"].as_u64().unwrap_or(1);
     let (objective, kind, [bare, damper]) = match case.design.scene() {
         Scene::Release => ("decay-time", &of::DECAY_TIME, ["bare_decay_time", "damper_decay_time"]),
@@ -21,8 +21,9 @@ pub fn optimum(case: &Case, best: &Best, written: &Value) -> Value {
         _ => ("peak-displacement", &of::PEAK, ["bare_peak", "damper_peak"]),
     };
     let clearance = |length| Quantity::new(&of::CLEARANCE, length, Method::Given);
-    let simulated =
-        |[value, error]: Measured| Quantity::new(kind, value, Method::Simulation).with_error(error);
+    let simulated = |[value, error]: WithError| {
+        Quantity::new(kind, value, Method::Simulation).with_error(error)
+    };
     let alone = &written["quantities"][bare];
     // Of one release, sweep or set of records what every command says of the written case.
     let all = match case.optimize.releases {

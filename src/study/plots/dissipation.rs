@@ -14,14 +14,14 @@ pub struct Look {
     /// The place of the regime in [`Regime::ALL`].
     regime: usize,
     /// How it is known.
-    pub known: Known,
+    pub known: AverageSource,
     /// Whether the slow flow returns to it.
     pub stable: bool,
 }
 
 /// How an average is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Known {
+pub enum AverageSource {
     /// In closed form.
     ClosedForm,
     /// Of a motion that repeats.
@@ -90,9 +90,9 @@ type Place<'a> = &'a dyn Fn(&Point) -> Option<([f64; 2], bool)>;
 /// What is drawn of a branch.
 fn draw(branch: &Branch, place: Place, drawn: &mut Looks) {
     let known = |point: &Point| match (branch.closed_form, point.repeats_after) {
-        (true, _) => Known::ClosedForm,
-        (false, Some(_)) => Known::Repeating,
-        (false, None) => Known::Scattered,
+        (true, _) => AverageSource::ClosedForm,
+        (false, Some(_)) => AverageSource::Repeating,
+        (false, None) => AverageSource::Scattered,
     };
     let mut before: Option<(Look, [f64; 2])> = None;
     for point in &branch.points {
@@ -101,7 +101,7 @@ fn draw(branch: &Branch, place: Place, drawn: &mut Looks) {
         });
         if let Some((look, at)) = at {
             let line = drawn.entry(look).or_default();
-            match before.filter(|_| look.known != Known::Scattered) {
+            match before.filter(|_| look.known != AverageSource::Scattered) {
                 // A piece of which one end is unstable is drawn as the second.
                 Some((last, from)) if last.known == look.known => {
                     if last.stable != look.stable || line.last() != Some(&from) {
