@@ -17,7 +17,6 @@ use super::template;
 use crate::analysis::ManifoldPoint;
 use crate::answer::{self, Answer};
 use crate::case::Case;
-use crate::cavity::{CavityTheory, Forcing};
 use crate::method::Method::{ExactOrbit, Simulation, Theory};
 use crate::motions::{Measured, Motion, Motions};
 use crate::orbits::SymmetricOrbit;
@@ -134,13 +133,7 @@ impl Analysed<'_> {
             "exact": exact,
         });
         if !system.cavity().is_ideal() {
-            let theory = CavityTheory::of(system);
-            document["cavity"] = json!({
-                "theory": theory,
-                "fixed_points": theory.fixed_points(&Forcing::of(system)),
-                "fold": theory.fold(),
-                "symmetry_breaking": theory.symmetry_breaking(),
-            });
+            document["cavity"] = json!(analysis.cavity);
             for (key, value) in json!(system.cavity()).as_object().into_iter().flatten() {
                 document["reduced"][key] = value.clone();
             }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::{Averages, StudyError};
 use crate::analysis::motion::root_mean_square;
 use crate::analysis::{FixedPoint, Manifold, fixed_points};
-use crate::cavity::{CavityTheory, Forcing};
+use crate::cavity::CavityAnalysis;
 use crate::dissipation::SteadyState;
 use crate::motions::{Facts, Motion};
 use crate::numerics::scatter::twice_standard_error;
@@ -131,8 +131,8 @@ pub const IMPACT_LIMIT: u64 = 10_000_000;
 /// # Errors
 /// [`StudyError::Analysis`] where the theory cannot be evaluated.
 pub fn closed_form(system: &System) -> Result<Estimate, StudyError> {
-    if !system.cavity().is_ideal() {
-        return Ok(closed_form_of_cavity(system));
+    if let Some(cavity) = CavityAnalysis::of(system) {
+        return Ok(closed_form_of_cavity(system, &cavity));
     }
     let manifold = Manifold::of(system.restitution());
     let points = fixed_points(system, &manifold)?;
@@ -148,15 +148,13 @@ pub fn closed_form(system: &System) -> Result<Estimate, StudyError> {
 }
 
 /// The same by the theory of a cavity that is not ideal: the first harmonic of `v - eps y`.
-fn closed_form_of_cavity(system: &System) -> Estimate {
-    let theory = CavityTheory::of(system);
-    let points = theory.fixed_points(&Forcing::of(system));
-    let Some(point) = points.iter().rfind(|point| point.stable) else {
+fn closed_form_of_cavity(system: &System, cavity: &CavityAnalysis) -> Estimate {
+    let Some(point) = cavity.stable_point() else {
         return Estimate::none(WhyNot::NoStablePoint);
     };
     let (eps, motion) = (system.mass_ratio(), &point.motion);
     let sine = motion.oscillator_amplitude + eps * motion.reactance;
-    let regime = match theory.is_symmetric() && motion.deviation == 0.0 {
+    let regime = match cavity.theory.is_symmetric() && motion.deviation == 0.0 {
         true => Regime::TwoSymmetric,
         false => Regime::TwoAsymmetric,
     };

@@ -7,7 +7,7 @@ use super::motions::ROUNDING;
 use super::tolerance::{SAYS_NOTHING, asymptotic_error};
 use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::{read_off, wrapped};
-use crate::cavity::{CavityTheory, FixedPoint, Forcing};
+use crate::cavity::{CavityAnalysis, CavityTheory, FixedPoint, Forcing};
 use crate::motions::{Measured, Motion, RestKind, SettlingTime, Window};
 use crate::orbits::{FullSystem, Measures, Orbit};
 use crate::regimes::Regime;
@@ -56,11 +56,10 @@ impl SharedNumbers {
 
 /// For each fixed point that is a motion: stable or not, and if an exact orbit is near it: amplitudes, phase, and the
 /// phase between its impacts.
-pub fn fixed_points(exact: &FullSystem) -> Vec<Claim> {
+pub fn fixed_points(cavity: &CavityAnalysis, exact: &FullSystem) -> Vec<Claim> {
     let system = &exact.system;
     let Some(found) = &exact.two_impact else { return Vec::new() };
-    let (theory, forcing) = (CavityTheory::of(system), Forcing::of(system));
-    let points = theory.fixed_points(&forcing);
+    let (theory, points, forcing) = (cavity.theory, &cavity.fixed_points, Forcing::of(system));
     let numbers: Vec<SharedNumbers> = points.iter().map(SharedNumbers::of_point).collect();
     // One whose flights cross a wall or slide back is no motion.
     let orbits = found.orbits.iter().filter(|orbit| orbit.admissibility.admissible);

@@ -27,8 +27,8 @@ use crate::simulation::StartError;
 
 /// Confronts the theory with the exact orbits, and nothing with simulation: the theory of the case's own cavity.
 pub fn confront_theory(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
-    if !exact.system.cavity().is_ideal() {
-        return cavity::fixed_points(exact);
+    if let Some(cavity) = &analysis.cavity {
+        return cavity::fixed_points(cavity, exact);
     }
     let mut claims = motions::fixed_points(analysis, exact);
     claims.extend(boundaries::positions(analysis, exact));

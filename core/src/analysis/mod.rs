@@ -17,6 +17,7 @@ pub mod slow_motion;
 
 use serde::Serialize;
 
+use crate::cavity::CavityAnalysis;
 use crate::system::System;
 
 pub use crate::cavity::{AsymmetricLimits, ManifoldPoint};
@@ -78,6 +79,9 @@ pub struct Analysis {
     pub boundaries: Boundaries,
     /// Where the system lies between them.
     pub zone: Zone,
+    /// The theory of its cavity, where that is not ideal: all above is of an ideal one.
+    #[serde(skip)]
+    pub cavity: Option<CavityAnalysis>,
 }
 
 impl Analysis {
@@ -91,7 +95,8 @@ impl Analysis {
         let boundaries = Boundaries::of(system, &manifold);
         let curve = FixedPointCurve::of(system, &manifold);
         let zone = curve.zone(system.forcing_per_clearance());
-        Ok(Self { system: *system, manifold, fixed_points, boundaries, zone })
+        let cavity = CavityAnalysis::of(system);
+        Ok(Self { system: *system, manifold, fixed_points, boundaries, zone, cavity })
     }
 
     /// The fixed points that are stable motions.

@@ -11,6 +11,7 @@
 //! only while the relative velocity keeps its sign between impacts, which [`Motion::admissible`] tells. A friction
 //! that goes to 0 therefore ends at admissible motions of fewer kinds than none does.
 
+mod analysis;
 mod fixed_point;
 mod limits;
 mod linear_map;
@@ -25,6 +26,7 @@ use crate::equations::cavity::{
 use crate::equations::stated::{CURVATURE, RESTITUTION_RATIO};
 use crate::system::{Cavity, InvalidParameter, System, check};
 
+pub use analysis::CavityAnalysis;
 pub use fixed_point::{FixedPoint, Forcing};
 pub use limits::AsymmetricLimits;
 pub use motion::Motion;

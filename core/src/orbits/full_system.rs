@@ -10,7 +10,7 @@ use super::limits::{Limit, StableStretch};
 use super::measures::Peaks;
 use super::orbit::Orbit;
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
-use super::two_impact::{TwoImpactOrbits, two_impact_orbits};
+use super::two_impact::{SteadyOrbit, TwoImpactOrbits, two_impact_orbits};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::scan::largest;
 use crate::system::{Parameter, System};
@@ -75,6 +75,13 @@ impl FullSystem {
             Some(found) => found.orbits.iter().collect(),
             None => self.orbits.iter().map(|one| &one.orbit).collect(),
         }
+    }
+
+    /// The same with peaks and impact speeds.
+    pub fn two_impact_measured(&self) -> Vec<SteadyOrbit> {
+        let map = ImpactMap::of(&self.system).ok();
+        let each = self.two_impact_orbits().into_iter().zip(map.iter().cycle());
+        each.map(|(orbit, map)| SteadyOrbit::of(map, orbit.clone())).collect()
     }
 
     /// The orbit with two impacts per period that attracts: the symmetric one, or what a cavity that is not ideal has

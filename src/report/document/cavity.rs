@@ -7,36 +7,29 @@ use serde_json::{Value, json};
 use super::scale::Scale;
 use super::theory::rounded;
 use crate::analysis::ManifoldPoint;
-use crate::cavity::{CavityTheory, FixedPoint, Forcing};
+use crate::cavity::{CavityAnalysis, FixedPoint};
 use crate::method::Method::{ExactOrbit, Theory};
-use crate::orbits::{FullSystem, ImpactMap, Orbit, SteadyOrbit};
+use crate::orbits::{FullSystem, SteadyOrbit};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 
 /// Fixed points, fold and symmetry breaking by the theory of the cavity, and exact orbits; none of an ideal cavity.
-pub fn cavity(scale: &Scale, exact: &FullSystem) -> Option<Value> {
-    let system = &exact.system;
-    if system.cavity().is_ideal() {
-        return None;
-    }
-    let theory = CavityTheory::of(system);
-    let points = theory.fixed_points(&Forcing::of(system));
+pub fn cavity(scale: &Scale, theory: Option<&CavityAnalysis>, exact: &FullSystem) -> Option<Value> {
+    let theory = theory?;
     let place = |point: ManifoldPoint| {
         [
             scale.units.quantity(&of::ABSORBER_AMPLITUDE, point.absorber_amplitude, Theory),
             scale.units.quantity(&of::OSCILLATOR_AMPLITUDE, point.oscillator_amplitude, Theory),
         ]
     };
-    let orbits = exact.two_impact_orbits();
-    let map = ImpactMap::of(system).ok();
-    let each = orbits.iter().zip(map.iter().cycle());
+    let orbits = exact.two_impact_measured();
     Some(json!({
-        "fixed_points": points.iter().map(|one| point(scale, one)).collect::<Vec<_>>(),
+        "fixed_points": theory.fixed_points.iter().map(|one| point(scale, one)).collect::<Vec<_>>(),
         // B and C; none where the cavity is not symmetric.
-        "fold": theory.fold().map(place),
-        "symmetry_breaking": theory.symmetry_breaking().map(place),
-        "orbits": each.map(|(one, map)| orbit(scale, map, one)).collect::<Vec<_>>(),
-        "attracting": orbits.iter().position(|one| one.attracts()),
+        "fold": theory.fold.map(place),
+        "symmetry_breaking": theory.symmetry_breaking.map(place),
+        "orbits": orbits.iter().map(|one| orbit(scale, one)).collect::<Vec<_>>(),
+        "attracting": orbits.iter().position(|one| one.orbit.attracts()),
         // Places at which the search for orbits cannot tell.
         "undecided": exact.two_impact.as_ref().map_or(0, |found| found.undecided.len()),
     }))
@@ -59,16 +52,16 @@ fn point(scale: &Scale, point: &FixedPoint) -> Value {
     })
 }
 
-fn orbit(scale: &Scale, map: &ImpactMap, orbit: &Orbit) -> Value {
+fn orbit(scale: &Scale, found: &SteadyOrbit) -> Value {
     let number = |kind, value| Quantity::new(kind, value, ExactOrbit);
-    let SteadyOrbit { orbit, peaks, impact_speed, .. } = SteadyOrbit::of(map, orbit.clone());
+    let SteadyOrbit { orbit, peaks, impact_speed, .. } = found;
     let durations = orbit.cycle.unfolded().durations;
     let period: f64 = durations.iter().sum();
     json!({
         "flight_share": number(&of::FLIGHT_SHARE, durations[0] / period),
         "peak": scale.units.quantity(&of::PEAK, peaks.displacement, ExactOrbit),
         // The larger of both.
-        "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, impact_speed, ExactOrbit),
+        "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, *impact_speed, ExactOrbit),
         // Over a whole period.
         "multiplier": rounded(number(&of::SPECTRAL_RADIUS, orbit.radius_per_period())),
         "leading": orbit.multipliers.leading(),

@@ -49,7 +49,7 @@ pub fn theory(scale: &Scale, analysis: &Analysis, exact: &FullSystem) -> Value {
         "amplitude_error": null,
     });
     // Areas, fixed points and boundaries above are then those of an ideal cavity with the mean restitution.
-    if let Some(cavity) = cavity(scale, exact) {
+    if let Some(cavity) = cavity(scale, analysis.cavity.as_ref(), exact) {
         told["cavity"] = cavity;
     }
     told

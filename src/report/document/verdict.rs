@@ -6,7 +6,6 @@ use serde_json::{Value, json};
 use super::NOTICEABLE;
 use super::criteria::badge;
 use crate::analysis::Analysis;
-use crate::cavity::{CavityTheory, Forcing};
 use crate::criteria::Judged;
 use crate::motions::{Motion, RestKind};
 use crate::regimes::Regime;
@@ -157,12 +156,10 @@ fn headline(study: &CaseStudy) -> Headline {
 
 /// Amplitude of the last stable fixed point of the theory of the case's cavity.
 fn stable_amplitude(analysis: &Analysis) -> Option<f64> {
-    let system = &analysis.system;
-    if system.cavity().is_ideal() {
-        return analysis.stable_points().last().map(|point| point.oscillator_amplitude);
+    match &analysis.cavity {
+        None => analysis.stable_points().last().map(|point| point.oscillator_amplitude),
+        Some(cavity) => cavity.stable_point().map(|point| point.motion.oscillator_amplitude),
     }
-    let points = CavityTheory::of(system).fixed_points(&Forcing::of(system));
-    points.iter().rfind(|point| point.stable).map(|point| point.motion.oscillator_amplitude)
 }
 
 /// Along the band, by the worst motion with its error.
