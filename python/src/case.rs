@@ -15,6 +15,7 @@ use vinesink::case_input::{self, CaseInputError};
 use vinesink::excitation::Scene;
 use vinesink::motions::Effort;
 use vinesink::report::console::Analysed;
+use vinesink::report::document::Content;
 use vinesink::report::transient as page;
 use vinesink::store::Reach;
 use vinesink::study::fidelity::LayerPlan;
@@ -140,7 +141,7 @@ impl Case {
         if !self.steady() {
             let text = work::done(py, progress, |work| {
                 let answer = Answer::of(&self.inner, Asked::Motions, None, work);
-                json(&self.unsteady(&answer.map_err(refused)?))
+                json(&self.unsteady(&answer.map_err(refused)?, Content::Simulation))
             })?;
             return Ok((text, PyDict::new(py), [f64::NAN; 4]));
         }
@@ -233,16 +234,16 @@ impl Case {
     }
 
     /// What becomes of a structure that is not driven steadily; none of another.
-    fn unsteady(&self, answer: &Answer) -> Option<serde_json::Value> {
+    fn unsteady(&self, answer: &Answer, content: Content) -> Option<serde_json::Value> {
         let study = answer.transient.as_ref()?;
-        Some(page::document(&self.stem, &self.inner, study, &[]))
+        Some(page::document(&self.stem, &self.inner, study, &[], content))
     }
 
     fn analysed(&self, work: &Work) -> PyResult<serde_json::Value> {
         let case = &self.inner;
         let plan = LayerPlan::of_case(case, None).map_err(refused)?;
         let answer = Answer::of(case, Asked::Analysis, plan.as_ref(), work).map_err(refused)?;
-        if let Some(document) = self.unsteady(&answer) {
+        if let Some(document) = self.unsteady(&answer, Content::Analysis) {
             return Ok(document);
         }
         let none = || refused("the case was not analysed");

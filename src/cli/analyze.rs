@@ -5,6 +5,7 @@ use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::answer::{Answer, Asked};
 use vinesink::method::Method;
 use vinesink::report::console::Analysed;
+use vinesink::report::document::Content;
 use vinesink::study::fidelity::LayerPlan;
 
 use super::budget::{self, Work};
@@ -48,7 +49,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         .into_diagnostic()
         .wrap_err_with(|| format!("{} cannot be analysed", path.display()))?;
     drop(progress);
-    if arguments.one.print_transient(&case, &answer)? {
+    if arguments.one.print_transient(&case, &answer, Content::Analysis)? {
         return Ok(true);
     }
     let none = || miette!("{} was not analysed", path.display());

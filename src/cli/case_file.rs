@@ -12,6 +12,7 @@ use vinesink::case::Case;
 use vinesink::case_input::{self, CaseInputError};
 use vinesink::excitation::Scene;
 use vinesink::method::Method;
+use vinesink::report::document::Content;
 use vinesink::report::transient;
 use vinesink::store::Reach;
 
@@ -77,9 +78,9 @@ pub fn without(case: &Case, path: &Path, given: &[(&str, bool)]) -> Result<()> {
 
 impl OneCase {
     /// Prints what became of a structure that is not driven steadily; whether it is one.
-    pub fn print_transient(&self, case: &Case, answer: &Answer) -> Result<bool> {
+    pub fn print_transient(&self, case: &Case, answer: &Answer, content: Content) -> Result<bool> {
         let Some(study) = &answer.transient else { return Ok(false) };
-        let document = transient::document(&name(&self.path)?, case, study, &[]);
+        let document = transient::document(&name(&self.path)?, case, study, &[], content);
         self.print(|| transient::text(case, study, &document), || &document)?;
         Ok(true)
     }

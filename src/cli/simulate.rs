@@ -11,6 +11,7 @@ use vinesink::case::Case;
 use vinesink::excitation::Scene;
 use vinesink::motions::{Effort, Measured};
 use vinesink::report::console::Simulated;
+use vinesink::report::document::Content;
 use vinesink::report::transient as page;
 use vinesink::store;
 use vinesink::system::State;
@@ -89,7 +90,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         None => {
             let answer = Answer::with(&case, Asked::Motions, None, effort, &Parallel);
             let answer = answer.into_diagnostic()?;
-            if arguments.one.print_transient(&case, &answer)? {
+            if arguments.one.print_transient(&case, &answer, Content::Simulation)? {
                 return Ok(true);
             }
             let main = answer.main(&case, &mut log).into_diagnostic()?;

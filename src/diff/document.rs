@@ -79,7 +79,7 @@ impl Document {
 
     /// Whether it is of the format before this one, which is not compared.
     pub fn has_old_format(&self) -> bool {
-        self.report["format"] != FORMAT
+        self.report["format"] == OLD_FORMAT
     }
 
     /// Its name and answer, null where it has none, with how many criteria it has and how many of them fail; the
@@ -103,7 +103,7 @@ impl Document {
         let sides = [
             (provenance("case_sha256"), case.map(|case| case.sha256.as_str())),
             (provenance("version"), Some(env!("CARGO_PKG_VERSION"))),
-            (self.report["format"].as_str(), Some(FORMAT)),
+            (self.report["format"].as_str().filter(|_| self.has_old_format()), Some(FORMAT)),
         ];
         let differing = REASONS.iter().zip(sides).filter_map(|(reason, (reported, current))| {
             let (reported, current) = reported.zip(current).filter(|(old, new)| old != new)?;

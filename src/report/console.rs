@@ -1,8 +1,8 @@
 //! What `analyze` and `simulate` print: templates over the same facts as a report, and the documents that other
 //! programs read.
 //!
-//! `vinesink/analysis@2` and `vinesink/simulation@2` have what scripts rely on under its own name, and beside it
-//! the quantities of `report.json`. Lengths named `_over_clearance`, and `B` and `C`, are over the clearance;
+//! Both documents have the format of `report.json` and say what was asked; they have what scripts rely on under its own
+//! name, and beside it the quantities of `report.json`. Lengths named `_over_clearance`, and `B` and `C`, are over the clearance;
 //! other lengths are in metres for a physical case and in the case's own unit for a reduced one. Energies are in
 //! joules, or per `m1 omega0^2` in the case's own unit of length squared. Angles are in radians.
 //!
@@ -11,7 +11,7 @@
 use serde_json::{Value, json};
 
 use super::document::place::FilePlace;
-use super::document::{Scale, motions, theory, theory_limits};
+use super::document::{Content, Scale, answer, motions, theory, theory_limits};
 use super::render::RenderError;
 use super::template;
 use crate::analysis::ManifoldPoint;
@@ -89,7 +89,7 @@ impl Analysed<'_> {
         template::render("analyze.txt", &scale.units, &page)
     }
 
-    /// For programs: `vinesink/analysis@2`. `theory` is that of `report.json`; `exact` is all that the exact
+    /// For programs. `theory` is that of `report.json`; `exact` is all that the exact
     /// layer found, over the clearance and with its evidence.
     pub fn document(&self) -> Value {
         let Self { case, theory: answer::Theory { analysis, exact }, .. } = self;
@@ -104,7 +104,6 @@ impl Analysed<'_> {
             })
         });
         let mut document = json!({
-            "format": "vinesink/analysis@2",
             "reduced": {
                 "mass_ratio": system.mass_ratio(),
                 "damping": system.damping(),
@@ -141,7 +140,7 @@ impl Analysed<'_> {
         if let Some(answers) = self.answers {
             document["answers"] = json!(answers);
         }
-        warned(document, case)
+        warned(answer(case, Content::Analysis, document), case)
     }
 }
 
@@ -200,7 +199,7 @@ impl Simulated<'_> {
         template::render("simulate.txt", &self.case.units(), &page)
     }
 
-    /// For programs: `vinesink/simulation@2`. `motion` is that of `report.json`, and `motions` the list of all;
+    /// For programs. `motion` is that of `report.json`, and `motions` the list of all;
     /// `classification`, `energetics` and `orbit` are the evidence: per m1, lengths over the clearance, fast time.
     pub fn document(&self) -> Value {
         let scale = Scale::of(self.case);
@@ -208,7 +207,6 @@ impl Simulated<'_> {
         let (measured, told) = (self.measured, self.motion());
         let balance = &measured.energy;
         let mut document = json!({
-            "format": "vinesink/simulation@2",
             "periods": measured.periods,
             "impacts": measured.impact_count,
             "impacts_per_period": told["impacts_per_period"]["value"],
@@ -235,7 +233,7 @@ impl Simulated<'_> {
         if let Some(orbit) = self.found.and_then(Motions::main).and_then(Motion::orbit) {
             document["orbit"] = json!(orbit);
         }
-        warned(document, self.case)
+        warned(answer(self.case, Content::Simulation, document), self.case)
     }
 }
 

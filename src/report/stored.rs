@@ -56,6 +56,9 @@ pub(crate) fn quantities_are_known(place: &str, part: &Value) -> Result<(), Read
     }
 }
 
+/// The format of before, whose fields are the same.
+const EARLIER: &str = "vinesink/report@2";
+
 /// The document in the text of a `report.json`; `place` says where it came from.
 ///
 /// # Errors
@@ -64,7 +67,7 @@ pub fn read(place: &str, text: &str) -> Result<Value, ReadError> {
     let report: Value = serde_json::from_str(text)
         .map_err(|cause| error(format!("{place} is not JSON: {cause}"), CONFLICT))?;
     match report["format"].as_str() {
-        Some(FORMAT) => Ok(report),
+        Some(FORMAT | EARLIER) => Ok(report),
         Some(found) => {
             let message =
                 format!("{place} has the format `{found}`, and this version reads `{FORMAT}`");
@@ -84,10 +87,11 @@ mod tests {
     #[test]
     fn other_documents_are_refused() {
         let read = |text: &str| read("x/report.json", text);
+        assert!(read(r#"{"format": "vinesink/answer@1"}"#).is_ok());
         assert!(read(r#"{"format": "vinesink/report@2"}"#).is_ok());
         let newer = read(r#"{"format": "vinesink/report@1"}"#).expect_err("another version");
         let newer = newer.to_string();
-        assert!(newer.contains("`vinesink/report@2`") && newer.contains("`vinesink/report@1`"));
+        assert!(newer.contains("`vinesink/answer@1`") && newer.contains("`vinesink/report@1`"));
         for text in ["[]", "{}", "3", "\"x\"", "null", "{\"format\": 1}", "{\"title\": \"T\"}"] {
             let error = read(text).expect_err("no report");
             let said = error.to_string();

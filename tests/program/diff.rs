@@ -521,6 +521,18 @@ fn what_cannot_be_compared_says_why() {
     diff(path, &["old", "new"], 1);
 }
 
+/// The format of before has the same fields but what was asked.
+#[test]
+fn a_report_of_the_format_before_is_compared() {
+    let folder = two_trees(&[STEADY]);
+    edit_side(&folder, "old", STEADY, |report| {
+        report["format"] = json!("vinesink/report@2");
+        report.as_object_mut().expect("a report").remove("asked");
+    });
+    let printed = diff(folder.path(), &["old", "new"], 0);
+    assert!(printed.contains("No report changed") && !printed.contains("out of date"), "{printed}");
+}
+
 /// Reports of the format before have no errors to compare by: they are named, and what to do.
 #[test]
 fn a_report_of_the_old_format_is_out_of_date() {
@@ -539,7 +551,7 @@ fn a_report_of_the_old_format_is_out_of_date() {
     );
     for name in [STEADY, CHAOTIC] {
         let line = format!(
-            "- `old/{name}/report.json` has the old format `vinesink/report@1`, without errors to compare by; this version writes `vinesink/report@2`: run `vinesink report cases/{name}.toml --out old`.\n"
+            "- `old/{name}/report.json` has the old format `vinesink/report@1`, without errors to compare by; this version writes `vinesink/answer@1`: run `vinesink report cases/{name}.toml --out old`.\n"
         );
         assert!(printed.contains(&line), "{printed}");
     }

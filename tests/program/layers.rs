@@ -529,6 +529,20 @@ fn nobody_else_flies() {
     assert!(flies.is_match("let mut flight = Simulation::new(&system, start, 0.0)?;"));
 }
 
+/// A page tells what was found: what it solves itself no command has seen.
+#[test]
+fn pages_solve_nothing() {
+    let solves = Regex::new(
+        r"\b(?:Analysis|CavityAnalysis|CavityTheory|FullSystem|ImpactMap|SteadyOrbit|Survey|CaseStudy|(?:Decay|Sweep|Record)?Study)::(?:of|brief|over)\b|\b(?:steady_orbit|symmetric_orbits|two_impact_orbits)\(",
+    );
+    let solves = solves.expect("a pattern");
+    let pages = sources().into_iter().filter(|(path, _)| path.starts_with("report/"));
+    let solving: Vec<String> =
+        pages.filter(|(_, source)| solves.is_match(&code(source))).map(|(path, _)| path).collect();
+    assert_eq!(solving, [""; 0]);
+    assert!(solves.is_match("let theory = CavityTheory::of(system);"));
+}
+
 /// The judge sees the program's real imports: a pattern that matches nothing would forbid nothing.
 #[test]
 fn the_imports_of_the_program_are_seen() {

@@ -15,6 +15,7 @@ mod verdict;
 
 use std::collections::BTreeMap;
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::figure::Figure;
@@ -32,8 +33,42 @@ pub use notes::theory_limits;
 pub use scale::{Scale, cavity};
 pub use verdict::{Tone, Word};
 
-/// Name and version of the format of `report.json`.
-pub const FORMAT: &str = "vinesink/report@2";
+/// Name and version of the format of what is known of a case: `report.json`, and what `analyze` and `simulate` print.
+pub const FORMAT: &str = "vinesink/answer@1";
+
+/// What a document holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Content {
+    /// Everything.
+    Report,
+    /// Theory, exact orbits and long-term motions.
+    Analysis,
+    /// What simulation says.
+    Simulation,
+    /// One flight of a structure that is not driven steadily.
+    Flight,
+}
+
+/// A document of a case: what all have in common, and the fields of its own.
+pub fn answer(case: &Case, content: Content, fields: Value) -> Value {
+    let mut document = json!({
+        "format": FORMAT,
+        "asked": content,
+        "title": case.title,
+        "source": case.source,
+        "units": case.units().name(),
+        "provenance": {
+            "program": env!("CARGO_PKG_NAME"),
+            "version": env!("CARGO_PKG_VERSION"),
+            "case_sha256": case.text_hash,
+        },
+    });
+    if let (Some(all), Value::Object(own)) = (document.as_object_mut(), fields) {
+        all.extend(own);
+    }
+    document
+}
 
 /// Relative change of the vibration that is worth calling a change.
 pub(super) const NOTICEABLE: f64 = 0.02;
@@ -75,12 +110,8 @@ pub fn document(source: &Source) -> Value {
     let resting = study.motions.rest().or(study.rest.as_ref());
     let wanted = case.report.figures.iter().map(|wanted| wanted.name());
     let drawn = |name: &str| source.figures.iter().any(|figure| figure.name == name);
-    json!({
-        "format": FORMAT,
+    let fields = json!({
         "name": source.name,
-        "title": case.title,
-        "source": case.source,
-        "units": scale.units.name(),
         "verdict": verdict::verdict(study, judged),
         // Numbers of the case, and those that its first screen, the index and a comparison show, by their id.
         "quantities": quantities(&scale, case, study),
@@ -101,7 +132,7 @@ pub fn document(source: &Source) -> Value {
         }),
         // The case in rigs that differ from it by a little, the worst first.
         "deviations": study.deviations.as_ref().map(|one| deviations::deviations(&scale, case, one)),
-        // Which layer answered what.
+        // Which layer content what.
         "answers": source.answers,
         "claims": study.claims.iter().map(|one| claims::claim(&scale, one)).collect::<Vec<_>>(),
         "inputs": case.inputs(),
@@ -109,13 +140,10 @@ pub fn document(source: &Source) -> Value {
         // In reading order, and the names of those that the case asks for and that have nothing to show.
         "figures": source.figures.iter().map(figure_row).collect::<Vec<_>>(),
         "left_out": wanted.filter(|name| !drawn(name)).collect::<Vec<_>>(),
-        "provenance": {
-            "program": env!("CARGO_PKG_NAME"),
-            "version": env!("CARGO_PKG_VERSION"),
-            "case_sha256": case.text_hash,
-            "effort": study.effort,
-        },
-    })
+    });
+    let mut document = answer(case, Content::Report, fields);
+    document["provenance"]["effort"] = json!(study.effort);
+    document
 }
 
 /// The numbers that stand for a case: its own, and the vibration with and without absorber.

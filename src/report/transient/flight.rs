@@ -6,20 +6,18 @@ use crate::case::Case;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::report::document::Scale;
+use crate::report::document::{Content, Scale, answer};
 use crate::report::render::RenderError;
 use crate::report::template::render;
 use crate::transient::OneFlight;
 
-/// What was found: `vinesink/flight@1`.
+/// What was found.
 pub fn flight(case: &Case, flight: &OneFlight) -> Value {
     let scale = Scale::of(case);
     let simulated = Method::Simulation;
     let start = &flight.start;
     let place = start.relative_displacement();
-    json!({
-        "format": "vinesink/flight@1",
-        "title": case.title,
+    let fields = json!({
         "start": [start.x, start.x_velocity, start.y, start.y_velocity],
         "absorber": scale.units.quantity(&of::RELATIVE_DISPLACEMENT, place, Method::Given),
         "duration": scale.units.quantity(&of::TIME, flight.duration, simulated),
@@ -28,7 +26,8 @@ pub fn flight(case: &Case, flight: &OneFlight) -> Value {
         "impact_speed": scale.units.quantity(&of::IMPACT_SPEED, flight.impact_speed, simulated),
         "decay_time": flight.settles.map(|time| scale.units.quantity(&of::DECAY_TIME, time, simulated)),
         "share": case.decay_level,
-    })
+    });
+    answer(case, Content::Flight, fields)
 }
 
 /// Its sentences.

@@ -15,7 +15,7 @@ pub use flight::{flight, flight_text};
 pub use optimum::{optimum, optimum_text};
 
 use super::document::criteria::{badge, criteria};
-use super::document::{FORMAT, NOTICEABLE, Word, cavity, figure_row};
+use super::document::{Content, NOTICEABLE, Word, answer, cavity, figure_row};
 use super::figure::{Color, Dash, Figure, Style};
 use super::render::{Files, RenderError, in_lines, page_files};
 use super::template::{render, worded};
@@ -76,7 +76,7 @@ pub fn drawn(
     study: &Study,
     judged: &[Judged],
 ) -> Result<(Value, Vec<Figure>), RenderError> {
-    let mut facts = document(name, case, study, judged);
+    let mut facts = document(name, case, study, judged, Content::Report);
     let figures = match study {
         Study::Release(study) => release::figures(case, study, &facts),
         Study::Sweep(study) => sine_sweep::figures(case, study, &facts),
@@ -113,7 +113,13 @@ pub fn text(case: &Case, study: &Study, document: &Value) -> Result<String, Rend
 }
 
 /// A report as data. Quantities are in SI, or in the units of a reduced case.
-pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Value {
+pub fn document(
+    name: &str,
+    case: &Case,
+    study: &Study,
+    judged: &[Judged],
+    content: Content,
+) -> Value {
     let (mut quantities, word) = match study {
         Study::Release(study) => (release::quantities(case, study), release::word(study)),
         Study::Sweep(study) => (sine_sweep::quantities(case, study), sine_sweep::word(study)),
@@ -128,12 +134,8 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
     let warnings = case.warnings().iter();
     let warnings =
         warnings.map(|one| json!({ "kind": "warning", "line": one.line, "message": one.message }));
-    let mut document = json!({
-        "format": FORMAT,
+    let fields = json!({
         "name": name,
-        "title": case.title,
-        "source": case.source,
-        "units": case.units().name(),
         "verdict": { "tone": word.tone(), "word": word, "headline": name_of(study) },
         "quantities": all,
         "criteria": criteria(case, judged),
@@ -143,12 +145,8 @@ pub fn document(name: &str, case: &Case, study: &Study, judged: &[Judged]) -> Va
         "inputs": case.inputs(),
         "derived": case.derived(),
         "figures": [],
-        "provenance": {
-            "program": env!("CARGO_PKG_NAME"),
-            "version": env!("CARGO_PKG_VERSION"),
-            "case_sha256": case.text_hash,
-        },
     });
+    let mut document = answer(case, content, fields);
     match study {
         Study::Release(study) => release::add(case, study, &mut document),
         Study::Sweep(study) => sine_sweep::add(case, study, &mut document),
