@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
-use super::moved::{Moved, ROUNDING, is_quantity, kind, moved};
+use super::moved::{Moved, ROUNDING, alike, is_quantity, kind, moved};
 use super::reader::{label, sorted, without_elements};
 use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::motions::wilson;
@@ -352,18 +352,6 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 fn is_same(old: &Value, new: &Value) -> bool {
     let rounds = |(a, b): (f64, f64)| (a - b).abs() <= ROUNDING * a.abs().max(b.abs());
     old == new || old.as_f64().zip(new.as_f64()).is_some_and(rounds)
-}
-
-/// Whether two values differ in numbers alone, and in lists, which grow and shrink by chance.
-pub(super) fn alike(old: &Value, new: &Value) -> bool {
-    match (old, new) {
-        (Value::Object(old), Value::Object(new)) => {
-            old.len() == new.len()
-                && old.iter().all(|(key, a)| new.get(key).is_some_and(|b| alike(a, b)))
-        }
-        (Value::Number(_), Value::Number(_)) | (Value::Array(_), Value::Array(_)) => true,
-        _ => old == new,
-    }
 }
 
 /// A sentence by its letters: with another number it is the same. Anything else as it is.

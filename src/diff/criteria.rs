@@ -3,8 +3,7 @@
 use serde_json::{Value, json};
 
 use super::Document;
-use super::compare::alike;
-use super::moved::{Moved, moved};
+use super::moved::{Moved, alike, moved};
 
 /// Whether both sides say the same: asked alike, answered alike but for numbers, and found within both errors.
 fn agree(old: &Value, new: &Value) -> bool {

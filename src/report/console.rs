@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::document::place::FilePlace;
 use super::document::{Content, Scale, answer, motions, theory, theory_limits};
-use super::render::RenderError;
+use super::error::RenderError;
 use super::template;
 use crate::analysis::ManifoldPoint;
 use crate::answer::{self, Answer};

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::document::criteria::{criteria, place};
 use super::document::{self, Scale, motions, place::FilePlace};
-use super::render::RenderError;
+use super::error::RenderError;
 use super::template::render;
 use crate::answer::Answer;
 use crate::case::Case;

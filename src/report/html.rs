@@ -8,9 +8,9 @@ use std::collections::{BTreeMap, HashMap};
 use pulldown_cmark::{Alignment, CowStr, Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 use serde_json::json;
 
+use super::error::RenderError;
 use super::escape;
 use super::mathml::to_mathml;
-use super::render::RenderError;
 use super::template;
 use crate::quantity::Units;
 

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 use super::document::{Tone, Word};
-use super::render::{Files, RenderError};
+use super::error::RenderError;
+use super::render::Files;
 use super::stored::{self, ReadError};
 use super::template;
 use crate::quantity::{Units, catalogue};

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::render::RenderError;
+use super::error::RenderError;
 use super::template;
 use crate::quantity::Units;
 

@@ -5,6 +5,7 @@ pub mod console;
 pub mod criteria;
 pub mod document;
 pub mod equations;
+pub mod error;
 pub mod escape;
 pub mod figures;
 pub mod html;

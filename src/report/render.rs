@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::document::figure_row;
-use super::figure::{self, Figure, FigureError};
+pub use super::error::RenderError;
+use super::figure::{self, Figure};
 use super::html;
-use super::mathml::MathError;
 use super::template;
 use crate::quantity::Units;
 
@@ -37,31 +37,6 @@ pub fn is_of_report(file: &Path) -> bool {
     let drawing = name.strip_prefix("figures/").and_then(|name| name.strip_suffix(".svg"));
     let drawing = drawing.is_some_and(|name| !name.contains('/') && !name.starts_with('.'));
     drawing && !FIGURES_OF_OTHERS.contains(&name) && !name.starts_with(FIGURES_OF_SWEEP)
-}
-
-/// Why a report cannot be rendered.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum RenderError {
-    /// A template does not fit the report.
-    #[error(
-        "the page {name} cannot be made: {reason}; check the units of the case, and report it if they are right"
-    )]
-    Template {
-        /// The template.
-        name: String,
-        /// What it lacks, without the text around it, which says nothing to a reader.
-        reason: String,
-    },
-    /// A figure cannot be drawn.
-    #[error(transparent)]
-    Figure(#[from] FigureError),
-    /// A formula cannot be shown.
-    #[error(transparent)]
-    Formula(#[from] MathError),
-    /// The numbers cannot be written down.
-    #[error("the report cannot be written as JSON: {0}")]
-    Json(#[from] serde_json::Error),
 }
 
 /// The files of a report's folder, by their path in it.
@@ -173,20 +148,4 @@ fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError>
 fn figure_files(drawings: BTreeMap<String, String>) -> Files {
     let path = |name: String| format!("figures/{name}.svg");
     texts(drawings.into_iter().map(|(name, drawing)| (path(name), drawing))).collect()
-}
-
-pub(super) fn without_repeated_blank_lines(text: &str) -> String {
-    let mut result = String::with_capacity(text.len());
-    let mut blank = true;
-    for line in text.lines().map(str::trim_end) {
-        if !(blank && line.is_empty()) {
-            result.push_str(line);
-            result.push('\n');
-        }
-        blank = line.is_empty();
-    }
-    while result.ends_with("\n\n") {
-        result.pop();
-    }
-    result
 }

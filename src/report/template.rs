@@ -39,9 +39,9 @@ use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 use tera::{Context, ErrorKind, Kwargs, Map, State, StringInput, Tera, TeraResult, Value};
 
+use super::error::RenderError;
 use super::escape;
 use super::figure::Figure;
-use super::render::{RenderError, without_repeated_blank_lines};
 use crate::quantity::catalogue::{self, Digits, Kind};
 use crate::quantity::{Units, numbers};
 
@@ -300,4 +300,20 @@ fn table_text(lines: &[&str]) -> String {
         format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
     };
     rows.iter().map(text).collect()
+}
+
+fn without_repeated_blank_lines(text: &str) -> String {
+    let mut result = String::with_capacity(text.len());
+    let mut blank = true;
+    for line in text.lines().map(str::trim_end) {
+        if !(blank && line.is_empty()) {
+            result.push_str(line);
+            result.push('\n');
+        }
+        blank = line.is_empty();
+    }
+    while result.ends_with("\n\n") {
+        result.pop();
+    }
+    result
 }

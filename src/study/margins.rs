@@ -4,7 +4,7 @@
 use crate::analysis::Analysis;
 use crate::orbits::branch::SpecialPoint;
 use crate::orbits::{BestClearance, Bifurcation, FullSystem};
-use crate::validation::boundaries::{BoundaryAt, clearances};
+use crate::validation::clearances::{BoundaryAt, clearances};
 
 /// The boundaries around a case.
 #[derive(Debug, Clone, PartialEq)]

@@ -157,7 +157,7 @@ impl CaseStudy {
     /// [`StudyError`] where the theory cannot be carried out.
     pub fn sketch(system: &System) -> Result<Self, StudyError> {
         let analysis = Analysis::of(system)?;
-        let clearance = validation::boundaries::clearances(&analysis);
+        let clearance = validation::clearances::clearances(&analysis);
         Ok(Self {
             motions: Motions::default(),
             measured: Vec::new(),

@@ -20,8 +20,8 @@ pub use ask::Answered;
 pub use clearance::{BestClearance, RELEASES, best_clearance, looked_at};
 pub use flight::OneFlight;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
-pub use record_study::{Realisation, RecordStudy, SpectrumPoint, WithError};
-pub use runs::{Run, Runs};
+pub use record_study::{Realisation, RecordStudy, SpectrumPoint};
+pub use runs::{Run, Runs, WithError};
 pub(crate) use study::followed;
 pub use study::{Decay, DecayStudy, DecayTime};
 

@@ -1,7 +1,7 @@
 //! A structure that is driven by a record, or by several records of one spectrum: from all places of the absorber,
 //! beside its alternatives, and for other natural frequencies.
 
-use super::Runs;
+use super::{Runs, WithError};
 use crate::case::Case;
 use crate::excitation::{Piece, Record};
 use crate::executor::{Executor, map};
@@ -11,10 +11,6 @@ use crate::measure::Measure as Asked;
 use crate::numerics::scatter::twice_standard_error;
 use crate::quantity::Units;
 use crate::system::{Scales, System};
-
-/// A value and its error: of one record how much worse other places of the absorber may be, of several twice the
-/// standard error of the mean over records.
-pub type WithError = [f64; 2];
 
 /// What becomes of the structure under one record.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,9 @@ use crate::flights::{Passage, Response, worst_of_places};
 use crate::linear::Linear;
 use crate::measure::Measure;
 
-use super::{Decay, WithError};
+/// A value and its error: of one record how much worse other places of the absorber may be, of several twice the
+/// standard error of the mean over records.
+pub type WithError = [f64; 2];
 
 /// One run, with the absorber, a damper or neither. Lengths over the clearance, times in oscillations of the structure.
 pub trait Run {
@@ -71,23 +73,6 @@ impl<R: Run> Runs<R> {
         let mut all: Vec<&(f64, R)> = self.all.iter().collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         all
-    }
-}
-
-impl Run for Decay {
-    fn get(&self, of: Measure) -> Option<f64> {
-        Some(match of {
-            Measure::DecayTime => self.oscillations,
-            Measure::Peak => self.peak,
-            Measure::ImpactSpeed => self.impact_speed,
-            Measure::Impacts => self.impacts as f64,
-            Measure::ImpactEnergyShare => self.impact_share,
-            _ => return None,
-        })
-    }
-
-    fn wakes(&self) -> bool {
-        self.wakes
     }
 }
 

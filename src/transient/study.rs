@@ -1,7 +1,7 @@
 //! A released structure with everything that is known of it: from all places of the absorber, beside its
 //! alternatives and theory.
 
-use super::{Runs, WithError};
+use super::{Run, Runs, WithError};
 use crate::case::Case;
 use crate::excitation::{Release, amplitude};
 use crate::executor::{Executor, Serial};
@@ -214,6 +214,23 @@ impl Decay {
             peak: found.peak,
             wakes: found.impacts[last] > 0,
         }
+    }
+}
+
+impl Run for Decay {
+    fn get(&self, of: Measure) -> Option<f64> {
+        Some(match of {
+            Measure::DecayTime => self.oscillations,
+            Measure::Peak => self.peak,
+            Measure::ImpactSpeed => self.impact_speed,
+            Measure::Impacts => self.impacts as f64,
+            Measure::ImpactEnergyShare => self.impact_share,
+            _ => return None,
+        })
+    }
+
+    fn wakes(&self) -> bool {
+        self.wakes
     }
 }
 

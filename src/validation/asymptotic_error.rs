@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::boundaries::{BoundaryAt, clearances, clearances_of};
+use super::clearances::{BoundaryAt, clearances, clearances_of};
 use crate::analysis::{self, Analysis, AsymmetricLimits, Manifold};
 use crate::orbits::{self, Bifurcation, FullSystem};
 use crate::system::System;

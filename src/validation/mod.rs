@@ -13,6 +13,7 @@ pub mod asymptotic_error;
 pub mod boundaries;
 pub mod cavity;
 mod claim;
+pub mod clearances;
 pub mod motions;
 pub mod orbits;
 pub mod tolerance;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::boundaries::clearances;
 use super::claim::NearBoundary;
+use super::clearances::clearances;
 use super::tolerance::{SAYS_NOTHING, asymptotic_error, averages_error};
 use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::read_off;

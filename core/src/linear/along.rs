@@ -115,3 +115,10 @@ impl<'a> Along<'a> {
         Damped { amplitude, at, stroke }
     }
 }
+
+impl TunedMassDamper {
+    /// What it comes to along a band.
+    pub fn along(self, band: &Band) -> Damped {
+        Along::of(band).damped(self)
+    }
+}

@@ -6,8 +6,7 @@
 use nalgebra::Complex;
 use serde::Serialize;
 
-use super::along::{Along, Damped};
-use crate::system::{Band, System};
+use crate::system::System;
 
 /// A tuned mass damper: a mass on a spring and a viscous damper.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -33,11 +32,6 @@ impl TunedMassDamper {
     pub fn for_free_decay(mass_ratio: f64) -> Self {
         let total = 1.0 + mass_ratio;
         Self { tuning: 1.0 / total, damping_ratio: (mass_ratio / total).sqrt() }
-    }
-
-    /// What it comes to along a band.
-    pub fn along(self, band: &Band) -> Damped {
-        Along::of(band).damped(self)
     }
 
     /// The same damper on a structure whose natural frequency is `factor` times as high.

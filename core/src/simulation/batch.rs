@@ -14,11 +14,11 @@ use std::borrow::BorrowMut;
 use fearless_simd::{Level, Simd, dispatch};
 
 use self::queue::{Queue, Trajectory};
-use super::certificate::{Hull, Slack};
+use super::certificate::Hull;
 use super::events::{Detail, Observer, Side};
 use super::panels::Limits;
 use super::path::{Path, StraightLine};
-use super::phasor::{FlightState, Rates, Steady};
+use super::phasor::{FlightState, Rates, Slack, Steady};
 use super::run::{Moment, Simulation, Stop};
 use super::walls::{self, Sticking};
 use crate::numerics::lanes::{LANES, Real, Wide, WideMask};

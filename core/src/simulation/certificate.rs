@@ -22,45 +22,12 @@
 //! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
 //! [`crate::numerics::crossing`] takes over.
 
-use super::phasor::FlightState;
+use super::phasor::{FlightState, Slack};
 use crate::numerics::lanes::Real;
 
 /// Steps of Newton towards a level place: from the secant, off by some percent of a panel, two leave less
 /// than what the quintic is off.
 const LEVELLING: u32 = 2;
-
-/// How well a panel's quintic is known.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Slack<R> {
-    /// `S/7200`.
-    pub coefficient: R,
-    /// What the square of the slope at a root must exceed.
-    pub slope_squared: R,
-}
-
-impl<R: Real> Slack<R> {
-    /// Whether a moment in a panel that meets a wall is proven to be before.
-    #[inline(always)]
-    pub(super) fn before(&self, at: &FlightState<R>, wall: R) -> R::Mask {
-        // Twice S/14340.
-        (at.gap * wall + self.coefficient * 1.005).at_most(wall.like(1.0))
-    }
-
-    /// What the square of the acceleration must exceed where the slope changes its sign in a panel: `M'` is at most the
-    /// fastest rate times `M`, and `4 M S/960` is fifteen times what the slope's square must exceed.
-    #[inline(always)]
-    pub(super) fn bend_squared(&self, fastest: R, length: R) -> R {
-        self.slope_squared * fastest * 15.0 / length
-    }
-
-    /// That of a part of a panel.
-    #[inline(always)]
-    pub(super) fn part(self, of: f64) -> Self {
-        let cube = of * of * of;
-        let part = cube * cube;
-        Self { coefficient: self.coefficient * part, slope_squared: self.slope_squared * part }
-    }
-}
 
 /// A polynomial in the part of a panel, lowest power first.
 pub(super) struct Quintic<R>([R; 6]);

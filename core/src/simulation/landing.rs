@@ -2,10 +2,10 @@
 
 use fearless_simd::Simd;
 
-use super::certificate::{Hull, Quintic, Slack};
+use super::certificate::{Hull, Quintic};
 use super::events::Side;
 use super::path::Path;
-use super::phasor::{FlightState, Rates, Steady};
+use super::phasor::{FlightState, Rates, Slack, Steady};
 use super::roots::Corrected;
 use super::sliding::CavityFlight;
 use crate::numerics::lanes::Real;

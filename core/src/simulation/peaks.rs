@@ -4,10 +4,10 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::certificate::{Quintic, Slack};
+use super::certificate::Quintic;
 use super::integrals::{FlightEnds, Integrals, Ringing, Turning};
 use super::path::StraightLine;
-use super::phasor::{FlightState, Rates, Steady};
+use super::phasor::{FlightState, Rates, Slack, Steady};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide};
 
 /// The oscillator at one moment, seen from where it would rest.

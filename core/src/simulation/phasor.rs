@@ -11,7 +11,6 @@ use std::f64::consts::TAU;
 
 use fearless_simd::Simd;
 
-use super::certificate::Slack;
 use super::flow::Oscillator;
 use super::path::{Path, StraightLine};
 use super::small::{LARGEST_ANGLE, small_angles, small_exponential};
@@ -34,6 +33,39 @@ const TURNING_STEPS: u32 = 8;
 pub(super) struct Steady<R> {
     pub x: R,
     pub v: R,
+}
+
+/// How well a panel's quintic is known.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slack<R> {
+    /// `S/7200`.
+    pub coefficient: R,
+    /// What the square of the slope at a root must exceed.
+    pub slope_squared: R,
+}
+
+impl<R: Real> Slack<R> {
+    /// Whether a moment in a panel that meets a wall is proven to be before.
+    #[inline(always)]
+    pub(super) fn before(&self, at: &FlightState<R>, wall: R) -> R::Mask {
+        // Twice S/14340.
+        (at.gap * wall + self.coefficient * 1.005).at_most(wall.like(1.0))
+    }
+
+    /// What the square of the acceleration must exceed where the slope changes its sign in a panel: `M'` is at most the
+    /// fastest rate times `M`, and `4 M S/960` is fifteen times what the slope's square must exceed.
+    #[inline(always)]
+    pub(super) fn bend_squared(&self, fastest: R, length: R) -> R {
+        self.slope_squared * fastest * 15.0 / length
+    }
+
+    /// That of a part of a panel.
+    #[inline(always)]
+    pub(super) fn part(self, of: f64) -> Self {
+        let cube = of * of * of;
+        let part = cube * cube;
+        Self { coefficient: self.coefficient * part, slope_squared: self.slope_squared * part }
+    }
 }
 
 /// Oscillator and gap at one moment.

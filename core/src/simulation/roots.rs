@@ -3,9 +3,9 @@
 
 use fearless_simd::Simd;
 
-use super::certificate::{Quintic, Slack};
+use super::certificate::Quintic;
 use super::path::Path;
-use super::phasor::{FlightState, NEAR, Rates, Steady};
+use super::phasor::{FlightState, NEAR, Rates, Slack, Steady};
 use crate::numerics::lanes::{Mask, Real};
 
 /// Steps of Newton from an end of a panel in which the slope changes sign, before the one that every root

@@ -27,7 +27,7 @@ use crate::report::figure::Figure;
 use crate::report::render::{Files, RenderError, page_files};
 use crate::report::template::worded;
 use crate::study::{CaseStudy, StudyError};
-use crate::validation::boundaries::clearances;
+use crate::validation::clearances::clearances;
 
 pub use detuning::SETS;
 

@@ -2,8 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::scale::Scale;
-use super::theory::ROOT_OF_ROUNDING;
+use super::scale::{ROOT_OF_ROUNDING, Scale};
 use crate::analysis::Strip;
 use crate::band::rivals::DETUNED;
 use crate::band::{Band, Rivals, Survey, Worst};

@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use serde_json::{Value, json};
 
-use super::scale::Scale;
-use super::theory::rounded;
+use super::scale::{Scale, rounded};
 use crate::analysis::ManifoldPoint;
 use crate::cavity::{CavityAnalysis, FixedPoint};
 use crate::method::Method::{ExactOrbit, Theory};

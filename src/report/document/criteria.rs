@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::scale::Scale;
-use super::verdict::Word;
+use super::word::Word;
 use crate::case::{Case, Criterion, Relation};
 use crate::criteria::Judged;
 use crate::measure::{Device, Measure};

@@ -12,6 +12,7 @@ mod deviations;
 mod notes;
 mod scale;
 mod verdict;
+mod word;
 
 use std::collections::BTreeMap;
 
@@ -31,7 +32,7 @@ use crate::system::Parameter;
 pub(super) use band::{AbsorberAlong, damper, outside};
 pub use notes::theory_limits;
 pub use scale::{Scale, cavity};
-pub use verdict::{Tone, Word};
+pub use word::{Tone, Word};
 
 /// Name and version of the format of what is known of a case: `report.json`, and what `analyze` and `simulate` print.
 pub const FORMAT: &str = "vinesink/answer@1";

@@ -6,6 +6,15 @@ use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
 use crate::system::Parameter;
 
+/// Relative error of the place of a minimum, where the slope vanishes, and of multipliers where two of them
+/// meet: the root of that of rounding.
+pub(super) const ROOT_OF_ROUNDING: f64 = 1e-6;
+
+/// A number with the error of a minimum or a multiplier.
+pub(super) fn rounded(of: Quantity) -> Quantity {
+    of.with_error(ROOT_OF_ROUNDING * of.value.abs())
+}
+
 /// What a case says of its cavity; nothing of one that is level, without friction, its ends alike.
 pub fn cavity(case: &Case) -> Vec<Quantity> {
     let (design, system) = (&case.design, case.system());

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::NOTICEABLE;
 use super::cavity::cavity;
-use super::scale::Scale;
+use super::scale::{ROOT_OF_ROUNDING, Scale, rounded};
 use crate::analysis::{Analysis, FixedPoint};
 use crate::method::Method::{ExactOrbit, Simulation, Theory};
 use crate::motions::wilson;
@@ -20,9 +20,6 @@ use crate::validation::asymptotic_error::asymptotic_errors;
 /// Share of a clearance within which the end of steady resonance is too near for a design.
 const TOO_NEAR: f64 = 0.1;
 
-/// Relative error of the place of a minimum, where the slope vanishes, and of multipliers where two of them
-/// meet: the root of that of rounding.
-pub(super) const ROOT_OF_ROUNDING: f64 = 1e-6;
 /// A limit that some starts find and some do not is no sharper than two of its brackets.
 const BRACKETS: f64 = 2.0;
 
@@ -241,11 +238,6 @@ impl TheoryFacts<'_> {
             "found": study.confirmations.best.as_ref().map(|probe| self.probe(probe)),
         }))
     }
-}
-
-/// A number with the error of a minimum or a multiplier.
-pub(super) fn rounded(of: Quantity) -> Quantity {
-    of.with_error(ROOT_OF_ROUNDING * of.value.abs())
 }
 
 /// A clearance, or its change, with the error of a limit that several starts find.

@@ -1,28 +1,17 @@
 //! The answer: what an engineer wants to know first, as data.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::NOTICEABLE;
 use super::criteria::badge;
+use super::word::Word;
 use crate::analysis::Analysis;
 use crate::criteria::Judged;
 use crate::motions::{Motion, RestKind};
 use crate::regimes::Regime;
 use crate::study::CaseStudy;
 use crate::validation::Verdict;
-
-/// Whether the news is good.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Tone {
-    /// The criteria hold, or without any the absorber reduces the vibration.
-    Good,
-    /// Something between.
-    Mixed,
-    /// A criterion fails, or the absorber does not help.
-    Bad,
-}
 
 /// What the absorber does to the vibration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -48,30 +37,6 @@ pub enum Headline {
     Less,
 }
 
-/// The answer in a word. The order is that of a sorted column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Word {
-    /// All criteria hold.
-    Holds,
-    /// The absorber reduces the vibration.
-    Works,
-    /// No criterion fails by more than its error.
-    TooCloseToCall,
-    /// No criterion fails by what has settled, and what has not may fail one.
-    NotDecided,
-    /// Something between.
-    Mixed,
-    /// Hardly any change.
-    DoesNothing,
-    /// More vibration.
-    MakesItWorse,
-    /// Nothing drives the case, or no motion was found.
-    NoAnswer,
-    /// A criterion fails.
-    Fails,
-}
-
 /// The answer: good, mixed or bad; in a word, by the criteria or else by what the absorber does; at the case's
 /// own excitation; along the band, none without one or where nothing was found; and why it is worse.
 pub fn verdict(study: &CaseStudy, judged: &[Judged]) -> Value {
@@ -90,17 +55,6 @@ pub fn verdict(study: &CaseStudy, judged: &[Judged]) -> Value {
         // Claims that were confirmed.
         "confirmed": confirmed.count(),
     })
-}
-
-impl Word {
-    /// Whether that is good news.
-    pub fn tone(self) -> Tone {
-        match self {
-            Self::Holds | Self::Works => Tone::Good,
-            Self::TooCloseToCall | Self::NotDecided | Self::Mixed => Tone::Mixed,
-            _ => Tone::Bad,
-        }
-    }
 }
 
 impl Headline {

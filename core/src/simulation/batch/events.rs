@@ -5,12 +5,12 @@ use fearless_simd::Simd;
 use super::queue::{Queue, Trajectory};
 use super::{Lanes, tightened};
 use crate::numerics::lanes::{LANES, Mask, Real, Wide, WideMask};
-use crate::simulation::certificate::{Hull, Slack};
+use crate::simulation::certificate::Hull;
 use crate::simulation::contact::{Rebound, rebound};
 use crate::simulation::events::{Detail, Side};
 use crate::simulation::landing::CORRECTIONS;
 use crate::simulation::path::{Path, StraightLine};
-use crate::simulation::phasor::{FlightState, Rates, Steady};
+use crate::simulation::phasor::{FlightState, Rates, Slack, Steady};
 use crate::system::State;
 
 /// Halvings of panels side by side; what needs more goes on alone.
