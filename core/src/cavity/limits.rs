@@ -6,7 +6,8 @@
 use serde::Serialize;
 
 use super::CavityTheory;
-use super::motion::{Motion, MotionShape};
+use super::motion::Motion;
+use super::shape::MotionShape;
 use crate::equations::cavity::{DETERMINANT, DOUBLING, GRAZING, TRACE, TURNING, WALL_1, WALL_2};
 use crate::numerics::bracket::brent;
 

@@ -8,7 +8,7 @@
 //! `r_1^2 r_2^2`.
 
 use super::CavityTheory;
-use super::motion::MotionShape;
+use super::shape::MotionShape;
 use crate::operation_count;
 
 /// By phase and velocity.

@@ -12,7 +12,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::CavityTheory;
-use super::motion::{Motion, MotionShape};
+use super::motion::Motion;
+use super::shape::MotionShape;
 use crate::equations::cavity::IN_PHASE;
 use crate::numerics::bracket::bisected;
 use crate::numerics::scan::sign_changes;

@@ -17,6 +17,7 @@ mod limits;
 mod linear_map;
 mod manifold;
 mod motion;
+mod shape;
 
 use serde::Serialize;
 

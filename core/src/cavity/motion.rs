@@ -6,9 +6,10 @@ use serde::Serialize;
 
 use super::CavityTheory;
 use super::linear_map::trace_and_determinant;
+use super::shape::{MotionShape, ShapeChange};
 use crate::equations::cavity::{
-    ABSORBER, AMPLITUDE, CONTACT, DRIFT, FACTOR, IMPULSE, IN_PHASE, PLACE_1, PLACE_2, QUADRATURE,
-    REACTANCE, RESISTANCE, SIDE, SPEED_1, SPEED_2, TIME_1, TIME_2, VELOCITY_1, VELOCITY_2,
+    ABSORBER, AMPLITUDE, CONTACT, DRIFT, FACTOR, IMPULSE, IN_PHASE, QUADRATURE, REACTANCE,
+    RESISTANCE, SIDE, TIME_1, TIME_2, VELOCITY_1, VELOCITY_2,
 };
 use crate::numerics::bracket::bisected;
 use crate::operation_count;
@@ -52,30 +53,6 @@ pub struct Motion {
     /// The absorber stays between the walls between impacts, hits both from inside, and, where it rubs, never turns
     /// against the oscillator in flight.
     pub admissible: bool,
-}
-
-/// What a motion is made of, by `nu` and `c_c`.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct MotionShape {
-    pub(super) nu: f64,
-    pub(super) times: [f64; 2],
-    drift: f64,
-    pub(super) absorber: f64,
-    /// `c_c`, `c_s`.
-    pub(super) parts: [f64; 2],
-    pub(super) amplitude: f64,
-    impulse: f64,
-    contact: f64,
-    /// `S`, `K`.
-    pub(super) forces: [f64; 2],
-}
-
-/// Changes of parts of a [`MotionShape`] along the manifold.
-pub(super) struct ShapeChange {
-    parts: [f64; 2],
-    impulse: f64,
-    contact: f64,
-    pub(super) amplitude: f64,
 }
 
 impl CavityTheory {
@@ -213,20 +190,6 @@ impl CavityTheory {
             largest <= 1.0 + ROUNDING && (f == 0.0 || slowest >= -ROUNDING)
         };
         hits && stays(&first) && stays(&second)
-    }
-}
-
-impl MotionShape {
-    /// Whether the absorber goes from wall to wall: numbers out of range do not.
-    pub(super) fn is_motion(&self) -> bool {
-        self.absorber > 0.0 && self.amplitude > 0.0 && self.amplitude.is_finite()
-    }
-
-    /// Displacements and velocities of the oscillator at the two impacts.
-    pub(super) fn at_impacts(&self) -> [[f64; 2]; 2] {
-        let [in_phase, quadrature] = self.parts;
-        let given = [self.nu, in_phase, quadrature];
-        [[PLACE_1.at(given), SPEED_1.at(given)], [PLACE_2.at(given), SPEED_2.at(given)]]
     }
 }
 

@@ -13,9 +13,9 @@
 
 use serde::Serialize;
 
+use super::cycle::Cycle;
 use super::flight::{Flight, Motion};
 use super::impact_map::{ImpactMap, Leg, Wall};
-use super::orbit::Cycle;
 use crate::numerics::bracket::brent;
 use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
 

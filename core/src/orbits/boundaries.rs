@@ -7,9 +7,10 @@
 use serde::Serialize;
 
 use super::OrbitError;
-use super::branch::{BranchEnd, Settings, SpecialPoint, trace};
+use super::branch::{BranchEnd, Settings, trace};
 use super::limits::{Limit, SymmetricFamily};
 use super::orbit::Origin;
+use super::special_point::SpecialPoint;
 use super::switching::leave;
 use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;

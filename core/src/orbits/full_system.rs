@@ -4,11 +4,12 @@
 use serde::Serialize;
 
 use super::boundaries::Boundaries;
-use super::branch::{Direction, Settings, SpecialPoint, follow};
+use super::branch::{Direction, Settings, follow};
 use super::impact_map::ImpactMap;
 use super::limits::{Limit, StableStretch};
 use super::measures::Peaks;
 use super::orbit::Orbit;
+use super::special_point::SpecialPoint;
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 use super::two_impact::{SteadyOrbit, TwoImpactOrbits, two_impact_orbits};
 use crate::bifurcation::Bifurcation;

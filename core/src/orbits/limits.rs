@@ -22,9 +22,10 @@
 use serde::Serialize;
 
 use super::admissibility::{Admissibility, Departure};
+use super::cycle::Cycle;
 use super::impact_map::ImpactMap;
 use super::multipliers::{Multipliers, minus_one, unit_product};
-use super::orbit::Cycle;
+
 use super::symmetric::SymmetricCurve;
 use super::{MOST_HIDDEN, OrbitError};
 use crate::bifurcation::Bifurcation;

@@ -1,11 +1,12 @@
 //! Where on a branch a bifurcation lies: test functions that vanish there, and the root of each
 //! between two neighbouring points.
 
-use super::branch::SpecialPoint;
+use super::cycle::Closure;
+use super::grazing;
 use super::mirror;
 use super::multipliers::{minus_one, plus_one, unit_product};
-use super::orbit::{Closure, Origin};
-use super::switching;
+use super::orbit::Origin;
+use super::special_point::SpecialPoint;
 use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
@@ -126,7 +127,7 @@ fn locate(
     let (left, right) = (near((root.at - width).max(0.0)), near((root.at + width).min(step)));
     let grazes = kind == Bifurcation::Grazing && orbit.admissibility.narrowest.is_some();
     let sequence_beyond =
-        if grazes { switching::beyond_grazing(tracer, point.parameter(), &orbit) } else { None };
+        if grazes { grazing::beyond_grazing(tracer, point.parameter(), &orbit) } else { None };
     let bracket = [left.min(right).min(value), left.max(right).max(value)];
     Some((
         root.at,

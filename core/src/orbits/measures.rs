@@ -9,9 +9,10 @@ use serde::Serialize;
 
 use super::OrbitError;
 use super::admissibility::zeros;
+use super::cycle::Cycle;
 use super::flight::Motion;
 use super::impact_map::{ImpactMap, Step};
-use super::orbit::Cycle;
+
 use crate::numerics::{is_zero, quadrature};
 use crate::operation_count;
 use crate::system::System;

@@ -4,10 +4,11 @@
 //! orbits alone are not: the crossing is where their half-period map has the multiplier -1, a simple
 //! root in the parameter, looked for near the place where the asymmetry changes its sign.
 
-use super::branch::SpecialPoint;
+use super::cycle::{Closure, Cycle};
 use super::impact_map::AfterImpact;
 use super::multipliers::minus_one;
-use super::orbit::{Closure, Cycle, Orbit};
+use super::orbit::Orbit;
+use super::special_point::SpecialPoint;
 use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;

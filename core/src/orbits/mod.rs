@@ -12,9 +12,11 @@
 mod admissibility;
 pub mod boundaries;
 pub mod branch;
+mod cycle;
 pub mod equations;
 pub mod flight;
 mod full_system;
+mod grazing;
 mod impact_map;
 mod limits;
 mod locate;
@@ -23,6 +25,7 @@ mod mirror;
 mod multipliers;
 pub mod newton;
 mod orbit;
+mod special_point;
 pub mod switching;
 mod symmetric;
 mod tracer;
@@ -31,14 +34,15 @@ mod two_impact;
 pub use crate::bifurcation::Bifurcation;
 pub use admissibility::{Admissibility, Narrowest};
 pub use boundaries::{AsymmetricOrbits, Boundaries};
-pub use branch::{Branch, BranchEnd, BranchPoint, SpecialPoint};
+pub use branch::{Branch, BranchEnd, BranchPoint};
+pub use cycle::{Closure, Convergence, Cycle};
 pub use full_system::{BestClearance, FullSystem};
 pub use impact_map::{AfterImpact, ImpactMap, Leg, Step, Wall};
 pub use limits::{Limit, StableStretch, SymmetricFamily};
 pub use measures::{EnergyPerPeriod, Measures, Peaks};
 pub use multipliers::{Leading, Multipliers};
-pub use newton::Convergence;
-pub use orbit::{Closure, Cycle, Orbit, Origin};
+pub use orbit::{Orbit, Origin};
+pub use special_point::SpecialPoint;
 pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_orbits};
 pub use two_impact::{
     ONE_ORBIT, SteadyOrbit, TwoImpactOrbits, attracting_orbits, steady_orbit, steady_orbits,

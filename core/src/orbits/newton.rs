@@ -6,13 +6,13 @@
 //! and the arclength) whatever the number of impacts.
 
 use nalgebra::{Matrix4, Matrix5, Vector4, Vector5};
-use serde::Serialize;
 
 use super::OrbitError;
 use super::admissibility::{Admissibility, Distances, is_motion};
+use super::cycle::{Closure, Convergence, Cycle};
 use super::impact_map::{ImpactMap, Step};
 use super::multipliers::Multipliers;
-use super::orbit::{Closure, Cycle, Orbit, Origin};
+use super::orbit::{Orbit, Origin};
 use crate::system::System;
 
 /// Steps before the iteration is given up: from a good start five are enough, and one that needs
@@ -30,15 +30,6 @@ const STALLED: f64 = 0.5;
 /// Update over the orbit's size above which a stalled iteration has failed: [`ACCEPTED`] over the
 /// distance of the nearest multiplier from +1, which is 1e-3 next to a saddle-node.
 const ROUNDING: f64 = 1e-7;
-
-/// How well a cycle closes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Convergence {
-    /// Largest defect of the closure and of the impact conditions, over the size of the orbit.
-    pub residual: f64,
-    /// Newton steps taken.
-    pub iterations: u32,
-}
 
 /// The defects of a cycle and its linearisation, condensed to its first state.
 #[derive(Debug, Clone)]

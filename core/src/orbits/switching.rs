@@ -4,11 +4,14 @@ use nalgebra::linalg::SVD;
 use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
-use super::branch::{Branch, Settings, SpecialPoint, collected};
+use super::branch::{Branch, Settings, collected};
+use super::cycle::{Closure, Cycle};
+use super::grazing::across;
 use super::impact_map::AfterImpact;
 use super::multipliers::LARGEST_SWEEPS;
 use super::newton::{Linearised, PARAMETER};
-use super::orbit::{Closure, Cycle, Orbit, Origin};
+use super::orbit::Origin;
+use super::special_point::SpecialPoint;
 use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
@@ -16,13 +19,6 @@ use crate::system::{Parameter, System};
 /// How far a new branch is entered, in the norm of the first state: far enough to tell it from the
 /// old one, near enough for its linearisation.
 const ENTRY: f64 = 1e-3;
-/// Relative changes of the parameter at which an orbit with one more impact is looked for beyond a
-/// grazing. It is born with a square root, so that Newton's method needs some room.
-const BEYOND: [f64; 6] = [1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3];
-
-/// Distance from the grazing orbit, over the clearance and in radians, within which an orbit with one
-/// more impact is the one that it becomes: some hundred times the largest change in [`BEYOND`].
-const GOES_ON: f64 = 0.1;
 
 /// The branch that leaves another at a symmetry breaking or a period doubling, on the side where it
 /// exists; both orbits of a broken symmetry are mirror images, of which one is followed.
@@ -110,44 +106,4 @@ pub fn continue_beyond(
     let along = Vector5::from(PARAMETER) * (there - scaled).signum();
     let first = tracer.correct(orbit.cycle, there, &along, &along)?;
     collected(&tracer, first, Origin::Switching, settings)
-}
-
-/// The sequence of walls of the orbit that goes on beyond a grazing, if Newton's method finds it.
-pub(super) fn beyond_grazing(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<String> {
-    across(tracer, scaled, orbit).map(|(found, _)| found.cycle.sequence())
-}
-
-/// The orbit with one more impact where `orbit` grazes, and the scaled parameter at which it was
-/// found.
-fn across(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<(Orbit, f64)> {
-    let with_contact = inserted(tracer, scaled, orbit)?;
-    BEYOND.iter().find_map(|change| {
-        let scaled = scaled * (1.0 + change);
-        let found = tracer.at(&with_contact, scaled)?;
-        let goes_on = found.cycle.distance(&with_contact) <= GOES_ON;
-        (goes_on && found.admissibility.admissible).then_some((found, scaled))
-    })
-}
-
-/// The cycle with the grazing contact counted as an impact.
-fn inserted(tracer: &Tracer, scaled: f64, orbit: &Orbit) -> Option<Cycle> {
-    let at = orbit.admissibility.narrowest?;
-    let map = tracer.map_at(scaled)?;
-    let mut cycle = orbit.cycle.clone();
-    let start = cycle.impacts[at.flight];
-    let duration = cycle.durations[at.flight];
-    let first = at.fraction * duration;
-    let leg = cycle.flights(&map)[at.flight];
-    let there = leg.oscillator(first);
-    let contact = AfterImpact {
-        wall: at.wall,
-        phase: start.phase + map.flight.frequency() * first,
-        x: there.x,
-        x_velocity: there.v,
-        y_velocity: start.y_velocity + leg.acceleration * first,
-    };
-    cycle.durations[at.flight] = first;
-    cycle.durations.insert(at.flight + 1, duration - first);
-    cycle.impacts.insert(at.flight + 1, contact);
-    Some(cycle)
 }

@@ -18,12 +18,13 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::admissibility::Admissibility;
+use super::cycle::{Closure, Convergence, Cycle};
 use super::equations as formulas;
 use super::flight::Flight;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
-use super::newton::{Convergence, Linearised};
-use super::orbit::{Closure, Cycle, Orbit, Origin};
+use super::newton::Linearised;
+use super::orbit::{Orbit, Origin};
 use super::{MOST_HIDDEN, OrbitError};
 use crate::numerics::bracket::bisected;
 use crate::numerics::scan::sign_changes;

@@ -7,9 +7,10 @@ use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
 use super::admissibility::Distances;
+use super::cycle::Cycle;
 use super::impact_map::ImpactMap;
 use super::newton::{Converged, PARAMETER, converge, corrected};
-use super::orbit::{Cycle, Orbit, Origin};
+use super::orbit::{Orbit, Origin};
 use crate::system::{Parameter, System};
 
 /// Smallest step before a branch is given up: the root of the precision of a point, over less the tangent

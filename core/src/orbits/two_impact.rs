@@ -30,10 +30,11 @@ use nalgebra::{Matrix2, RowVector2, Vector2};
 use serde::Serialize;
 
 use super::OrbitError;
+use super::cycle::{Closure, Cycle};
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
 use super::newton::{Converged, converge};
-use super::orbit::{Closure, Cycle, Orbit, Origin};
+use super::orbit::{Orbit, Origin};
 use super::symmetric::{SymmetricOrbit, attracting_orbit, symmetric_orbits};
 use crate::numerics::bracket::narrowed;
 use crate::numerics::chebyshev::Interpolant;

@@ -137,3 +137,29 @@ macro_rules! equations {
     };
 }
 pub(crate) use equations;
+
+impl Values {
+    /// The same values with all that follow from them: a symbol that is the left side of an equation
+    /// and has no value gets that of the right side, once it is a finite number.
+    pub fn completed<'a>(mut self, groups: impl IntoIterator<Item = &'a Group>) -> Self {
+        let all = groups.into_iter().flat_map(|group| group.equations);
+        let mut open: Vec<_> = all.map(|equation| (equation.left(), equation.right())).collect();
+        loop {
+            let before = open.len();
+            open.retain(|(left, right)| {
+                let Expr::Symbol(symbol) = *left else { return false };
+                match right.evaluate(&self) {
+                    Ok(value) if self.get(symbol).is_none() && value.is_finite() => {
+                        self.set(symbol, value);
+                        false
+                    }
+                    Ok(_) => false,
+                    Err(_) => true,
+                }
+            });
+            if open.len() == before {
+                return self;
+            }
+        }
+    }
+}
