@@ -2,7 +2,7 @@
 //! forcing and frequency.
 
 use crate::analysis::Analysis;
-use crate::orbits::branch::SpecialPoint;
+use crate::orbits::SpecialPoint;
 use crate::orbits::{BestClearance, Bifurcation, FullSystem};
 use crate::validation::clearances::{BoundaryAt, clearances};
 
