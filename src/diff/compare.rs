@@ -10,8 +10,18 @@ use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::motions::wilson;
 
 /// What has a way of its own; all else is compared value by value. Of these it is compared which fields there are.
-const APART: [&str; 9] =
-    ["criteria", "format", "inputs", "main", "name", "provenance", "source", "title", "verdict"];
+const APART: [&str; 10] = [
+    "asked",
+    "criteria",
+    "format",
+    "inputs",
+    "main",
+    "name",
+    "provenance",
+    "source",
+    "title",
+    "verdict",
+];
 
 /// Keys of counts that say how a result was found, follow from where a run happened to end, or are an index.
 const NOT_JUDGED: [&str; 8] =

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 
 use crate::case::Case;
 use crate::equations;
+use crate::orbits;
 use crate::orbits::flight::Flight;
-use crate::orbits::{self, symmetric_orbits};
 use crate::study::CaseStudy;
 use crate::symbolic::{Equation, Expr, Group, Symbol, Values, format_number};
 
@@ -65,9 +65,8 @@ fn case_values(case: &Case, study: &CaseStudy) -> Values {
 fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
     let system = &study.analysis.system;
     let values = case_values(case, study);
-    let (Ok(flight), Ok(orbits)) = (Flight::of(system), symmetric_orbits(system)) else {
-        return values;
-    };
+    let Ok(flight) = Flight::of(system) else { return values };
+    let orbits = &study.exact.orbits;
     let [impulse, rate_plus_one] = flight.half_period_response();
     let values = values.with(Symbol::g, impulse).with(Symbol::h, rate_plus_one);
     let shown = orbits.iter().rfind(|orbit| orbit.orbit.attracts()).or_else(|| orbits.last());

@@ -131,7 +131,7 @@ pub enum Finding {
     /// Whether 1:1 resonance is steady on either side; where it is not, it may go on with rests on a wall.
     Steady { below: bool, above: bool, rests: bool },
     /// Where motions led on either side.
-    ReachedMotion { below: ReachedMotion, above: ReachedMotion },
+    Reached { below: ReachedMotion, above: ReachedMotion },
     /// Steady 1:1 resonance and nothing else.
     OnlySteady,
     /// Steady 1:1 resonance beside a modulated response.

@@ -125,7 +125,7 @@ pub fn limits(exact: &FullSystem) -> Result<Vec<Claim>, StartError> {
             Statement::Limit { bifurcation: limit.kind },
             [
                 Finding::Steady { below: below.0, above: above.0, rests },
-                Finding::ReachedMotion { below: below.1, above: above.1 },
+                Finding::Reached { below: below.1, above: above.1 },
             ],
             Reason::EitherSide,
             Verdict::of(agrees(below) && agrees(above)),

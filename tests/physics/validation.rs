@@ -130,6 +130,6 @@ fn a_small_torus_beyond_a_limit_is_no_steady_motion() {
     assert_eq!(limit.predicted, predicted);
     let reached =
         |repeats_after| ReachedMotion { regime: Regime::TwoSymmetric, repeats_after, rests: false };
-    let seen = Finding::ReachedMotion { below: reached(Some(1)), above: reached(None) };
+    let seen = Finding::Reached { below: reached(Some(1)), above: reached(None) };
     assert_eq!((&limit.observed, limit.verdict), (&seen, Verdict::Confirmed));
 }

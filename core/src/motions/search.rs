@@ -263,7 +263,7 @@ impl Ground {
                 return Some(flight);
             }
             StartOutcome::Seen(sample) => match self.identified(&sample) {
-                Identified::KnownMotion(known) => Some(known),
+                Identified::Known(known) => Some(known),
                 Identified::Open => {
                     self.flown += flown;
                     let goes_on = sample.stop == Stop::EndTime;
@@ -322,11 +322,11 @@ impl Ground {
         let free =
             sample.evidence.impacts_per_period == 0.0 && (self.system.damping() == 0.0 || alone());
         if free || sample.evidence.periodicity.is_some_and(|found| found.impacts == 0) {
-            return self.at_rest(Some(sample)).map_or(Identified::Open, Identified::KnownMotion);
+            return self.at_rest(Some(sample)).map_or(Identified::Open, Identified::Known);
         }
         let Some(found) = sample.evidence.periodicity else { return Identified::Open };
         if let Some(near) = self.known.iter().position(|one| one.distance(&sample.end) < 1.0) {
-            return Identified::KnownMotion(near);
+            return Identified::Known(near);
         }
         let (kind, sample) = match Proof::of(&self.system, sample, found) {
             Proof::Leaves => return Identified::Leaves,
@@ -334,13 +334,13 @@ impl Ground {
             Proof::Is(kind, sample) => (kind, sample),
         };
         if let Some(known) = self.known.iter().position(|one| one.motion.kind.is_same(&kind)) {
-            return Identified::KnownMotion(known);
+            return Identified::Known(known);
         }
         let Some(motion) = Motion::proven(&self.system, kind, Some(&sample)) else {
             return Identified::Open;
         };
         self.known.push(KnownMotion::new(&self.system, motion));
-        Identified::KnownMotion(self.known.len() - 1)
+        Identified::Known(self.known.len() - 1)
     }
 
     /// Those that have not settled, with how far they go; none once they have shown what they are.
@@ -440,7 +440,7 @@ impl Ground {
 
 enum Identified {
     /// It is the known motion with this index.
-    KnownMotion(usize),
+    Known(usize),
     /// It is about to leave where it is.
     Leaves,
     /// It wanders, as far as is seen.

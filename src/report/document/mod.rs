@@ -133,7 +133,7 @@ pub fn document(source: &Source) -> Value {
         }),
         // The case in rigs that differ from it by a little, the worst first.
         "deviations": study.deviations.as_ref().map(|one| deviations::deviations(&scale, case, one)),
-        // Which layer content what.
+        // Which layer answered what.
         "answers": source.answers,
         "claims": study.claims.iter().map(|one| claims::claim(&scale, one)).collect::<Vec<_>>(),
         "inputs": case.inputs(),
