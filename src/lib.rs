@@ -33,6 +33,7 @@ pub mod report;
 pub mod store;
 pub mod study;
 pub mod sweep;
+pub mod tradeoff;
 pub mod transient;
 pub mod validation;
 

@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
-use vinesink::evidence::tradeoff::page::{Page, USUAL};
-use vinesink::evidence::tradeoff::{Tradeoff, TradeoffEffort, Trial};
 use vinesink::study::StudyError;
 use vinesink::system::{State, System};
+use vinesink::tradeoff::page::{Page, USUAL};
+use vinesink::tradeoff::{Tradeoff, TradeoffEffort, Trial};
 
 use super::budget::{BEST_ANSWER, Work};
 use super::case_file::{self, Format, OneCase};

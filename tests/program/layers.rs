@@ -111,6 +111,24 @@ const ROOMS: &[(&str, &[&str])] = &[
             "validation",
         ],
     ),
+    (
+        "tradeoff",
+        &[
+            "analysis",
+            "case",
+            "executor",
+            "method",
+            "motions",
+            "operation_count",
+            "orbits",
+            "quantity",
+            "regimes",
+            "report",
+            "simulation",
+            "study",
+            "system",
+        ],
+    ),
     ("case_input", &["case", "store"]),
     ("case_report", &["answer", "case", "executor", "report", "study"]),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
@@ -277,7 +295,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 29] = [
+const PURE: [&str; 30] = [
     "analysis",
     "answer",
     "band",
@@ -305,6 +323,7 @@ const PURE: [&str; 29] = [
     "symbolic",
     "system",
     "operation_count",
+    "tradeoff",
     "transient",
     "validation",
 ];
@@ -557,8 +576,8 @@ fn made_up_sources_are_refused() {
         ("evidence/reference/mod.rs", "use crate::evidence::extremes::Run;"),
         ("evidence/reference/mod.rs", "use super::extremes::Run;"),
         ("evidence/reference/real.rs", "use super::super::extremes::Run;"),
-        ("study/fidelity.rs", "use crate::evidence::tradeoff::Method;"),
-        ("report/document/mod.rs", "use crate::evidence::tradeoff::ErrorOf;"),
+        ("study/fidelity.rs", "use crate::tradeoff::Method;"),
+        ("report/document/mod.rs", "use crate::tradeoff::ErrorOf;"),
         ("simulation/run.rs", "use crate::evidence::reference::Reference;"),
         ("numerics/bracket.rs", "use crate::system::System;"),
         ("symbolic/expr.rs", "use crate::numerics::bracket;"),
