@@ -4,12 +4,13 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::answer::{Answer, Asked};
 use vinesink::method::Method;
+use vinesink::program::case_file;
+use vinesink::program::parallel::Parallel;
 use vinesink::report::console::Analysed;
 use vinesink::study::fidelity::Plan;
 
 use super::budget::{self, ANALYSIS, Work};
-use super::case_file::{self, OneCase};
-use super::parallel::Parallel;
+use super::one_case::{self, OneCase};
 use super::transient;
 
 /// Print what the theory and the exact orbits say of a case
@@ -25,7 +26,7 @@ pub struct Arguments {
     one: OneCase,
     /// Also answer by this layer [default: with [accuracy] in the case by the cheapest that is exact
     /// enough, else by none]
-    #[arg(long, value_parser = case_file::layer(), value_name = "LAYER")]
+    #[arg(long, value_parser = one_case::layer(), value_name = "LAYER")]
     fidelity: Option<Method>,
 }
 

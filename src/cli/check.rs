@@ -7,14 +7,15 @@ use miette::{IntoDiagnostic, Report, Result};
 use serde_json::json;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, CaseError};
+use vinesink::program::case_file::{self, Reading};
+use vinesink::program::output;
+use vinesink::program::parallel::Parallel;
 use vinesink::report::criteria::{Checked, junit};
 use vinesink::report::document::place::Place;
 use vinesink::report::render::RenderError;
 
 use super::budget::{self, Long, Work};
-use super::case_file::{self, Reading};
-use super::parallel::Parallel;
-use super::{output, transient};
+use super::transient;
 
 /// Hold each case against its criteria
 ///

@@ -7,9 +7,9 @@ use miette::{IntoDiagnostic, Result};
 use vinesink::evidence::extremes::contact::tables;
 use vinesink::evidence::extremes::layers::rows;
 use vinesink::evidence::extremes::{entries, holds, page, unit_checks};
-
-use super::index;
-use super::progress::Progress;
+use vinesink::program::progress::Progress;
+use vinesink::program::reports;
+use vinesink::report::render::Files;
 
 /// Ask every layer at the ends of its ranges and compare with 77 decimal digits
 ///
@@ -48,6 +48,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let contact = tables().into_diagnostic()?;
     progress.advance(1);
     let text = page(&outcomes, &layers, &contact, &units).into_diagnostic()?;
-    index::write_page(&arguments.out, "extremes.md", &text)?;
+    let files = Files::from([("extremes.md".into(), text.into_bytes())]);
+    reports::write_page(&arguments.out, "extremes.md", &files)?;
     Ok(holds(&outcomes, &layers, &units))
 }

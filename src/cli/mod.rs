@@ -3,7 +3,6 @@
 
 mod analyze;
 mod budget;
-mod case_file;
 mod check;
 mod completions;
 mod diff;
@@ -11,19 +10,15 @@ mod extremes;
 mod index;
 mod manual;
 mod new;
+mod one_case;
 mod optimize;
-mod output;
 mod paper;
-mod parallel;
-mod progress;
 mod report;
 mod schema;
 mod simulate;
 mod sweep;
 mod tradeoff;
 mod transient;
-
-use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
@@ -77,15 +72,9 @@ enum Command {
 }
 
 impl Cli {
-    /// The command that the arguments name; where they name none, the exit code after what was said of that.
-    pub fn of_arguments() -> Result<Self, ExitCode> {
-        Self::try_parse().map_err(|error| {
-            if !error.use_stderr() {
-                error.exit();
-            }
-            output::complain(error.to_string().trim_end());
-            ExitCode::from(2)
-        })
+    /// The command that the arguments name.
+    pub fn of_arguments() -> Result<Self, clap::Error> {
+        Self::try_parse()
     }
 
     /// Carries out the command; whether every check asked for holds.
@@ -108,10 +97,4 @@ impl Cli {
             Command::Manual(arguments) => manual::run(arguments),
         }
     }
-}
-
-/// Says on standard error why a command could not be carried out.
-pub fn could_not(error: &miette::Report) -> ExitCode {
-    output::complain_of(error);
-    ExitCode::from(2)
 }

@@ -8,12 +8,10 @@ use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
 use vinesink::case_report;
 use vinesink::evidence::paper::{CASES, CaseReport, SETS, TRANSFER, page};
-use vinesink::store::Output;
-
-use super::case_file::{self, Reading};
-use super::parallel::Parallel;
-use super::progress::Progress;
-use super::{index, output};
+use vinesink::program::case_file::{self, Reading};
+use vinesink::program::parallel::Parallel;
+use vinesink::program::progress::Progress;
+use vinesink::program::reports;
 
 /// Compare every figure of the paper with what the program finds
 ///
@@ -54,8 +52,6 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     }
     drop(progress);
     let files = page(&members, &Parallel).into_diagnostic()?;
-    Output::open(&arguments.out)?.add("", &files)?;
-    output::print_path(&arguments.out.join("paper.md"))?;
-    index::refresh(&arguments.out)?;
+    reports::write_page(&arguments.out, "paper.md", &files)?;
     Ok(true)
 }

@@ -9,14 +9,15 @@ use vinesink::answer::trajectory::{Impact, ImpactLog, followed};
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
 use vinesink::motions::{Effort, Measured};
+use vinesink::program::parallel::Parallel;
+use vinesink::program::{case_file, output};
 use vinesink::report::console::Simulated;
 use vinesink::store;
 use vinesink::system::State;
 
 use super::budget::Work;
-use super::case_file::{self, OneCase};
-use super::parallel::Parallel;
-use super::{budget, output, transient};
+use super::one_case::OneCase;
+use super::{budget, transient};
 
 /// Simulate a case directly, impact by impact
 ///

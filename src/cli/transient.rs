@@ -6,6 +6,8 @@ use miette::{IntoDiagnostic, Result, miette};
 use vinesink::case::{Case, Rounding};
 use vinesink::criteria::{self, Judged};
 use vinesink::excitation::Scene;
+use vinesink::program::parallel::Parallel;
+use vinesink::program::{case_file, output};
 use vinesink::report::render::Files;
 use vinesink::report::transient as page;
 use vinesink::simulation::Impact;
@@ -14,9 +16,7 @@ use vinesink::system::State;
 use vinesink::transient::{DecayStudy, Flight, Study, best_clearance};
 
 use super::budget::{Long, Work};
-use super::case_file::{self, Format, OneCase};
-use super::output;
-use super::parallel::Parallel;
+use super::one_case::{Format, OneCase};
 
 /// Refuses a case that is not driven steadily where a command is about steady vibration.
 pub fn steady(case: &Case, path: &Path, what: &str) -> Result<()> {

@@ -129,6 +129,8 @@ const ROOMS: &[(&str, &[&str])] = &[
             "system",
         ],
     ),
+    // What programs share on a command line.
+    ("program", &["case", "case_input", "executor", "report", "store"]),
     ("case_input", &["case", "store"]),
     ("case_report", &["answer", "case", "executor", "report", "study"]),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
@@ -605,6 +607,7 @@ fn made_up_sources_are_refused() {
         ("validation/mod.rs", "fn f() { dbg!(1); }"),
         ("case/mod.rs", "let text = std::fs::read_to_string(path);"),
         ("main.rs", "use std::fs;"),
+        ("report/mod.rs", "use crate::program::output;"),
         ("attic/mod.rs", "fn f() {}"),
     ];
     for (path, source) in wrong {
