@@ -26,7 +26,6 @@ pub mod case_report;
 pub mod criteria;
 pub mod diff;
 pub mod digest;
-pub mod evidence;
 pub mod optimize;
 #[cfg(feature = "cli")]
 pub mod program;

@@ -11,7 +11,7 @@ use vinesink::report::index;
 /// List the reports of a folder, with verdicts and key numbers, to sort and to compare
 ///
 /// Writes FOLDER/index.html and FOLDER/README.md from the report.json of every report in FOLDER.
-/// Once they are there, `report`, `paper`, `extremes` and `tradeoff` keep them up to date.
+/// Once they are there, `report`, `tradeoff` and `vinesink-evidence` keep them up to date.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
 pub struct Arguments {

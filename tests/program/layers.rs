@@ -11,7 +11,7 @@ use regex::Regex;
 
 /// Every room of the library and the rooms that it may use besides itself. Analysis, orbits and
 /// simulation are three independent answers to one question and never meet below `validation`. What shows
-/// that the product can be trusted, `evidence`, is used by the program alone; in it the reference shares
+/// that the product can be trusted, the crate of `evidence`, is used by no room; in it the reference shares
 /// nothing with what it judges.
 const ROOMS: &[(&str, &[&str])] = &[
     ("bifurcation", &[]),
@@ -88,7 +88,6 @@ const ROOMS: &[(&str, &[&str])] = &[
         "evidence",
         &[
             "analysis",
-            "answer",
             "band",
             "bifurcation",
             "case",
@@ -97,7 +96,6 @@ const ROOMS: &[(&str, &[&str])] = &[
             "executor",
             "flights",
             "linear",
-            "method",
             "motions",
             "operation_count",
             "orbits",
@@ -107,7 +105,6 @@ const ROOMS: &[(&str, &[&str])] = &[
             "simulation",
             "study",
             "system",
-            "transient",
             "validation",
         ],
     ),
@@ -388,8 +385,8 @@ fn expanded(tree: &str) -> Vec<String> {
 fn paths(source: &str) -> Vec<String> {
     let code = code(source);
     let statement = Regex::new(r"(?s)\buse\s+([^;]+);").expect("a pattern");
-    let inline = Regex::new(r"\b(?:crate|super|vinesink|vinesink_core|std|rand)(?:::\w+)+")
-        .expect("a pattern");
+    let inline =
+        Regex::new(r"\b(?:crate|super|vinesink\w*|std|rand)(?:::\w+)+").expect("a pattern");
     let mut found: Vec<String> =
         statement.captures_iter(&code).flat_map(|use_| expanded(&use_[1])).collect();
     let rest = statement.replace_all(&code, "");
@@ -402,6 +399,8 @@ fn destination<'a>(path: &'a str, room: &'a str, depth: usize) -> Option<&'a str
     let mut steps = path.split("::").map(str::trim);
     let supers = path.split("::").take_while(|step| step.trim() == "super").count();
     let first = match steps.next()? {
+        "crate" if room.starts_with("evidence") => "evidence",
+        "vinesink_evidence" => "evidence",
         "crate" | "vinesink" | "vinesink_core" => steps.next()?,
         "vinesink_figure" => "figure",
         "super" if supers >= depth => steps.nth(supers - 1)?,
@@ -466,8 +465,10 @@ fn sources() -> Vec<(String, String)> {
         }
     }
     let mut found = Vec::new();
-    // The crate of figures is one room.
-    for (folder, within) in [("src", ""), ("core/src", ""), ("figure/src", "figure/")] {
+    // The crates of figures and of evidence are a room each.
+    for (folder, within) in
+        [("src", ""), ("core/src", ""), ("figure/src", "figure/"), ("evidence/src", "evidence/")]
+    {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
         let mut files = Vec::new();
         collect(&root, &mut files);
@@ -475,7 +476,8 @@ fn sources() -> Vec<(String, String)> {
         found.extend(files.iter().map(|path| {
             let inside = path.strip_prefix(&root).expect("inside the folder");
             let name = inside.to_str().expect("UTF-8").replace('\\', "/");
-            let name = if name == "lib.rs" { name } else { format!("{within}{name}") };
+            let root = ["lib.rs", "main.rs"].contains(&name.as_str());
+            let name = if root { name } else { format!("{within}{name}") };
             (name, fs::read_to_string(path).expect("a source"))
         }));
     }
@@ -555,6 +557,8 @@ fn the_imports_of_the_program_are_seen() {
     assert_eq!(of("simulation/steps.rs"), ["numerics", "system"]);
     assert_eq!(of("simulation/flow.rs"), ["operation_count", "system"]);
     assert_eq!(of("analysis/mod.rs"), ["cavity", "system"]);
+    let contact = of("evidence/extremes/contact.rs");
+    assert_eq!(contact, ["evidence/reference", "simulation", "system"]);
     let study = of("study/mod.rs");
     assert!(study.contains(&"validation".into()) && study.contains(&"case".into()), "{study:?}");
 }
@@ -574,13 +578,13 @@ fn made_up_sources_are_refused() {
         ("simulation/run.rs", "use crate::{\n    numerics,\n    equations::equations,\n};"),
         ("orbits/mod.rs", "use crate::simulation::flow;"),
         ("orbits/mod.rs", "use crate::analysis::Manifold;"),
-        ("evidence/reference/mod.rs", "use crate::simulation::Simulation;"),
-        ("evidence/reference/mod.rs", "use crate::evidence::extremes::Run;"),
+        ("evidence/reference/mod.rs", "use vinesink::simulation::Simulation;"),
+        ("evidence/reference/mod.rs", "use crate::extremes::Run;"),
         ("evidence/reference/mod.rs", "use super::extremes::Run;"),
         ("evidence/reference/real.rs", "use super::super::extremes::Run;"),
         ("study/fidelity.rs", "use crate::tradeoff::Method;"),
         ("report/document/mod.rs", "use crate::tradeoff::ErrorOf;"),
-        ("simulation/run.rs", "use crate::evidence::reference::Reference;"),
+        ("simulation/run.rs", "use vinesink_evidence::reference::Reference;"),
         ("numerics/bracket.rs", "use crate::system::System;"),
         ("symbolic/expr.rs", "use crate::numerics::bracket;"),
         ("validation/mod.rs", "use crate::study::CaseStudy;"),
@@ -627,8 +631,8 @@ fn made_up_sources_that_keep_to_their_rooms_pass() {
         ("simulation/run.rs", "mod tests { use super::*; use crate::system::System; }"),
         ("numerics/bracket.rs", "use roots::find_root_brent;"),
         ("store.rs", "use std::fs;"),
-        ("evidence/extremes/measure.rs", "use crate::evidence::reference::Reference;"),
-        ("evidence/reference/mod.rs", "use oscillator::Motion;\nuse crate::system::System;"),
+        ("evidence/extremes/measure.rs", "use crate::reference::Reference;"),
+        ("evidence/reference/mod.rs", "use oscillator::Motion;\nuse vinesink::system::System;"),
         ("evidence/reference/oscillator.rs", "use super::real::Real;"),
         ("cli/output.rs", "use std::io; fn f() { println!(); }"),
     ];
