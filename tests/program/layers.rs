@@ -634,7 +634,7 @@ fn made_up_sources_that_keep_to_their_rooms_pass() {
         ("evidence/extremes/measure.rs", "use crate::reference::Reference;"),
         ("evidence/reference/mod.rs", "use oscillator::Motion;\nuse vinesink::system::System;"),
         ("evidence/reference/oscillator.rs", "use super::real::Real;"),
-        ("cli/output.rs", "use std::io; fn f() { println!(); }"),
+        ("program/output.rs", "use std::io; fn f() { println!(); }"),
     ];
     for (path, source) in right {
         assert_eq!(violations(path, source), [""; 0], "{path}: {source}");
