@@ -47,7 +47,8 @@ const NOT_IN_A_BROWSER: [&str; 21] = [
     "tradeoff",
 ];
 
-/// Writes a list of every file of `templates/`: its path there without `.tera`, and its text.
+/// Writes a list of every file of `templates/`: its path there without `.tera`, and its text. Those of the crate
+/// `evidence` are among them: they are filled in with the filters and components of the others.
 fn templates() -> Result<(), Box<dyn Error>> {
     let browser = std::env::var("CARGO_CFG_TARGET_ARCH")? == "wasm32";
     let mut list = String::from("&[\n");

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
-use vinesink::evidence::tradeoff::by_hand::{ByHand, Locate};
+use vinesink::tradeoff::by_hand::{ByHand, Locate};
 use vinesink::simulation::{Measurement, Simulation, Stop, batch};
 use vinesink::system::{Cavity, Parameters, State, System};
 use vinesink_benches as common;

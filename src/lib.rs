@@ -11,7 +11,7 @@
 //! | [`sweep`] | grids of designs in Parquet files | [`sweep::Plan::of`] |
 //! | [`case_report`], [`report`], [`diff`] | reports, and what changed between two | [`case_report::Report::of`] |
 //!
-//! The feature `cli` (default) adds the program; without it nothing here starts a thread.
+//! The feature `cli` (default) adds the program, and what it shares with others; without it nothing here starts a thread.
 //!
 //! Programs to start from are in `examples/`. The book is in `docs/src/`: `accuracy.md` says how exact each layer is,
 //! `limits.md` where the model ends. Modules may change at any time.
@@ -26,14 +26,16 @@ pub mod case_report;
 pub mod criteria;
 pub mod diff;
 pub mod digest;
-pub mod evidence;
 pub mod measure;
 pub mod optimize;
+#[cfg(feature = "cli")]
+pub mod program;
 pub mod quantity;
 pub mod report;
 pub mod store;
 pub mod study;
 pub mod sweep;
+pub mod tradeoff;
 pub mod transient;
 pub mod validation;
 

@@ -1,6 +1,6 @@
 """Theory, exact orbits, limits, decay and dampers at the ends of every parameter's range, in 80 digits (sweeps in 22).
 
-    python3 layers.py >../../src/evidence/extremes/layers.json
+    python3 layers.py >../../evidence/src/extremes/layers.json
 
 It shares nothing with the program, and uses none of its closed forms. The slow flow's fixed points are where its rates
 vanish, on a manifold that is solved for; its Jacobian is a difference quotient in 80 digits, and so is that of the map of

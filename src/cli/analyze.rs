@@ -4,13 +4,14 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::answer::{Answer, Asked};
 use vinesink::method::Method;
+use vinesink::program::case_file;
+use vinesink::program::parallel::Parallel;
 use vinesink::report::console::Analysed;
 use vinesink::report::document::Content;
 use vinesink::study::fidelity::LayerPlan;
 
 use super::budget::{self, Work};
-use super::case_file::{self, OneCase};
-use super::parallel::Parallel;
+use super::one_case::{self, OneCase};
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -25,7 +26,7 @@ pub struct Arguments {
     one: OneCase,
     /// Also answer by this layer [default: with [accuracy] in the case by the cheapest that is exact
     /// enough, else by none]
-    #[arg(long, value_parser = case_file::layer(), value_name = "LAYER")]
+    #[arg(long, value_parser = one_case::layer(), value_name = "LAYER")]
     fidelity: Option<Method>,
 }
 
@@ -39,7 +40,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
     let case = case_file::read(path, *reading)?;
     if case.design.release().is_none() {
-        case_file::steady(&case, path, "an analysis")?;
+        one_case::steady(&case, path, "an analysis")?;
     }
     let plan = LayerPlan::of_case(&case, arguments.fidelity).into_diagnostic()?;
     let work = Work::of(&case, Asked::Analysis, plan.as_ref());

@@ -13,13 +13,12 @@ use vinesink::excitation::Scene;
 use vinesink::flights::{seconds_of, with_closer};
 use vinesink::motions::{Effort, SettlingTime, longest_window};
 use vinesink::optimize::Task;
+use vinesink::program::progress::{Progress, duration};
 use vinesink::study::deviations::{self, Deviation};
 use vinesink::study::fidelity;
 use vinesink::sweep::{GridPoint, Plan};
 use vinesink::system::{State, System};
 use vinesink::transient::{DecayStudy, RELEASES, RecordStudy, SweepStudy, looked_at};
-
-use super::progress::{Progress, duration};
 
 /// Seconds that are ordinary: every shipped case takes a few.
 const ORDINARY: f64 = 60.0;

@@ -7,14 +7,14 @@ use miette::{IntoDiagnostic, Report, Result};
 use serde_json::json;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, CaseError};
+use vinesink::program::case_file::{self, Reading};
+use vinesink::program::output;
+use vinesink::program::parallel::Parallel;
 use vinesink::report::criteria::{Checked, junit};
 use vinesink::report::document::place::FilePlace;
 use vinesink::report::render::RenderError;
 
 use super::budget::{self, Long, Work};
-use super::case_file::{self, Reading};
-use super::output;
-use super::parallel::Parallel;
 
 /// Hold each case against its criteria
 ///

@@ -3,8 +3,9 @@
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 use miette::Result;
+use vinesink::program::output;
 
-use super::{Cli, output};
+use super::Cli;
 
 /// Print a script that completes vinesink's commands in a shell
 #[derive(Debug, Args)]

@@ -4,9 +4,9 @@ use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic as _, Result, WrapErr as _, miette};
 use vinesink::diff::Difference;
 use vinesink::diff::markdown::markdown;
+use vinesink::program::case_file::Reading;
+use vinesink::program::output;
 
-use super::case_file::Reading;
-use super::output;
 use side::ComparedSide;
 
 mod side;

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
 use miette::{IntoDiagnostic, Result};
+use vinesink::program::output;
 use vinesink::report::render::Files;
 use vinesink::store::Output;
 
-use super::{Cli, output};
+use super::Cli;
 
 /// Write a manual page for each command, as `man` reads it
 #[derive(Debug, Args)]

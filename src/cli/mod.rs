@@ -3,27 +3,21 @@
 
 mod analyze;
 mod budget;
-mod case_file;
 mod check;
 mod completions;
 mod diff;
-mod extremes;
 mod index;
 mod manual;
 mod new;
+mod one_case;
 mod optimize;
-mod output;
-mod paper;
-mod parallel;
-mod progress;
 mod report;
 mod schema;
 mod simulate;
 mod sweep;
 mod tradeoff;
 
-use std::process::ExitCode;
-
+use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 
 /// Design vibro-impact nonlinear energy sinks.
@@ -48,8 +42,6 @@ Examples:
   vinesink check damper.toml                    whether it meets its criteria
   vinesink index                                all reports of a folder on one page
   vinesink diff main HEAD                       what changed in the reports since main
-  vinesink paper                                the paper's figures against the reports
-  vinesink extremes                             the simulation at the ends of its range
   vinesink tradeoff damper.toml                 how much accuracy for how much work
   vinesink optimize damper.toml                 the clearance that serves it best
   vinesink sweep damper.toml                    a map over its parameters, as Parquet
@@ -65,8 +57,6 @@ enum Command {
     Check(check::Arguments),
     Index(index::Arguments),
     Diff(diff::Arguments),
-    Paper(paper::Arguments),
-    Extremes(extremes::Arguments),
     Tradeoff(tradeoff::Arguments),
     Optimize(optimize::Arguments),
     Sweep(sweep::Arguments),
@@ -76,15 +66,9 @@ enum Command {
 }
 
 impl Cli {
-    /// The command that the arguments name; where they name none, the exit code after what was said of that.
-    pub fn of_arguments() -> Result<Self, ExitCode> {
-        Self::try_parse().map_err(|error| {
-            if !error.use_stderr() {
-                error.exit();
-            }
-            output::complain(error.to_string().trim_end());
-            ExitCode::from(2)
-        })
+    /// The command that the arguments name.
+    pub fn of_arguments() -> Result<Self, clap::Error> {
+        Self::try_parse().map_err(moved)
     }
 
     /// Carries out the command; whether every check asked for holds.
@@ -97,8 +81,6 @@ impl Cli {
             Command::Check(arguments) => check::run(arguments),
             Command::Index(arguments) => index::run(arguments),
             Command::Diff(arguments) => diff::run(arguments),
-            Command::Paper(arguments) => paper::run(arguments),
-            Command::Extremes(arguments) => extremes::run(arguments),
             Command::Tradeoff(arguments) => tradeoff::run(arguments),
             Command::Optimize(arguments) => optimize::run(arguments),
             Command::Sweep(arguments) => sweep::run(arguments),
@@ -109,8 +91,13 @@ impl Cli {
     }
 }
 
-/// Says on standard error why a command could not be carried out.
-pub fn could_not(error: &miette::Report) -> ExitCode {
-    output::complain_of(error);
-    ExitCode::from(2)
+/// Says which program has a command now that was one of this.
+fn moved(mut error: clap::Error) -> clap::Error {
+    if let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand)
+        && ["paper", "extremes"].contains(&name.as_str())
+    {
+        let tip = format!("it is now `vinesink-evidence {name}`").into();
+        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+    }
+    error
 }

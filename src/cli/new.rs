@@ -6,9 +6,8 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use miette::{Result, miette};
 use vinesink::case::{Case, STARTING_KINDS};
+use vinesink::program::output;
 use vinesink::store;
-
-use super::output;
 
 /// Write a commented case to start from
 ///

@@ -11,14 +11,14 @@ use vinesink::case_report::Report;
 use vinesink::criteria;
 use vinesink::excitation::Scene;
 use vinesink::optimize::{Optimization, Task};
+use vinesink::program::parallel::Parallel;
+use vinesink::program::{case_file, output, reports};
 use vinesink::report::{optimize as page, transient as clearance};
 use vinesink::store;
 use vinesink::transient::best_clearance;
 
 use super::budget::Work;
-use super::case_file::{self, Format, OneCase};
-use super::parallel::Parallel;
-use super::{index, output};
+use super::one_case::{self, Format, OneCase};
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
@@ -66,7 +66,7 @@ A case says what it wants in
 
 /// Reads what a design is chosen for.
 fn objectives() -> impl TypedValueParser<Value = Objective> {
-    case_file::one_of(Objective::ALL.map(|objective| {
+    one_case::one_of(Objective::ALL.map(|objective| {
         let help = match objective {
             Objective::Z3Share => "Largest share of the band in area Z3 of the theory",
             Objective::StableShare => "Largest share of the band with a stable 1:1 orbit",
@@ -94,7 +94,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     }
     let given =
         [("--objective", arguments.objective.is_some()), ("--out", arguments.out.is_some())];
-    case_file::without(&case, path, &given)?;
+    one_case::without(&case, path, &given)?;
     if case.design.scene() != Scene::Steady {
         return arguments.clearance(&case, &text);
     }
@@ -104,7 +104,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     long.allows(path, &case, &Work::designs(&task))?;
     let found = Optimization::of(&task, &text, &Parallel).into_diagnostic()?;
     if let Some(out) = &arguments.out {
-        index::add_to_report(out, path, &page::files(&case, &found).into_diagnostic()?)?;
+        reports::add_to_report(out, path, &page::files(&case, &found).into_diagnostic()?)?;
     }
     let written = match &arguments.write {
         Some(new) => Some(written(new, &case, &found, arguments.robust)?),

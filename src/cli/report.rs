@@ -10,15 +10,16 @@ use vinesink::case::Case;
 use vinesink::case_report::Report;
 use vinesink::excitation::Scene;
 use vinesink::method::Method;
+use vinesink::program::case_file::{self, Reading};
+use vinesink::program::parallel::Parallel;
+use vinesink::program::{output, reports};
 use vinesink::report::live;
 use vinesink::report::render::{self, Files};
 use vinesink::store::{self, Output};
 use vinesink::study::fidelity::LayerPlan;
 
 use super::budget::{self, Long, Work};
-use super::case_file::{self, Reading};
-use super::parallel::Parallel;
-use super::{index, output};
+use super::one_case;
 
 /// Write the design report of each case
 ///
@@ -36,7 +37,7 @@ pub struct Arguments {
     out: PathBuf,
     /// The layer that answers [default: with [accuracy] in the case the cheapest that is exact enough,
     /// without it all of them, and simulation decides]
-    #[arg(long, value_parser = case_file::layer(), value_name = "LAYER")]
+    #[arg(long, value_parser = one_case::layer(), value_name = "LAYER")]
     fidelity: Option<Method>,
     /// Write nothing; say which files in OUT are not as this would write them, and exit with 1 if any.
     /// report.html is not looked at: it is the same report once more
@@ -82,7 +83,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         }
     }
     if !arguments.check {
-        index::refresh(&arguments.out).unwrap_or_else(|error| failures.push(error));
+        reports::refresh(&arguments.out).unwrap_or_else(|error| failures.push(error));
     }
     // One bad case does not keep the others from being written; each is named.
     output::last_of(failures)?;

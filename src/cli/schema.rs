@@ -3,8 +3,7 @@
 use clap::Args;
 use miette::Result;
 use vinesink::case;
-
-use super::output;
+use vinesink::program::output;
 
 /// Print the JSON Schema of a case file
 ///

@@ -10,6 +10,8 @@ use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
 use vinesink::excitation::Scene;
 use vinesink::motions::{Effort, Measured};
+use vinesink::program::parallel::Parallel;
+use vinesink::program::{case_file, output};
 use vinesink::report::console::Simulated;
 use vinesink::report::document::Content;
 use vinesink::report::transient as page;
@@ -17,10 +19,9 @@ use vinesink::store;
 use vinesink::system::State;
 use vinesink::transient::OneFlight;
 
+use super::budget;
 use super::budget::Work;
-use super::case_file::{self, OneCase};
-use super::parallel::Parallel;
-use super::{budget, output};
+use super::one_case::{self, OneCase};
 
 /// Simulate a case directly, impact by impact
 ///
@@ -64,7 +65,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
     let case = case_file::read(path, *reading)?;
     let Arguments { periods, discard, initial, impacts, .. } = &arguments;
-    case_file::without(&case, path, &[("--discard", discard.is_some())])?;
+    one_case::without(&case, path, &[("--discard", discard.is_some())])?;
     let one_flight = periods.is_some() || initial.is_some() || impacts.is_some();
     if case.design.scene() != Scene::Steady && one_flight {
         return arguments.flight(&case);

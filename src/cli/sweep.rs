@@ -12,13 +12,13 @@ use miette::{IntoDiagnostic, Result, miette};
 use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::case::Case;
 use vinesink::excitation::Scene;
+use vinesink::program::case_file::{self, Reading};
+use vinesink::program::output;
+use vinesink::program::progress::{Progress, duration};
 use vinesink::store::Shards;
 use vinesink::sweep::{Plan, parquet, work};
 
 use super::budget::{Long, Work};
-use super::case_file::{self, Reading};
-use super::output;
-use super::progress::{Progress, duration};
 
 /// Work out every point of a case's table [sweep]
 ///

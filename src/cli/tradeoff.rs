@@ -6,16 +6,16 @@ use std::time::Instant;
 
 use clap::Args;
 use miette::{IntoDiagnostic, Result};
-use vinesink::evidence::tradeoff::page::{Page, USUAL};
-use vinesink::evidence::tradeoff::{Tradeoff, TradeoffEffort, Trial};
+use vinesink::program::parallel::Parallel;
+use vinesink::program::progress::Progress;
+use vinesink::program::{case_file, reports};
 use vinesink::study::StudyError;
 use vinesink::system::{State, System};
+use vinesink::tradeoff::page::{Page, USUAL};
+use vinesink::tradeoff::{Tradeoff, TradeoffEffort, Trial};
 
 use super::budget::{BEST_ANSWER, Work};
-use super::case_file::{self, Format, OneCase};
-use super::index;
-use super::parallel::Parallel;
-use super::progress::Progress;
+use super::one_case::{self, Format, OneCase};
 
 /// Measure how much accuracy each layer gives for how much work
 ///
@@ -50,7 +50,7 @@ const LONG_ENOUGH: f64 = 0.2;
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long, reading } = &arguments.one;
     let case = case_file::read(path, *reading)?;
-    case_file::steady(&case, path, "a trade-off")?;
+    one_case::steady(&case, path, "a trade-off")?;
     let system = case.system();
     let effort = TradeoffEffort { search: case.effort(), ..TradeoffEffort::default() };
     let [starts, motion] = Work::motions(&case, &effort.search);
@@ -69,7 +69,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     drop(progress);
     let page = Page { case: &case, found: &found, allowed, seconds: None };
     if let Some(out) = &arguments.out {
-        index::add_to_report(out, path, &page.files().into_diagnostic()?)?;
+        reports::add_to_report(out, path, &page.files().into_diagnostic()?)?;
     }
     let timed = Page { seconds: timed.then_some(seconds.as_slice()), ..page };
     arguments.one.print(|| timed.text(), || timed.document())?;

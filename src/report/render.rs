@@ -80,7 +80,7 @@ pub fn files(
 ///
 /// # Errors
 /// [`RenderError`] says which part cannot be rendered.
-pub(crate) fn page_files(
+pub fn page_files(
     name: &str,
     template: &str,
     tone: Option<&str>,

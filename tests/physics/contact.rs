@@ -7,11 +7,11 @@
 use crate::common;
 use std::f64::consts::TAU;
 
-use vinesink::evidence::extremes::contact_costs;
 use vinesink::simulation::{
     Absorber, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
 };
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
+use vinesink_evidence::extremes::contact_costs;
 
 /// What happened first.
 #[derive(Default)]

@@ -1,9 +1,9 @@
 //! The reference in 77 digits with gravity along the cavity, friction in it and two restitutions: against motions
 //! worked out by hand, against the energy balance, and against Coulomb's law stepped through time.
 
-use vinesink::evidence::reference::real::{BITS, ROUND};
-use vinesink::evidence::reference::{Event, Reference, real::Real};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
+use vinesink_evidence::reference::real::{BITS, ROUND};
+use vinesink_evidence::reference::{Event, Reference, real::Real};
 
 /// So light an absorber that 77 digits do not show what it does to the oscillator beyond the 60th.
 const LIGHT: f64 = 1e-60;

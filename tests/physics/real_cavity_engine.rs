@@ -5,11 +5,11 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::common;
 use crate::fuzz::{Dice, fuzz};
-use vinesink::evidence::reference::{Event, Reference, real::Real};
 use vinesink::executor::Serial;
 use vinesink::motions::{Effort, Place, motions};
 use vinesink::simulation::{Impact, Observer, Reversal, Segment, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
+use vinesink_evidence::reference::{Event, Reference, real::Real};
 
 /// Relative speed of an impact, a rest's duration and a gap to a wall: what is smaller belongs to the end of a
 /// chattering sequence, which the engine may cut short.

@@ -124,17 +124,25 @@ fn steps(text: &str) -> Vec<Step> {
     steps
 }
 
-/// Runs a command as a reader would, both streams together.
-fn run(command: &str, folder: &Path) -> (i32, String) {
-    // Another build of the program, where that is quicker: `BOOK_PROGRAM=target/release/vinesink`.
+/// The programs whose commands the book describes.
+const PROGRAMS: [&str; 2] = ["vinesink", "vinesink-evidence"];
+
+/// The folder that they are in. Of the second, which belongs to another package, a test of this one alone does not
+/// make a new build.
+fn programs() -> PathBuf {
+    // Another build, where that is quicker: `BOOK_PROGRAM=target/release/vinesink`.
     let program = std::env::var_os("BOOK_PROGRAM").map(PathBuf::from);
     let program = program.unwrap_or_else(|| env!("CARGO_BIN_EXE_vinesink").into());
-    let program = program.parent().expect("a folder");
+    program.parent().expect("a folder").to_owned()
+}
+
+/// Runs a command as a reader would, both streams together.
+fn run(command: &str, folder: &Path) -> (i32, String) {
     let path = std::env::var("PATH").unwrap_or_default();
     let who = [("GIT_AUTHOR", "Reader"), ("GIT_COMMITTER", "Reader")];
     let mut shell = Command::new("sh");
     shell.current_dir(folder.join("work")).arg("-c").arg(format!("exec 2>&1\n{command}"));
-    shell.env_clear().env("PATH", format!("{}:{path}", program.display()));
+    shell.env_clear().env("PATH", format!("{}:{path}", programs().display()));
     // How often progress is told depends on the machine.
     shell.env("VINESINK_PROGRESS_SECONDS", "1000000");
     shell.env("HOME", folder).env("LC_ALL", "C.UTF-8").env("BOOK", docs().join("src"));
@@ -317,40 +325,39 @@ fn every_key_of_a_case_has_its_line() {
 #[test]
 fn every_command_has_its_page() {
     let summary = &pages()["SUMMARY.md"];
-    for command in subcommands(&[]) {
-        let page = format!("commands/{command}.md");
-        let text = pages().remove(&page).unwrap_or_else(|| panic!("no docs/src/{page}"));
-        assert!(summary.contains(&format!("]({page})")), "docs/src/SUMMARY.md lacks {page}");
-        for below in subcommands(&[&command]) {
-            let named = format!("vinesink {command} {below}");
-            assert!(text.contains(&named), "docs/src/{page} lacks `{named}`");
-        }
-        for option in options(&command) {
-            assert!(text.contains(&option), "docs/src/{page} lacks {option}");
+    for program in PROGRAMS {
+        for command in subcommands(program, &[]) {
+            let page = format!("commands/{command}.md");
+            let text = pages().remove(&page).unwrap_or_else(|| panic!("no docs/src/{page}"));
+            assert!(summary.contains(&format!("]({page})")), "docs/src/SUMMARY.md lacks {page}");
+            for below in subcommands(program, &[&command]) {
+                let named = format!("{program} {command} {below}");
+                assert!(text.contains(&named), "docs/src/{page} lacks `{named}`");
+            }
+            for option in options(program, &command) {
+                assert!(text.contains(&option), "docs/src/{page} lacks {option}");
+            }
         }
     }
 }
 
-fn help(of: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_vinesink"))
-        .args(of)
-        .arg("--help")
-        .output()
-        .expect("it runs");
+fn help(program: &str, of: &[&str]) -> String {
+    let output = Command::new(programs().join(program)).args(of).arg("--help").output();
+    let output = output.unwrap_or_else(|error| panic!("{program}: {error}; run cargo build"));
     String::from_utf8(output.stdout).expect("text")
 }
 
-fn subcommands(of: &[&str]) -> Vec<String> {
-    let help = help(of);
+fn subcommands(program: &str, of: &[&str]) -> Vec<String> {
+    let help = help(program, of);
     let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1);
     let lines = lines.take_while(|line| !line.is_empty());
     let names = lines.filter_map(|line| line.split_whitespace().next());
     names.filter(|name| *name != "help").map(str::to_owned).collect()
 }
 
-fn options(command: &str) -> Vec<String> {
+fn options(program: &str, command: &str) -> Vec<String> {
     let option = Regex::new(r"(?m)^ +(--[a-z-]+)").expect("a pattern");
-    let help = help(&[command]);
+    let help = help(program, &[command]);
     option.captures_iter(&help).map(|found| found[1].to_owned()).collect()
 }
 

@@ -208,6 +208,14 @@ fn one_of(value: &Value, words: &[&str]) -> bool {
 }
 
 #[test]
+fn a_command_that_another_program_has_now_says_so() {
+    for name in ["paper", "extremes"] {
+        let message = refused(&[name, "--out", "reports"]);
+        assert!(message.contains(&format!("`vinesink-evidence {name}`")), "{message}");
+    }
+}
+
+#[test]
 fn analyze_prints_the_contract_for_every_shipped_case() {
     for path in shipped_cases() {
         let case = path.to_str().expect("UTF-8");

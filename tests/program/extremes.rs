@@ -2,9 +2,6 @@
 
 use crate::common;
 use assert_cmd::Command;
-use vinesink::evidence::extremes::layers::rows;
-use vinesink::evidence::extremes::{Layer, Verdict, entries, unit_checks};
-use vinesink::evidence::reference::{Event, Reference};
 use vinesink::executor::Serial;
 use vinesink::motions::{Effort, Place, motions};
 use vinesink::operation_count::counted;
@@ -13,53 +10,6 @@ use vinesink::simulation::{Energy, Measurement, Simulation, Stop};
 use vinesink::system::{Parameters, State, System};
 
 const START: State = State { x: 0.25, x_velocity: 0.3, y: -0.4, y_velocity: 0.6 };
-
-/// Every entry but the long runs, which the committed page has.
-#[test]
-fn whatever_is_trusted_agrees_with_the_reference() {
-    let mut seen = [0; 3];
-    for entry in entries().expect("a valid list") {
-        if entry.periods > 1000 {
-            continue;
-        }
-        let outcome = entry.outcome();
-        let name = format!("{:?} {:?}", outcome.entry.varied, outcome.entry.start);
-        match outcome.verdict {
-            Verdict::Holds => {
-                let comparison = outcome.measured.and_then(|measured| measured.comparison);
-                assert!(
-                    comparison.is_some_and(|found| found.events >= 6),
-                    "{name}: {comparison:?}"
-                );
-                seen[0] += 1;
-            }
-            Verdict::Flagged(_) => seen[1] += 1,
-            Verdict::Refused(_) => seen[2] += 1,
-            Verdict::Wrong => panic!("{name}: {:?}", outcome.measured),
-        }
-    }
-    assert!(seen[0] > 30 && seen[1] > 2 && seen[2] == 1, "{seen:?}");
-}
-
-/// Theory, decay, exact orbits, their limits and dampers against a table of 80 digits, each row within its budget of
-/// operations.
-#[test]
-fn every_layer_holds_or_says_why() {
-    let mut held = Layer::ALL.map(|layer| (layer, 0));
-    let mut wrong = Vec::new();
-    for row in rows().expect("a table") {
-        let outcome = row.outcome().expect("a valid system");
-        match outcome.verdict {
-            Verdict::Wrong => wrong.push(format!("{row:?}: {:?}", outcome.wrong)),
-            Verdict::Holds if outcome.compared > 0 => {
-                held.iter_mut().filter(|(layer, _)| *layer == row.layer).for_each(|one| one.1 += 1);
-            }
-            _ => {}
-        }
-    }
-    assert!(wrong.is_empty(), "{}: {wrong:#?}", wrong.len());
-    assert!(held.iter().all(|(_, count)| *count >= 20), "{held:?}");
-}
 
 /// A structure damped a million times more than critically comes back so slowly that no start settles: it is
 /// measured where it is, and not flown on for millions of periods.
@@ -72,13 +22,6 @@ fn an_overdamped_structure_is_not_waited_for() {
     assert!(found.iter().any(|motion| motion.reached().starts > 0));
     // 1.2e8, of some thousand periods of four starts, of which hundreds of times as many were flown.
     assert!(operations < 300_000_000, "{operations:e}");
-}
-
-#[test]
-fn a_design_does_not_know_its_unit_of_length() {
-    for check in unit_checks().expect("valid cases") {
-        assert!(check.holds && check.impacts > 20, "{check:?}");
-    }
 }
 
 /// Far beyond any physics: the run ends, and is not trusted.
@@ -158,26 +101,6 @@ fn each_reason_to_doubt_is_given_where_it_applies_and_not_elsewhere() {
     assert_eq!(kinds(Stop::EndTime, &undefined, 1e-15, 1.0), ["energy"]);
     assert_eq!(kinds(Stop::EndTime, &sound, 2e-9, 1.0), ["penetration"]);
     assert_eq!(kinds(Stop::EndTime, &sound, 0.0, 1e7), ["resolution"]);
-}
-
-/// An unforced, undamped oscillator at rest and an absorber that drifts to the wall.
-#[test]
-fn the_reference_knows_what_can_be_worked_out_by_hand() {
-    let system = System::new(Parameters {
-        mass_ratio: 0.5,
-        damping: 0.0,
-        restitution: 0.5,
-        forcing_per_clearance: 0.0,
-        ..common::table_1(8.0, 7.5).parameters()
-    })
-    .expect("valid");
-    let start = State { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.25 };
-    let mut reference = Reference::new(&system, start, 0.0);
-    let Some(Event::Impact { tau, side, x, loss, sticks }) = reference.next(10.0) else { panic!() };
-    assert_eq!((tau, side, x, sticks), (4.0, -1.0, 0.0, false));
-    // eps (1 - r^2) u^2 / (2 (1 + eps)) = 0.5 * 0.75 / 16 / 3
-    assert!((loss - 0.0078125).abs() < 1e-17, "{loss}");
-    assert_eq!(Reference::new(&system, start, 0.0).next(3.9), None);
 }
 
 #[test]

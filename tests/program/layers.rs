@@ -11,7 +11,7 @@ use regex::Regex;
 
 /// Every room of the library and the rooms that it may use besides itself. Analysis, orbits and
 /// simulation are three independent answers to one question and never meet below `validation`. What shows
-/// that the product can be trusted, `evidence`, is used by the program alone; in it the reference shares
+/// that the product can be trusted, the crate of `evidence`, is used by no room; in it the reference shares
 /// nothing with what it judges.
 const ROOMS: &[(&str, &[&str])] = &[
     ("bifurcation", &[]),
@@ -93,7 +93,6 @@ const ROOMS: &[(&str, &[&str])] = &[
         "evidence",
         &[
             "analysis",
-            "answer",
             "band",
             "bifurcation",
             "case",
@@ -102,6 +101,24 @@ const ROOMS: &[(&str, &[&str])] = &[
             "executor",
             "flights",
             "linear",
+            "motions",
+            "operation_count",
+            "orbits",
+            "quantity",
+            "regimes",
+            "report",
+            "simulation",
+            "study",
+            "system",
+            "validation",
+        ],
+    ),
+    (
+        "tradeoff",
+        &[
+            "analysis",
+            "case",
+            "executor",
             "method",
             "motions",
             "operation_count",
@@ -112,10 +129,10 @@ const ROOMS: &[(&str, &[&str])] = &[
             "simulation",
             "study",
             "system",
-            "transient",
-            "validation",
         ],
     ),
+    // What programs share on a command line.
+    ("program", &["case", "case_input", "executor", "report", "store"]),
     ("case_input", &["case", "store"]),
     ("case_report", &["answer", "case", "executor", "report", "study"]),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
@@ -291,7 +308,7 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 /// Rooms in which there is physics and nothing else: no files, no clock, no printing, no threads, no
 /// randomness.
-const PURE: [&str; 29] = [
+const PURE: [&str; 30] = [
     "analysis",
     "answer",
     "band",
@@ -319,6 +336,7 @@ const PURE: [&str; 29] = [
     "symbolic",
     "system",
     "operation_count",
+    "tradeoff",
     "transient",
     "validation",
 ];
@@ -381,8 +399,8 @@ fn expanded(tree: &str) -> Vec<String> {
 fn paths(source: &str) -> Vec<String> {
     let code = code(source);
     let statement = Regex::new(r"(?s)\buse\s+([^;]+);").expect("a pattern");
-    let inline = Regex::new(r"\b(?:crate|super|vinesink|vinesink_core|std|rand)(?:::\w+)+")
-        .expect("a pattern");
+    let inline =
+        Regex::new(r"\b(?:crate|super|vinesink\w*|std|rand)(?:::\w+)+").expect("a pattern");
     let mut found: Vec<String> =
         statement.captures_iter(&code).flat_map(|use_| expanded(&use_[1])).collect();
     let rest = statement.replace_all(&code, "");
@@ -395,6 +413,8 @@ fn destination<'a>(path: &'a str, room: &'a str, depth: usize) -> Option<&'a str
     let mut steps = path.split("::").map(str::trim);
     let supers = path.split("::").take_while(|step| step.trim() == "super").count();
     let first = match steps.next()? {
+        "crate" if room.starts_with("evidence") => "evidence",
+        "vinesink_evidence" => "evidence",
         "crate" | "vinesink" | "vinesink_core" => steps.next()?,
         "vinesink_figure" => "figure",
         "super" if supers >= depth => steps.nth(supers - 1)?,
@@ -459,8 +479,10 @@ fn sources() -> Vec<(String, String)> {
         }
     }
     let mut found = Vec::new();
-    // The crate of figures is one room.
-    for (folder, within) in [("src", ""), ("core/src", ""), ("figure/src", "figure/")] {
+    // The crates of figures and of evidence are a room each.
+    for (folder, within) in
+        [("src", ""), ("core/src", ""), ("figure/src", "figure/"), ("evidence/src", "evidence/")]
+    {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
         let mut files = Vec::new();
         collect(&root, &mut files);
@@ -468,7 +490,8 @@ fn sources() -> Vec<(String, String)> {
         found.extend(files.iter().map(|path| {
             let inside = path.strip_prefix(&root).expect("inside the folder");
             let name = inside.to_str().expect("UTF-8").replace('\\', "/");
-            let name = if name == "lib.rs" { name } else { format!("{within}{name}") };
+            let root = ["lib.rs", "main.rs"].contains(&name.as_str());
+            let name = if root { name } else { format!("{within}{name}") };
             (name, fs::read_to_string(path).expect("a source"))
         }));
     }
@@ -562,6 +585,8 @@ fn the_imports_of_the_program_are_seen() {
     assert_eq!(of("simulation/steps.rs"), ["numerics", "system"]);
     assert_eq!(of("simulation/flow.rs"), ["operation_count", "system"]);
     assert_eq!(of("analysis/mod.rs"), ["cavity", "system"]);
+    let contact = of("evidence/extremes/contact.rs");
+    assert_eq!(contact, ["evidence/reference", "simulation", "system"]);
     let study = of("study/mod.rs");
     assert!(study.contains(&"validation".into()) && study.contains(&"case".into()), "{study:?}");
 }
@@ -581,13 +606,13 @@ fn made_up_sources_are_refused() {
         ("simulation/run.rs", "use crate::{\n    numerics,\n    equations::equations,\n};"),
         ("orbits/mod.rs", "use crate::simulation::flow;"),
         ("orbits/mod.rs", "use crate::analysis::Manifold;"),
-        ("evidence/reference/mod.rs", "use crate::simulation::Simulation;"),
-        ("evidence/reference/mod.rs", "use crate::evidence::extremes::Run;"),
+        ("evidence/reference/mod.rs", "use vinesink::simulation::Simulation;"),
+        ("evidence/reference/mod.rs", "use crate::extremes::Run;"),
         ("evidence/reference/mod.rs", "use super::extremes::Run;"),
         ("evidence/reference/real.rs", "use super::super::extremes::Run;"),
-        ("study/fidelity.rs", "use crate::evidence::tradeoff::Method;"),
-        ("report/document/mod.rs", "use crate::evidence::tradeoff::ErrorOf;"),
-        ("simulation/run.rs", "use crate::evidence::reference::Reference;"),
+        ("study/fidelity.rs", "use crate::tradeoff::Method;"),
+        ("report/document/mod.rs", "use crate::tradeoff::ErrorOf;"),
+        ("simulation/run.rs", "use vinesink_evidence::reference::Reference;"),
         ("numerics/bracket.rs", "use crate::system::System;"),
         ("symbolic/expr.rs", "use crate::numerics::bracket;"),
         ("validation/mod.rs", "use crate::study::CaseStudy;"),
@@ -614,6 +639,7 @@ fn made_up_sources_are_refused() {
         ("validation/mod.rs", "fn f() { dbg!(1); }"),
         ("case/mod.rs", "let text = std::fs::read_to_string(path);"),
         ("main.rs", "use std::fs;"),
+        ("report/mod.rs", "use crate::program::output;"),
         ("attic/mod.rs", "fn f() {}"),
     ];
     for (path, source) in wrong {
@@ -633,10 +659,10 @@ fn made_up_sources_that_keep_to_their_rooms_pass() {
         ("simulation/run.rs", "mod tests { use super::*; use crate::system::System; }"),
         ("numerics/bracket.rs", "use roots::find_root_brent;"),
         ("store.rs", "use std::fs;"),
-        ("evidence/extremes/measure.rs", "use crate::evidence::reference::Reference;"),
-        ("evidence/reference/mod.rs", "use oscillator::Motion;\nuse crate::system::System;"),
+        ("evidence/extremes/measure.rs", "use crate::reference::Reference;"),
+        ("evidence/reference/mod.rs", "use oscillator::Motion;\nuse vinesink::system::System;"),
         ("evidence/reference/oscillator.rs", "use super::real::Real;"),
-        ("cli/output.rs", "use std::io; fn f() { println!(); }"),
+        ("program/output.rs", "use std::io; fn f() { println!(); }"),
     ];
     for (path, source) in right {
         assert_eq!(violations(path, source), [""; 0], "{path}: {source}");

@@ -29,7 +29,6 @@ mod layers;
 mod live;
 mod metadata;
 mod optimize;
-mod paper;
 mod readers;
 mod record;
 mod reduced;

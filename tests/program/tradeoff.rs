@@ -10,8 +10,6 @@ use vinesink::analysis::slow_motion::{SlowEnd, SlowFlow};
 use vinesink::analysis::{Analysis, FixedPoint};
 use vinesink::case::Case;
 use vinesink::equations::{self, slow_flow};
-use vinesink::evidence::tradeoff::by_hand::{ByHand, Flights, Locate};
-use vinesink::evidence::tradeoff::{Layer, Method, Search, Tradeoff, TradeoffEffort, Trial};
 use vinesink::executor::Serial;
 use vinesink::method::Method as Known;
 use vinesink::motions::{Effort, Motions, Place, motions};
@@ -24,6 +22,8 @@ use vinesink::study::fidelity::{AccuracyTarget, Answers, KnownBy, LayerPlan, Que
 use vinesink::study::{CaseStudy, StudyError};
 use vinesink::symbolic::Symbol;
 use vinesink::system::{Parameters, State, System};
+use vinesink::tradeoff::by_hand::{ByHand, Flights, Locate};
+use vinesink::tradeoff::{Layer, Method, Search, Tradeoff, TradeoffEffort, Trial};
 
 const START: State = State { x: 0.3, x_velocity: -0.2, y: 0.1, y_velocity: 0.5 };
 

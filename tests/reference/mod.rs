@@ -5,9 +5,9 @@
 
 use std::cell::RefCell;
 
-pub use vinesink::evidence::reference::real::Real;
-use vinesink::evidence::reference::real::{BITS, Consts, ROUND};
 use vinesink::system::{Parameters, System};
+pub use vinesink_evidence::reference::real::Real;
+use vinesink_evidence::reference::real::{BITS, Consts, ROUND};
 
 /// Distance from a wall, over the clearance, that no motion here crosses and comes back within one
 /// step: an eighth of its square times accelerations of some clearances.

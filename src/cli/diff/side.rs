@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::super::output::word;
 use miette::Result;
 use vinesink::diff::{CurrentCase, Document, Remedy, Reports};
 use vinesink::digest::sha256;
+use vinesink::program::output::word;
 use vinesink::store::{self, Reach, StoredReport};
 
 /// Folders above a report in which its case is looked for: its own, that of all reports, the project's, and

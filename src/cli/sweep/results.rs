@@ -6,6 +6,8 @@ use ::csv::Writer;
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
 use vinesink::digest::sha256;
+use vinesink::program::progress::Progress;
+use vinesink::program::{output, reports};
 use vinesink::report::sweep::{AxisShown, MOST_POINTS, Swept};
 use vinesink::store::{self, Growing, Output};
 use vinesink::sweep::columns::{self, Column};
@@ -14,8 +16,6 @@ use vinesink::sweep::limits::{StabilityLimit, stability_limits};
 use vinesink::sweep::parquet;
 use vinesink::system::Parameter;
 
-use super::super::progress::Progress;
-use super::super::{index, output};
 use super::{Sweep, shown};
 
 /// What is written besides the results.
@@ -116,7 +116,7 @@ impl Sweep {
         let files = swept.files()?;
         let out = reports.unwrap_or(&self.out);
         Output::open(out)?.add(&self.name, &files)?;
-        reports.map_or(Ok(()), index::refresh)?;
+        reports.map_or(Ok(()), reports::refresh)?;
         output::print_path(&out.join(&self.name).join("sweep.html"))
     }
 

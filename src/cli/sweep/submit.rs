@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use miette::Result;
 use vinesink::case::{Case, Recording};
+use vinesink::program::output::{self, word};
 use vinesink::store::{self, Output};
 
-use super::{Long, Sweep, Where, output, shown};
+use super::{Long, Sweep, Where, shown};
 use job::Job;
-use output::word;
 
 /// Submit all chunks to the engine of a cluster, and the merge after them
 ///

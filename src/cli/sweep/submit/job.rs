@@ -7,12 +7,12 @@ use std::process::Command;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
 use serde_json::json;
 use vinesink::digest::sha256;
+use vinesink::program::output::word;
 use vinesink::quantity::Units;
 use vinesink::report::template::render;
 
 use super::super::{Sweep, shown};
 use super::{Arguments, Engine};
-use crate::cli::output::word;
 
 /// Tasks unless said otherwise: one less than the number that Slurm allows in an array, 1001, unless it
 /// is told to allow more.

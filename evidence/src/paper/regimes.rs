@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{CaseSet, PaperError, Section, TRANSFER};
-use crate::regimes::Regime;
+use vinesink::regimes::Regime;
 
 /// The cases of Fig. 4 with the regime that the paper shows.
 const FIGURE_4: [(&str, &str, Regime); 5] = [

@@ -181,13 +181,13 @@ fn flights(found: &Tradeoff) -> Option<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::tradeoff::TradeoffEffort;
     use crate::executor::Serial;
     use crate::motions::Effort;
+    use crate::tradeoff::TradeoffEffort;
 
     #[test]
     fn page_and_terminal_say_what_is_enough() {
-        let text = include_str!("../../../cases/li2016-8hz-b7p5mm.toml");
+        let text = include_str!("../../cases/li2016-8hz-b7p5mm.toml");
         let case = Case::parse("case.toml", text).expect("a case");
         let effort = TradeoffEffort {
             search: Effort { starts: 2, discard: Some(100), ..Effort::over(50) },

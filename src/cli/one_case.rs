@@ -1,25 +1,24 @@
-//! Reading the case that a command is given.
+//! What commands on one case have in common.
 
 use std::error::Error;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
-use miette::{IntoDiagnostic, NamedSource, Report, Result, miette};
+use miette::{IntoDiagnostic, Result, miette};
 use serde::Serialize;
 use vinesink::answer::Answer;
 use vinesink::case::Case;
-use vinesink::case_input::{self, CaseInputError};
 use vinesink::excitation::Scene;
 use vinesink::method::Method;
+use vinesink::program::case_file::{Reading, name};
+use vinesink::program::output;
 use vinesink::report::document::Content;
 use vinesink::report::transient;
-use vinesink::store::Reach;
 
 use super::budget::Long;
-use super::output;
 
-/// What commands on one case have in common.
+/// The case, how its result is printed, and what is allowed.
 #[derive(Debug, Args)]
 pub struct OneCase {
     /// The case file
@@ -32,21 +31,6 @@ pub struct OneCase {
     pub long: Long,
     #[command(flatten)]
     pub reading: Reading,
-}
-
-/// What may be read.
-#[derive(Debug, Clone, Copy, Args)]
-pub struct Reading {
-    /// Also read files outside of the folder of the case, or of the reports, where a case or a link leads to them
-    #[arg(long)]
-    pub allow_outside: bool,
-}
-
-impl Reading {
-    /// How far paths and links may lead.
-    pub fn reach(self) -> Reach {
-        if self.allow_outside { Reach::Anywhere } else { Reach::Folder }
-    }
 }
 
 /// Refuses a case that is not driven steadily where a command is about steady vibration.
@@ -96,44 +80,6 @@ impl OneCase {
             Format::Json => output::print_json(&json()),
         }
     }
-}
-
-/// The name of a case: that of its file, without what stands behind the last point.
-pub fn name(path: &Path) -> Result<String> {
-    let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
-    let name = stem.to_string_lossy().into_owned();
-    match Path::new(&name).components().next() {
-        // What receives its report must be a folder of its own.
-        Some(Component::Normal(_)) => Ok(name),
-        _ => Err(miette!(
-            help = "rename it, for example to damper.toml",
-            "{} has no name before its ending",
-            path.display()
-        )),
-    }
-}
-
-/// Reads a case file.
-pub fn read(path: &Path, reading: Reading) -> Result<Case> {
-    read_with_text(path, reading).map(|(case, _)| case)
-}
-
-/// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.
-pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
-    let (case, text) = case_input::read(path, reading.reach()).map_err(|error| match error {
-        CaseInputError::Case(error) => Report::new(error),
-        CaseInputError::Record { source, .. } => Report::new(source)
-            .wrap_err(format!("{}: the record of its excitation cannot be read", path.display())),
-        CaseInputError::File(error) => Report::new(error),
-    })?;
-    let name = path.display().to_string();
-    let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    for warning in case.warnings() {
-        let source = NamedSource::new(&name, visible.to_owned());
-        let shown = Report::new(warning.clone()).with_source_code(source);
-        output::complain_of(&shown);
-    }
-    Ok((case, text))
 }
 
 /// How a result is printed.

@@ -4,9 +4,9 @@
 use std::io::{self, ErrorKind, IsTerminal as _, Write};
 use std::path::Path;
 
+use crate::report::escape::is_control;
 use miette::{GraphicalReportHandler, GraphicalTheme, IntoDiagnostic, Report, Result, WrapErr};
 use serde::Serialize;
-use vinesink::report::escape::is_control;
 
 /// Writes a result to standard output. A reader that stops early, such as `head`, is no error.
 pub fn print(text: impl AsRef<str>) -> Result<()> {

@@ -1,7 +1,7 @@
 //! Independent evaluations on all processors.
 
+use crate::executor::Executor;
 use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
-use vinesink::executor::Executor;
 
 use super::progress::Progress;
 

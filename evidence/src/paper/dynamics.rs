@@ -3,11 +3,11 @@
 use serde_json::{Value, json};
 
 use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, Section, TRANSFER};
-use crate::analysis::Manifold;
-use crate::regimes::Regime;
-use crate::study::plots::restitutions::Strongest;
-use crate::study::plots::traces::Part;
-use crate::study::plots::{Modulation, Restitutions, Transfer};
+use vinesink::analysis::Manifold;
+use vinesink::regimes::Regime;
+use vinesink::study::plots::restitutions::Strongest;
+use vinesink::study::plots::traces::Part;
+use vinesink::study::plots::{Modulation, Restitutions, Transfer};
 
 /// While captured the motion may be this far from the stable branch, relative in `C`: steps between
 /// impacts of a few percent are what the paper's enlargement shows.

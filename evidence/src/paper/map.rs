@@ -5,16 +5,16 @@ use serde_json::{Value, json};
 
 use super::PaperError;
 use super::detuning::{Set, panels};
-use crate::case::Case;
-use crate::executor::{self, Executor};
-use crate::motions::{Effort, follow, starts};
-use crate::regimes::Regime;
-use crate::report::figure::{
+use vinesink::case::Case;
+use vinesink::executor::{self, Executor};
+use vinesink::motions::{Effort, follow, starts};
+use vinesink::regimes::Regime;
+use vinesink::report::figure::{
     Axis, Cells, Color, Dash, Figure, Image, Key, Layer, Layout, MarkedPoint, Marker, Panel, Scale,
     Shape, Style, Tint, edges,
 };
-use crate::study::StudyError;
-use crate::system::System;
+use vinesink::study::StudyError;
+use vinesink::system::System;
 
 /// Natural frequencies over Table 1's, and how many of them.
 const FREQUENCIES: (f64, f64, usize) = (0.946, 1.006, 61);

@@ -4,13 +4,13 @@
 use serde_json::{Value, json};
 
 use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, STEADY, Section, TRANSFER};
-use crate::analysis::{Branch, motion};
-use crate::motions::Motion;
-use crate::orbits::Bifurcation;
-use crate::regimes::Regime;
-use crate::study::plots::responses::shares;
-use crate::study::scenes::{WalkPoint, walk};
-use crate::validation::tolerance::asymptotic_error;
+use vinesink::analysis::{Branch, motion};
+use vinesink::motions::Motion;
+use vinesink::orbits::Bifurcation;
+use vinesink::regimes::Regime;
+use vinesink::study::plots::responses::shares;
+use vinesink::study::scenes::{WalkPoint, walk};
+use vinesink::validation::tolerance::asymptotic_error;
 
 /// Clearances at which the end of steady 1:1 is compared with what lies before it, over that of the
 /// Hopf boundary.

@@ -3,7 +3,7 @@
 //! damping of any size and resonance without damping need no case of their own.
 
 use super::real::{BITS, Real};
-use crate::system::{Excitation, System};
+use vinesink::system::{Excitation, System};
 
 /// Halvings of the scan's step for which the way is known in advance.
 pub(super) const LEVELS: usize = 40;

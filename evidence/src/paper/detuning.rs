@@ -6,14 +6,14 @@ use serde_json::{Value, json};
 use super::map::{self, Map};
 use super::regimes::FIGURE_11;
 use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, Section, dynamics};
-use crate::analysis::Analysis;
-use crate::case::Case;
-use crate::executor::{self, Executor, Serial};
-use crate::motions::{Measured, Motions, Place, measured, motions};
-use crate::regimes::Regime;
-use crate::report::figure::Figure;
-use crate::study::StudyError;
-use crate::system::{Parameters, System};
+use vinesink::analysis::Analysis;
+use vinesink::case::Case;
+use vinesink::executor::{self, Executor, Serial};
+use vinesink::motions::{Measured, Motions, Place, measured, motions};
+use vinesink::regimes::Regime;
+use vinesink::report::figure::Figure;
+use vinesink::study::StudyError;
+use vinesink::system::{Parameters, System};
 
 /// The cases with sets A and B, at the clearance of Fig. 12: a natural frequency and an `F` that give the regimes of
 /// the experiment, and a restitution too that gives what else the paper says of panels (a) and (b).

@@ -6,9 +6,9 @@ use serde::Serialize;
 use super::ExtremesError;
 use super::list::{IMPACT_LIMIT, Varied, table_1};
 use super::measure::{LONGEST_SEQUENCE, Release, Seen, Witness};
-use crate::evidence::reference::{Event, Reference};
-use crate::simulation::{ContactTolerance, Measurement, Simulation, StartError};
-use crate::system::{State, System};
+use crate::reference::{Event, Reference};
+use vinesink::simulation::{ContactTolerance, Measurement, Simulation, StartError};
+use vinesink::system::{State, System};
 
 /// One setting of the tolerance, measured.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

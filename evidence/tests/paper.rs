@@ -8,10 +8,10 @@ use assert_cmd::Command;
 use regex::Regex;
 use tempfile::TempDir;
 use vinesink::case::{Case, ExtraFigure};
-use vinesink::evidence::paper::{CASES, SETS, TRANSFER};
+use vinesink_evidence::paper::{CASES, SETS, TRANSFER};
 
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
 fn page() -> String {
@@ -165,7 +165,7 @@ fn every_further_figure_is_in_a_shipped_report() {
 #[test]
 fn a_missing_case_or_figure_is_named() {
     let folder = TempDir::new().expect("a folder");
-    let mut command = Command::cargo_bin("vinesink").expect("built");
+    let mut command = Command::cargo_bin("vinesink-evidence").expect("built");
     let output =
         command.arg("paper").arg("--cases").arg(folder.path()).arg("--out").arg(folder.path());
     let output = output.assert().code(2).get_output().clone();
@@ -180,7 +180,7 @@ fn a_missing_case_or_figure_is_named() {
             + "\n[simulation]\nstarts = 1\nperiods = 100\n";
         fs::write(folder.path().join(format!("{name}.toml")), text).expect("writable");
     }
-    let mut command = Command::cargo_bin("vinesink").expect("built");
+    let mut command = Command::cargo_bin("vinesink-evidence").expect("built");
     let output =
         command.arg("paper").arg("--cases").arg(folder.path()).arg("--out").arg(folder.path());
     let output = output.assert().code(2).get_output().clone();

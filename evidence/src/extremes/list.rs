@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::system::{Cavity, Excitation, InvalidParameter, Parameters, State, System};
+use vinesink::system::{Cavity, Excitation, InvalidParameter, Parameters, State, System};
 
 /// Excitation periods of a run, unless it says otherwise.
 const PERIODS: u64 = 200;

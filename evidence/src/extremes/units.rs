@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::ExtremesError;
 use super::list::{IMPACT_LIMIT, Start};
 use super::measure::FOLLOWED;
-use crate::case::Case;
-use crate::simulation::{ImpactLog, Simulation};
+use vinesink::case::Case;
+use vinesink::simulation::{ImpactLog, Simulation};
 
 /// Clearance and amplitude as a case says them, and the clearance in metres.
 const LENGTHS: [(&str, &str, f64); 5] = [

@@ -1,7 +1,7 @@
 //! That verdicts follow from checks, and that the template fits what the figures tell.
 
 use super::*;
-use crate::executor::Serial;
+use vinesink::executor::Serial;
 
 #[test]
 fn the_verdict_follows_from_the_checks() {
@@ -71,7 +71,7 @@ fn the_template_fits_what_the_figures_tell() {
         "sections": figures, "nearer": nearer(&figures, &image), "steady": [steady, steady],
         "figures": [{ "name": "map", "caption": "where", "alt": "a map", "width": 720 }],
     });
-    let text = crate::report::template::render("paper.md", &Units::physical(0.0075), &context);
+    let text = vinesink::report::template::render("paper.md", &Units::physical(0.0075), &context);
     let text = text.unwrap_or_else(|error| panic!("{error}"));
     for part in [
         "| [5](#fig-5): areas Z1 to Z4, and the two ways out of Z3 | reproduced |",

@@ -16,18 +16,18 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::analysis::Branch;
-use crate::case::Case;
-use crate::executor::Executor;
-use crate::motions::{Measured, Motion};
-use crate::orbits::Bifurcation;
-use crate::quantity::Units;
-use crate::regimes::Regime;
-use crate::report::figure::Figure;
-use crate::report::render::{Files, RenderError, page_files};
-use crate::report::template::worded;
-use crate::study::{CaseStudy, StudyError};
-use crate::validation::clearances::clearances;
+use vinesink::analysis::Branch;
+use vinesink::case::Case;
+use vinesink::executor::Executor;
+use vinesink::motions::{Measured, Motion};
+use vinesink::orbits::Bifurcation;
+use vinesink::quantity::Units;
+use vinesink::regimes::Regime;
+use vinesink::report::figure::Figure;
+use vinesink::report::render::{Files, RenderError, page_files};
+use vinesink::report::template::worded;
+use vinesink::study::{CaseStudy, StudyError};
+use vinesink::validation::clearances::clearances;
 
 pub use detuning::SETS;
 

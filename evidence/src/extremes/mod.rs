@@ -17,13 +17,13 @@ pub use units::{UnitCheck, unit_checks};
 use serde::Serialize;
 use serde_json::json;
 
-use crate::case::CaseError;
-use crate::quantity::Units;
-use crate::report::render::RenderError;
-use crate::report::template;
-use crate::simulation::StartError;
-use crate::simulation::trust::{ENERGY_RESIDUAL, RESOLUTION};
-use crate::system::InvalidParameter;
+use vinesink::case::CaseError;
+use vinesink::quantity::Units;
+use vinesink::report::render::RenderError;
+use vinesink::report::template;
+use vinesink::simulation::StartError;
+use vinesink::simulation::trust::{ENERGY_RESIDUAL, RESOLUTION};
+use vinesink::system::InvalidParameter;
 
 /// How much further than rounding once an event a sound run may be from the reference: an event is
 /// some dozen operations, each of which rounds, and so is the end of a period.

@@ -10,23 +10,23 @@ use serde::{Deserialize, Serialize};
 
 use super::list::Varied;
 use super::{ExtremesError, Verdict};
-use crate::analysis::{Analysis, FreeDecay};
-use crate::band::Band;
-use crate::band::theory::z3_share;
-use crate::bifurcation::Bifurcation;
-use crate::excitation::{Record, RecordQuantity, SineSweep, SweepRate};
-use crate::flights::{Passage, follow};
-use crate::linear::{TunedMassDamper, bare_along, driven, swept};
-use crate::operation_count::counted;
-use crate::orbits::{SymmetricFamily, symmetric_orbits};
-use crate::simulation::{ImpactLog, Simulation};
-use crate::system::{BandOver, Cavity, Excitation, Parameters, Scales, State, System};
+use vinesink::analysis::{Analysis, FreeDecay};
+use vinesink::band::Band;
+use vinesink::band::theory::z3_share;
+use vinesink::bifurcation::Bifurcation;
+use vinesink::excitation::{Record, RecordQuantity, SineSweep, SweepRate};
+use vinesink::flights::{Passage, follow};
+use vinesink::linear::{TunedMassDamper, bare_along, driven, swept};
+use vinesink::operation_count::counted;
+use vinesink::orbits::{SymmetricFamily, symmetric_orbits};
+use vinesink::simulation::{ImpactLog, Simulation};
+use vinesink::system::{BandOver, Cavity, Excitation, Parameters, Scales, State, System};
 
 const TABLE: &str = include_str!("layers.json");
 
 /// How much further than rounding of the parameters a value may be off: each is a dozen operations and more.
 pub const ROUNDINGS: f64 = 32.0;
-/// Operations, as [`crate::operation_count`] counts them, that a row may take: a second of a machine that does 1e8 of them.
+/// Operations, as [`vinesink::operation_count`] counts them, that a row may take: a second of a machine that does 1e8 of them.
 pub const MOST_OPERATIONS: u64 = 100_000_000;
 /// What equations leave, relative to their terms, from which on a solution is not trusted.
 pub const RESIDUAL: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! A second opinion in 77 decimal digits: equations (1) and (2) once more, with gravity along the cavity,
 //! friction in it and two restitutions, for a few dozen impacts.
 //!
-//! It shares no code with [`crate::simulation`] and none of its ideas: the motion is a Taylor series of
+//! It shares no code with [`vinesink::simulation`] and none of its ideas: the motion is a Taylor series of
 //! its own equation, walls are looked for by a fine scan in multiple precision whose first steps are a
 //! thousand thousand million times shorter, a crossing is halved and polished by Newton's method, and
 //! chattering is followed until the gap opens by 1e-40 clearances. A constant force moves the origin that the
@@ -19,7 +19,7 @@ use oscillator::{Oscillator, Point, Vector};
 use real::Real;
 use search::{polished, scan};
 
-use crate::system::{Cavity, State, System};
+use vinesink::system::{Cavity, State, System};
 
 /// Opening of the gap, over the clearance, below which a chattering sequence has ended.
 const EXCURSION: f64 = 1e-40;

@@ -6,9 +6,9 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use super::Entry;
-use crate::evidence::reference::{Event, Reference};
-use crate::simulation::trust::energy_residual;
-use crate::simulation::{
+use crate::reference::{Event, Reference};
+use vinesink::simulation::trust::energy_residual;
+use vinesink::simulation::{
     Absorber, Doubt, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
 };
 

@@ -1,0 +1,64 @@
+//! Reading the case that a command is given.
+
+use std::path::{Component, Path};
+
+use clap::Args;
+use miette::{NamedSource, Report, Result, miette};
+
+use super::output;
+use crate::case::Case;
+use crate::case_input::{self, CaseInputError};
+use crate::store::Reach;
+
+/// What may be read.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Reading {
+    /// Also read files outside of the folder of the case, or of the reports, where a case or a link leads to them
+    #[arg(long)]
+    pub allow_outside: bool,
+}
+
+impl Reading {
+    /// How far paths and links may lead.
+    pub fn reach(self) -> Reach {
+        if self.allow_outside { Reach::Anywhere } else { Reach::Folder }
+    }
+}
+
+/// The name of a case: that of its file, without what stands behind the last point.
+pub fn name(path: &Path) -> Result<String> {
+    let stem = path.file_stem().ok_or_else(|| miette!("{} is no file", path.display()))?;
+    let name = stem.to_string_lossy().into_owned();
+    match Path::new(&name).components().next() {
+        // What receives its report must be a folder of its own.
+        Some(Component::Normal(_)) => Ok(name),
+        _ => Err(miette!(
+            help = "rename it, for example to damper.toml",
+            "{} has no name before its ending",
+            path.display()
+        )),
+    }
+}
+
+/// Reads a case file.
+pub fn read(path: &Path, reading: Reading) -> Result<Case> {
+    read_with_text(path, reading).map(|(case, _)| case)
+}
+
+/// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.
+pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
+    let (case, text) = case_input::read(path, reading.reach()).map_err(|error| match error {
+        CaseInputError::Case(error) => Report::new(error),
+        CaseInputError::Record { source, .. } => Report::new(source)
+            .wrap_err(format!("{}: the record of its excitation cannot be read", path.display())),
+        CaseInputError::File(error) => Report::new(error),
+    })?;
+    let name = path.display().to_string();
+    let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    for warning in case.warnings() {
+        let source = NamedSource::new(&name, visible.to_owned());
+        let shown = Report::new(warning.clone()).with_source_code(source);
+        output::complain_of(&shown);
+    }
+    Ok((case, text))
+}
