@@ -6,7 +6,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use vinesink::orbits::branch::{Direction, Settings, follow};
+use vinesink::orbits::branch::{BranchDirection, Settings, follow};
 use vinesink::orbits::{Branch, SymmetricFamily, symmetric_orbits};
 use vinesink::simulation::Simulation;
 use vinesink::system::{Parameter, State, System};
@@ -32,7 +32,7 @@ fn branch(system: &System) -> Branch {
         ..Settings::within([0.05, 10.0])
     };
     let branch =
-        follow(system, &start, Parameter::Clearance, Direction::Down, &settings).expect("regular");
+        follow(system, &start, Parameter::Clearance, BranchDirection::Down, &settings).expect("regular");
     assert_eq!(branch.points.len(), ORBITS, "{:?}", branch.end);
     branch
 }

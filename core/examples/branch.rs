@@ -3,7 +3,7 @@
 //! `cargo run --example branch`
 
 use vinesink_core::orbits::attracting_orbit;
-use vinesink_core::orbits::branch::{Direction, Settings, follow};
+use vinesink_core::orbits::branch::{BranchDirection, Settings, follow};
 use vinesink_core::orbits::{Measures, OrbitError};
 use vinesink_core::system::{Cavity, Excitation, Parameter, Parameters, System};
 
@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         cavity: Cavity::IDEAL,
     })?;
     let start = attracting_orbit(&system).ok_or("no symmetric orbit attracts")?;
-    for direction in [Direction::Down, Direction::Up] {
+    for direction in [BranchDirection::Down, BranchDirection::Up] {
         // Values of the parameter are clearances over that of the start.
         let settings = Settings::within([0.1, 3.0]);
         let branch = follow(&system, &start.orbit, Parameter::Clearance, direction, &settings)?;

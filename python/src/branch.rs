@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::{Value, json};
 use vinesink::answer::branch::{
-    Branch, BranchEnd, Direction, FullSystem, ImpactMap, Orbit, Peaks, Settings, follow,
+    Branch, BranchDirection, BranchEnd, FullSystem, ImpactMap, Orbit, Peaks, Settings, follow,
 };
 use vinesink::case::Case;
 use vinesink::system::Parameter;
@@ -103,9 +103,9 @@ pub fn followed(
     let settings = Settings { most_points, ..Settings::within(range.map(|edge| edge / unit)) };
     let along =
         |direction| follow(&system, chosen, parameter, direction, &settings).map_err(refused);
-    let down = along(Direction::Down)?;
+    let down = along(BranchDirection::Down)?;
     let closed = matches!(down.end, BranchEnd::Closed { .. });
-    let up = (!closed).then(|| along(Direction::Up)).transpose()?;
+    let up = (!closed).then(|| along(BranchDirection::Up)).transpose()?;
     let told = |value: f64, orbit: &Orbit| {
         let there = parameter.applied(&system, value).map_err(refused)?;
         let map = ImpactMap::of(&there).map_err(refused)?;

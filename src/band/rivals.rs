@@ -4,7 +4,7 @@ use argmin::core::{CostFunction, Error, Executor, State as _};
 use argmin::solver::neldermead::NelderMead;
 
 use super::Band;
-use crate::linear::{Along, Damped, TunedMassDamper, bare_amplitude};
+use crate::linear::{BandSystems, Damped, TunedMassDamper, bare_amplitude};
 
 /// Size of the first simplex of a design, in the logarithms of tuning and damping ratio.
 const SIMPLEX: [f64; 2] = [0.02, 0.3];
@@ -16,7 +16,7 @@ const RESTARTS: u32 = 3;
 /// The damper of the absorber's mass whose largest amplitude along a band is smallest, with the damping of
 /// the structure and the kind of its excitation. For a single excitation that of Den Hartog: the best
 /// for one frequency alone would be undamped and of no use beside it.
-fn designed(along: &Along) -> TunedMassDamper {
+fn designed(along: &BandSystems) -> TunedMassDamper {
     let start = TunedMassDamper::den_hartog(along.band.base.mass_ratio());
     if along.band.is_point() {
         return start;
@@ -43,7 +43,7 @@ fn of_logarithms(logarithms: &[f64]) -> TunedMassDamper {
 }
 
 /// What the simplex makes small: the largest amplitude along a band.
-struct LargestAmplitude<'a>(&'a Along<'a>);
+struct LargestAmplitude<'a>(&'a BandSystems<'a>);
 
 impl CostFunction for LargestAmplitude<'_> {
     type Param = Vec<f64>;
@@ -74,14 +74,14 @@ pub struct Rivals {
 impl Rivals {
     /// Those along a band.
     pub fn along(band: &Band) -> Self {
-        let along = Along::of(band);
+        let along = BandSystems::of(band);
         let damper = designed(&along);
         Self {
             bare: along.largest(bare_amplitude),
             damper,
             damped: along.damped(damper),
             detuned: DETUNED.map(|factor| match band.with_structure_detuned(factor) {
-                Some(band) => Along::of(&band).damped(damper.on_detuned(factor)),
+                Some(band) => BandSystems::of(&band).damped(damper.on_detuned(factor)),
                 None => Damped { amplitude: f64::NAN, at: f64::NAN, stroke: f64::NAN },
             }),
         }
@@ -144,13 +144,13 @@ mod tests {
                     tuning: tuning * damper.tuning,
                     damping_ratio: damping * damper.damping_ratio,
                 };
-                let (_, height) = Along::of(&band).largest(|system| other.amplitude(system));
+                let (_, height) = BandSystems::of(&band).largest(|system| other.amplitude(system));
                 assert!(height > damped.amplitude, "{mu} {tuning} {damping}");
             }
             // A damper off by 3 % on the same structure, in the structure's own units.
             for (factor, off) in DETUNED.into_iter().zip(detuned) {
                 let other = TunedMassDamper { tuning: damper.tuning / factor, ..damper };
-                let (_, height) = Along::of(&band).largest(|system| other.amplitude(system));
+                let (_, height) = BandSystems::of(&band).largest(|system| other.amplitude(system));
                 let scale = if excitation == Excitation::Force { factor * factor } else { 1.0 };
                 // The damping ratio of the structure changes with its frequency, by 3 %.
                 assert!((off.amplitude * scale / height - 1.0).abs() < 0.03, "{mu} {factor}");

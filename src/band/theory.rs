@@ -4,7 +4,7 @@ use super::{Band, Stretch};
 use crate::analysis::boundaries::{Boundaries, crossings, crossings_of, vanishing};
 use crate::analysis::{Area, AsymmetricLimits, FixedPointCurve, Manifold, Zone};
 use crate::bifurcation::Bifurcation;
-use crate::cavity::Motion;
+use crate::cavity::CavityMotion;
 use crate::numerics::scan::sign_changes;
 use crate::system::BandOver;
 
@@ -34,7 +34,7 @@ pub fn z3_share(band: &Band) -> f64 {
 /// The band cut where one of the boundaries is crossed, `grazing` being that of the asymmetric motion.
 fn cut<T: PartialEq>(
     band: &Band,
-    grazing: Option<Motion>,
+    grazing: Option<CavityMotion>,
     of: impl Fn(Option<Zone>) -> T,
 ) -> Vec<Stretch<T>> {
     let manifold = Manifold::of(band.base.restitution());

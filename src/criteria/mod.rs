@@ -12,7 +12,7 @@ use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
-use crate::motions::{Along, Extreme, Fact, Kind, Motion, RestKind, Value};
+use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind, Value};
 use crate::transient::Study;
 
 use scope::Scope;
@@ -55,10 +55,10 @@ pub struct Judged {
 /// The layer that a motion is known by.
 pub fn method(motion: &Motion) -> Method {
     match motion.kind() {
-        Kind::Rest(rest) if rest.rest == RestKind::Sliding => Method::Simulation,
-        Kind::Rest(_) => Method::ClosedForm,
-        Kind::Orbit(_) => Method::ExactOrbit,
-        Kind::Repeats(_) | Kind::Wanders => Method::Simulation,
+        MotionKind::Rest(rest) if rest.rest == RestKind::Sliding => Method::Simulation,
+        MotionKind::Rest(_) => Method::ClosedForm,
+        MotionKind::Orbit(_) => Method::ExactOrbit,
+        MotionKind::Repeats(_) | MotionKind::Wanders => Method::Simulation,
     }
 }
 

@@ -37,13 +37,13 @@ pub struct Estimate {
     /// The regime.
     pub regime: Option<Regime>,
     /// Why something is missing.
-    pub why_not: Option<WhyNot>,
+    pub why_not: Option<WhyNoAnswer>,
 }
 
 /// Why a layer has no answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum WhyNot {
+pub enum WhyNoAnswer {
     /// The theory has no stable fixed point, so no steady amplitude.
     NoStablePoint,
     /// No orbit with two impacts per period is stable and admissible.
@@ -72,7 +72,7 @@ pub enum WhyNot {
 
 impl Estimate {
     /// None, and why.
-    pub fn none(why: WhyNot) -> Self {
+    pub fn none(why: WhyNoAnswer) -> Self {
         Self { why_not: Some(why), ..Self::default() }
     }
 
@@ -142,7 +142,7 @@ pub fn closed_form(system: &System) -> Result<Estimate, StudyError> {
         root_mean_square(system, c, b, point.absorber_phase)
     };
     Ok(stable.map_or_else(
-        || Estimate::none(WhyNot::NoStablePoint),
+        || Estimate::none(WhyNoAnswer::NoStablePoint),
         |point| Estimate::steady(rms(point)),
     ))
 }
@@ -150,7 +150,7 @@ pub fn closed_form(system: &System) -> Result<Estimate, StudyError> {
 /// The same by the theory of a cavity that is not ideal: the first harmonic of `v - eps y`.
 fn closed_form_of_cavity(system: &System, cavity: &CavityAnalysis) -> Estimate {
     let Some(point) = cavity.stable_point() else {
-        return Estimate::none(WhyNot::NoStablePoint);
+        return Estimate::none(WhyNoAnswer::NoStablePoint);
     };
     let (eps, motion) = (system.mass_ratio(), &point.motion);
     let sine = motion.oscillator_amplitude + eps * motion.reactance;
@@ -170,7 +170,7 @@ fn closed_form_of_cavity(system: &System, cavity: &CavityAnalysis) -> Estimate {
 pub fn averaged_flow(system: &System) -> Result<Estimate, StudyError> {
     // The curve is that of an ideal cavity.
     if !system.cavity().is_ideal() {
-        return Ok(Estimate::none(WhyNot::RealCavity));
+        return Ok(Estimate::none(WhyNoAnswer::RealCavity));
     }
     let averages = Averages::of(system)?;
     let Averages { curve, states, .. } = &averages;
@@ -200,7 +200,7 @@ pub fn averaged_flow(system: &System) -> Result<Estimate, StudyError> {
                 ..Estimate::default()
             }
         });
-    Ok(cycle.unwrap_or_else(|| Estimate::none(WhyNot::NoStableAmplitude)))
+    Ok(cycle.unwrap_or_else(|| Estimate::none(WhyNoAnswer::NoStableAmplitude)))
 }
 
 /// That of the exact orbit with two impacts per period that attracts, to [`ORBIT_ROUNDING`].
@@ -212,7 +212,7 @@ pub fn symmetric_orbit(system: &System) -> Estimate {
         let regime = if symmetric { Regime::TwoSymmetric } else { Regime::TwoAsymmetric };
         Some(Estimate { regime: Some(regime), ..answer })
     };
-    answer().unwrap_or_else(|| Estimate::none(WhyNot::NoStableOrbit))
+    answer().unwrap_or_else(|| Estimate::none(WhyNoAnswer::NoStableOrbit))
 }
 
 /// The averages of so many periods from here, with their scatter between blocks.

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use crate::orbits::Peaks;
-use crate::orbits::branch::{Direction, Settings, follow};
+use crate::orbits::branch::{BranchDirection, Settings, follow};
 use crate::orbits::switching::{branch_off, continue_beyond};
 use crate::orbits::{
     Bifurcation, Branch, BranchEnd, Cycle, ImpactMap, Orbit, SpecialPoint, symmetric_orbits,
@@ -63,7 +63,7 @@ pub struct ExactMark {
 
 /// Neighbouring values at which the symmetric 1:1 orbit attracts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Stretch {
+pub struct OrbitStretch {
     /// First and last.
     pub values: [f64; 2],
     /// What happens there; `None` at the end of the range.
@@ -126,7 +126,7 @@ impl ExactBranches {
 
     /// Where the symmetric 1:1 orbit attracts, and what ends that; ascending.
     #[must_use]
-    pub fn attracting_stretches(&self) -> Vec<Stretch> {
+    pub fn attracting_stretches(&self) -> Vec<OrbitStretch> {
         let attracting = self.pieces.iter().filter(|piece| piece.symmetric && piece.stable);
         // A branch turns back only where its stability changes.
         let ends =
@@ -146,7 +146,10 @@ impl ExactBranches {
             let near = |mark: &&ExactMark| (mark.at.value / value - 1.0).abs() < SAME;
             self.marks.iter().filter(|mark| mark.symmetric).find(near).map(|mark| mark.kind)
         };
-        joined.into_iter().map(|values| Stretch { values, ends: values.map(ends_at) }).collect()
+        joined
+            .into_iter()
+            .map(|values| OrbitStretch { values, ends: values.map(ends_at) })
+            .collect()
     }
 
     /// Whether a symmetric branch is known that passes a displacement at impact.
@@ -185,7 +188,7 @@ struct Trunk {
 impl Trunk {
     /// Follows a symmetric orbit both ways, and what leaves it.
     fn grow(&self, orbit: &Orbit, all: &mut ExactBranches) {
-        for direction in [Direction::Down, Direction::Up] {
+        for direction in [BranchDirection::Down, BranchDirection::Up] {
             let Ok(branch) = follow(&self.system, orbit, self.parameter, direction, &self.settings)
             else {
                 continue;
@@ -267,40 +270,41 @@ impl Trunk {
 }
 
 /// An orbit of a branch, or a bifurcation on it.
-struct Entry<'a> {
+struct BranchEntry<'a> {
     value: f64,
     orbit: &'a Orbit,
     special: Option<Bifurcation>,
 }
 
-impl<'a> Entry<'a> {
+impl<'a> BranchEntry<'a> {
     fn of_bifurcation(special: &'a SpecialPoint) -> Self {
         Self { value: special.value, orbit: &special.orbit, special: Some(special.kind) }
     }
 }
 
 /// Points and bifurcations in order along a branch.
-fn in_order(branch: &Branch) -> Vec<Entry<'_>> {
+fn in_order(branch: &Branch) -> Vec<BranchEntry<'_>> {
     let (mut entries, mut passed) = (Vec::new(), 0);
     for point in &branch.points {
-        entries.extend(branch.specials[passed..point.passed].iter().map(Entry::of_bifurcation));
-        entries.push(Entry { value: point.value, orbit: &point.orbit, special: None });
+        entries
+            .extend(branch.specials[passed..point.passed].iter().map(BranchEntry::of_bifurcation));
+        entries.push(BranchEntry { value: point.value, orbit: &point.orbit, special: None });
         passed = point.passed;
     }
-    entries.extend(branch.specials[passed..].iter().map(Entry::of_bifurcation));
+    entries.extend(branch.specials[passed..].iter().map(BranchEntry::of_bifurcation));
     entries
 }
 
 /// Stability between two neighbours; at a bifurcation itself it is undefined.
-fn stable_between(pair: &[Entry]) -> bool {
+fn stable_between(pair: &[BranchEntry]) -> bool {
     let mut regular = pair.iter().filter(|entry| entry.special.is_none()).peekable();
     regular.peek().is_some() && regular.all(|entry| entry.orbit.attracts())
 }
 
 /// Leaves out what lies beyond the place where a branch of asymmetric orbits meets its own mirror
 /// image: from there on it is that image.
-fn truncate_at_mirror(entries: &mut Vec<Entry>) {
-    let met = |entry: &Entry| entry.special == Some(Bifurcation::SymmetryBreaking);
+fn truncate_at_mirror(entries: &mut Vec<BranchEntry>) {
+    let met = |entry: &BranchEntry| entry.special == Some(Bifurcation::SymmetryBreaking);
     if let Some(last) = entries.iter().position(met) {
         entries.truncate(last + 1);
     }

@@ -13,7 +13,7 @@ use super::estimate::{self, Estimate, ORBIT_ROUNDING};
 use crate::case::{AccuracySettings, Case};
 use crate::excitation::Scene;
 use crate::method::Method;
-use crate::motions::{Kind, Motions};
+use crate::motions::{MotionKind, Motions};
 use crate::operation_count;
 use crate::regimes::Regime;
 use crate::simulation::Doubt;
@@ -321,8 +321,8 @@ impl LayerPlan {
     fn by_simulation(&self, motions: &Motions) -> Result<Vec<Answered>, StudyError> {
         let main = motions.main().ok_or(StudyError::NoMotion)?;
         let known_by = match main.kind() {
-            Kind::Wanders => KnownBy::Scatter,
-            Kind::Orbit(_) | Kind::Rest(_) | Kind::Repeats(_) => KnownBy::Closure,
+            MotionKind::Wanders => KnownBy::Scatter,
+            MotionKind::Orbit(_) | MotionKind::Rest(_) | MotionKind::Repeats(_) => KnownBy::Closure,
         };
         let answer = Estimate::of_motion(main);
         let errors = [answer.scatter, answer.impacts_scatter];

@@ -9,14 +9,14 @@ pub use crate::regimes::thresholds::SHORTEST_CAPTURE;
 
 /// Some whole periods of a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Stretch {
+pub struct TraceStretch {
     /// The first period, from 0.
     pub first: usize,
     /// How many.
     pub periods: usize,
 }
 
-impl Stretch {
+impl TraceStretch {
     /// The period after the last one.
     #[must_use]
     pub const fn end(&self) -> usize {
@@ -66,30 +66,30 @@ impl Periods {
 
     /// Whether every period of a stretch has one impact on each wall.
     #[must_use]
-    pub fn captured(&self, stretch: Stretch) -> bool {
+    pub fn captured(&self, stretch: TraceStretch) -> bool {
         self.impacts[stretch.first..stretch.end()].iter().all(|impacts| *impacts == [1, 1])
     }
 
     /// Impacts in a stretch.
     #[must_use]
-    pub fn impacts_in(&self, stretch: Stretch) -> u32 {
+    pub fn impacts_in(&self, stretch: TraceStretch) -> u32 {
         self.impacts[stretch.first..stretch.end()].iter().flatten().sum()
     }
 
     /// Last peak of a stretch over its first one.
     #[must_use]
-    pub fn growth(&self, stretch: Stretch) -> f64 {
+    pub fn growth(&self, stretch: TraceStretch) -> f64 {
         self.peaks[stretch.end() - 1] / self.peaks[stretch.first]
     }
 
     /// Every capture, whole, in order of time.
     #[must_use]
-    pub fn captures(&self) -> Vec<Stretch> {
+    pub fn captures(&self) -> Vec<TraceStretch> {
         let mut found = Vec::new();
         let mut first = 0;
         for run in self.impacts.chunk_by(|a, b| (*a == [1, 1]) == (*b == [1, 1])) {
             if run[0] == [1, 1] && run.len() >= SHORTEST_CAPTURE {
-                found.push(Stretch { first, periods: run.len() });
+                found.push(TraceStretch { first, periods: run.len() });
             }
             first += run.len();
         }
@@ -97,23 +97,23 @@ impl Periods {
     }
 
     /// Every stretch of a given length inside another one.
-    fn within(outer: Stretch, periods: usize) -> impl Iterator<Item = Stretch> {
+    fn within(outer: TraceStretch, periods: usize) -> impl Iterator<Item = TraceStretch> {
         let last = (outer.end() + 1).saturating_sub(periods);
-        (outer.first..last).map(move |first| Stretch { first, periods })
+        (outer.first..last).map(move |first| TraceStretch { first, periods })
     }
 
     /// The first stretch of a given length that shows at least two captures and as much escape as
     /// capture, as nearly as any does; the beginning where there are no captures.
     #[must_use]
-    pub fn typical(&self, periods: usize) -> Stretch {
+    pub fn typical(&self, periods: usize) -> TraceStretch {
         let captures = self.captures();
-        let all = Stretch { first: 0, periods: self.count() };
-        let beginning = Stretch { first: 0, periods: periods.min(self.count()) };
-        let unevenness = |stretch: &Stretch| {
-            let inside = |capture: &&Stretch| {
+        let all = TraceStretch { first: 0, periods: self.count() };
+        let beginning = TraceStretch { first: 0, periods: periods.min(self.count()) };
+        let unevenness = |stretch: &TraceStretch| {
+            let inside = |capture: &&TraceStretch| {
                 stretch.first <= capture.first && capture.end() <= stretch.end()
             };
-            let parts: Vec<&Stretch> = captures.iter().filter(inside).collect();
+            let parts: Vec<&TraceStretch> = captures.iter().filter(inside).collect();
             let captured: usize = parts.iter().map(|part| part.periods).sum();
             (parts.len() >= 2).then(|| (2 * captured).abs_diff(stretch.periods))
         };
@@ -125,7 +125,7 @@ impl Periods {
 
     /// Where the amplitude falls most while captured (Fig. 12e).
     #[must_use]
-    pub fn decrease(&self, outer: Stretch, periods: usize) -> Option<Stretch> {
+    pub fn decrease(&self, outer: TraceStretch, periods: usize) -> Option<TraceStretch> {
         Self::within(outer, periods)
             .filter(|stretch| self.captured(*stretch) && self.growth(*stretch) < 1.0)
             .min_by(|a, b| self.growth(*a).total_cmp(&self.growth(*b)))
@@ -133,7 +133,7 @@ impl Periods {
 
     /// Where the amplitude rises most although captured (Fig. 12d).
     #[must_use]
-    pub fn weak(&self, outer: Stretch, periods: usize) -> Option<Stretch> {
+    pub fn weak(&self, outer: TraceStretch, periods: usize) -> Option<TraceStretch> {
         Self::within(outer, periods)
             .filter(|stretch| self.captured(*stretch) && self.growth(*stretch) > 1.0)
             .max_by(|a, b| self.growth(*a).total_cmp(&self.growth(*b)))
@@ -141,7 +141,7 @@ impl Periods {
 
     /// Where there are fewest impacts, and among those where the amplitude rises most (Fig. 12f).
     #[must_use]
-    pub fn sparse(&self, outer: Stretch, periods: usize) -> Option<Stretch> {
+    pub fn sparse(&self, outer: TraceStretch, periods: usize) -> Option<TraceStretch> {
         Self::within(outer, periods).filter(|stretch| self.growth(*stretch) > 1.0).min_by(|a, b| {
             let fewer = self.impacts_in(*a).cmp(&self.impacts_in(*b));
             fewer.then(self.growth(*b).total_cmp(&self.growth(*a)))
@@ -167,10 +167,10 @@ mod tests {
     fn captures_are_runs_of_one_impact_on_each_wall() {
         let (two, none, one) = ([1, 1], [0, 0], [2, 0]);
         let all = periods(&[1.0; 9], &[two, two, none, two, two, two, one, two, two]);
-        assert_eq!(all.captures(), [Stretch { first: 3, periods: 3 }]);
-        assert!(all.captured(Stretch { first: 3, periods: 3 }));
-        assert!(!all.captured(Stretch { first: 3, periods: 4 }));
-        assert_eq!(all.impacts_in(Stretch { first: 2, periods: 3 }), 4);
+        assert_eq!(all.captures(), [TraceStretch { first: 3, periods: 3 }]);
+        assert!(all.captured(TraceStretch { first: 3, periods: 3 }));
+        assert!(!all.captured(TraceStretch { first: 3, periods: 4 }));
+        assert_eq!(all.impacts_in(TraceStretch { first: 2, periods: 3 }), 4);
     }
 
     #[test]
@@ -180,11 +180,11 @@ mod tests {
             &[5.0, 4.0, 2.0, 2.1, 2.3, 3.0, 4.0, 5.0],
             &[two, two, two, two, two, [1, 0], [0, 0], [0, 0]],
         );
-        let whole = Stretch { first: 0, periods: 8 };
-        assert_eq!(all.decrease(whole, 3), Some(Stretch { first: 0, periods: 3 }));
-        assert_eq!(all.weak(whole, 3), Some(Stretch { first: 2, periods: 3 }));
-        assert_eq!(all.sparse(whole, 2), Some(Stretch { first: 6, periods: 2 }));
+        let whole = TraceStretch { first: 0, periods: 8 };
+        assert_eq!(all.decrease(whole, 3), Some(TraceStretch { first: 0, periods: 3 }));
+        assert_eq!(all.weak(whole, 3), Some(TraceStretch { first: 2, periods: 3 }));
+        assert_eq!(all.sparse(whole, 2), Some(TraceStretch { first: 6, periods: 2 }));
         assert_eq!(all.weak(whole, 6), None);
-        assert_eq!(all.typical(4), Stretch { first: 0, periods: 4 });
+        assert_eq!(all.typical(4), TraceStretch { first: 0, periods: 4 });
     }
 }

@@ -11,7 +11,7 @@ use crate::operation_count;
 use crate::orbits::Measures;
 use crate::simulation::{ContactTolerance, Simulation, Stop};
 use crate::study::StudyError;
-use crate::study::estimate::{self, BLOCKS, Estimate, IMPACT_LIMIT, WhyNot, measured};
+use crate::study::estimate::{self, BLOCKS, Estimate, IMPACT_LIMIT, WhyNoAnswer, measured};
 use crate::system::{State, System};
 
 /// Which search for impacts a simulation uses.
@@ -150,13 +150,13 @@ fn slow_flow(system: &System, periods: u64) -> Result<Estimate, StudyError> {
     let middle = 0.5
         * (manifold.fold.oscillator_amplitude + manifold.symmetry_breaking.oscillator_amplitude);
     let Some(start) = flow.point(middle, 0.0) else {
-        return Ok(Estimate::none(WhyNot::NoMiddle));
+        return Ok(Estimate::none(WhyNoAnswer::NoMiddle));
     };
     Ok(match flow.follow(start, periods) {
         SlowEnd::Settles(at) | SlowEnd::Moving(at)
             if at.absorber_amplitude > manifold.symmetry_breaking.absorber_amplitude =>
         {
-            Estimate::none(WhyNot::BeyondSymmetryBreaking)
+            Estimate::none(WhyNoAnswer::BeyondSymmetryBreaking)
         }
         SlowEnd::Settles(at) | SlowEnd::Moving(at) => Estimate::steady(root_mean_square(
             system,
@@ -164,7 +164,7 @@ fn slow_flow(system: &System, periods: u64) -> Result<Estimate, StudyError> {
             at.absorber_amplitude,
             at.absorber_phase,
         )),
-        SlowEnd::LeavesAtFold { .. } => Estimate::none(WhyNot::LeavesAtFold),
+        SlowEnd::LeavesAtFold { .. } => Estimate::none(WhyNoAnswer::LeavesAtFold),
     })
 }
 
@@ -182,7 +182,7 @@ fn orbit_near(system: &System, start: State, periods: u64) -> Result<Estimate, S
             regime: Some(found.regime()),
             ..Estimate::default()
         },
-        None => Estimate::none(WhyNot::NotRepeating),
+        None => Estimate::none(WhyNoAnswer::NotRepeating),
     })
 }
 
@@ -203,15 +203,15 @@ fn simulated(
     let stop = simulation.run(discard, IMPACT_LIMIT, &mut ());
     let answer = match stop {
         Stop::EndTime => measured(&mut simulation, periods - discard),
-        Stop::NotFinite => Some(Estimate::none(WhyNot::Overflow)),
-        Stop::WallsUnresolved => Some(Estimate::none(WhyNot::WallsUnresolved)),
+        Stop::NotFinite => Some(Estimate::none(WhyNoAnswer::Overflow)),
+        Stop::WallsUnresolved => Some(Estimate::none(WhyNoAnswer::WallsUnresolved)),
         Stop::ImpactLimit => None,
     };
     // The slow search notes every evaluation itself.
     if search == Search::Panels {
         operation_count::note(simulation.operations());
     }
-    Ok(answer.unwrap_or_else(|| Estimate::none(WhyNot::ImpactLimit)))
+    Ok(answer.unwrap_or_else(|| Estimate::none(WhyNoAnswer::ImpactLimit)))
 }
 
 /// Impacts per period, over all periods so far and ten more, above which a fixed step is given up: it
@@ -235,7 +235,7 @@ fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Estimate {
             operation_count::note(12 * impacts + 2 * hand.steps_per_period());
             all_impacts += impacts;
             if all_impacts > MOST_IMPACTS * (done + 10) {
-                return Estimate::none(WhyNot::ImpactsInEveryStep);
+                return Estimate::none(WhyNoAnswer::ImpactsInEveryStep);
             }
             sums[0] += run.squares / hand.steps_per_period() as f64;
             sums[1] += impacts as f64;
@@ -247,7 +247,7 @@ fn fixed_step(hand: &ByHand, start: State, periods: u64) -> Estimate {
         }
     }
     if !state.x.is_finite() {
-        return Estimate::none(WhyNot::Overflow);
+        return Estimate::none(WhyNoAnswer::Overflow);
     }
     let [square, impacts] = total.map(|sum| sum / measured as f64);
     Estimate { settles: false, ..Estimate::averaged(square.sqrt(), impacts, &means) }

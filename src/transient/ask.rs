@@ -12,7 +12,7 @@ use crate::quantity::{Quantity, Units};
 
 /// A value with its error, dimensionless, and the layer that it is from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answered {
+pub struct AskedValue {
     /// Lengths over the clearance, fast time; and how much worse other places of the absorber may be, or twice the
     /// standard error of the mean over records; NaN where nobody knows.
     pub value: WithError,
@@ -69,21 +69,22 @@ impl Study {
     }
 
     /// What is known of a measure; none where it says nothing, or nothing was simulated.
-    pub fn ask(&self, of: Measure, by: Device) -> Option<Answered> {
+    pub fn ask(&self, of: Measure, by: Device) -> Option<AskedValue> {
         let time = |[value, error]: WithError| [TAU * value, TAU * error];
-        let exact = |value: f64| Some(Answered { value: [value, 0.0], method: Method::ClosedForm });
+        let exact =
+            |value: f64| Some(AskedValue { value: [value, 0.0], method: Method::ClosedForm });
         let value = match (self, by, of) {
             (Self::Release(study), Device::Absorber, Measure::DecayTime) => {
                 study.worst()?;
                 let found = study.decay();
                 let method = if found.inactive { Method::ClosedForm } else { Method::Simulation };
-                return Some(Answered { value: time(found.oscillations), method });
+                return Some(AskedValue { value: time(found.oscillations), method });
             }
             (Self::Release(study), _, Measure::TheoryDecayTime) => {
                 let theory = &study.predicted;
                 // Of first order in the mass ratio, and more below the end of capture: nobody knows how much.
                 let value = [TAU * theory.oscillations?, f64::NAN];
-                return Some(Answered { value, method: theory.method });
+                return Some(AskedValue { value, method: theory.method });
             }
             (Self::Release(study), _, Measure::InactiveShare) => {
                 return exact(study.inactive.share);
@@ -98,12 +99,12 @@ impl Study {
         };
         let method = if by == Device::Absorber { Method::Simulation } else { Method::ClosedForm };
         let value = if of == Measure::DecayTime { time(value) } else { value };
-        Some(Answered { value, method })
+        Some(AskedValue { value, method })
     }
 
     /// The same in SI, or in the units of a reduced case.
     pub fn quantity(&self, units: &Units, of: Measure, by: Device) -> Option<Quantity> {
-        let Answered { value, method } = self.ask(of, by)?;
+        let AskedValue { value, method } = self.ask(of, by)?;
         let kind = match by {
             Device::Absorber => of.kind_under(self.records()),
             _ => of.kind(by),

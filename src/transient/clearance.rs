@@ -32,7 +32,7 @@ const CLEARANCES: [f64; 2] = [0.2, 5.0];
 /// may be: the time to come to rest of the slowest release, or the largest displacement, mean over records; infinite
 /// where a structure does not come to rest, or cannot be followed.
 #[derive(Debug, Clone)]
-pub struct BestClearance {
+pub struct ClearanceOptimum {
     /// The design with it: the case's own where none is better.
     pub design: Design,
     /// From the places of the absorber by which all clearances were looked at.
@@ -64,7 +64,7 @@ fn screened(records: usize) -> u32 {
 ///
 /// All clearances are looked at from even places. The best of them is judged by a study, as the next best is until none is
 /// left that promises more than the best that was judged.
-pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<BestClearance> {
+pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<ClearanceOptimum> {
     let transient = case.design.transient()?;
     let records = case.recording.as_ref().map_or_else(Vec::new, Recording::records);
     let own = case.design.clearance();
@@ -125,7 +125,7 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<BestCleara
         _ if clearance > beside[1] => Some(bounds[1]),
         _ => None,
     };
-    Some(BestClearance {
+    Some(ClearanceOptimum {
         design: case.design.with(Parameter::Clearance, clearance),
         claimed,
         checked,

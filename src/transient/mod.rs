@@ -16,8 +16,8 @@ mod record_study;
 mod runs;
 mod study;
 
-pub use ask::Answered;
-pub use clearance::{BestClearance, RELEASES, best_clearance, looked_at};
+pub use ask::AskedValue;
+pub use clearance::{ClearanceOptimum, RELEASES, best_clearance, looked_at};
 pub use flight::OneFlight;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record_study::{Realisation, RecordStudy, SpectrumPoint};

@@ -5,9 +5,9 @@ use super::{Runs, WithError};
 use crate::case::Case;
 use crate::excitation::{Piece, Record};
 use crate::executor::{Executor, map};
-use crate::flights::{DrivenError, Measure, Places, Response, even, follow, survey};
+use crate::flights::{DrivenError, Places, Reading, Response, even, follow, survey};
 use crate::linear::{TunedMassDamper, driven};
-use crate::measure::Measure as Asked;
+use crate::measure::Measure;
 use crate::numerics::scatter::twice_standard_error;
 use crate::quantity::Units;
 use crate::system::{Scales, System};
@@ -129,7 +129,7 @@ impl RecordStudy {
 impl Realisation {
     /// The place of the absorber with the largest displacement, and what it did from there.
     pub fn worst(&self) -> Option<&(f64, Response)> {
-        self.places.worst(Asked::Peak)
+        self.places.worst(Measure::Peak)
     }
 }
 
@@ -177,7 +177,7 @@ pub(super) fn flown(
     places: Places<'_>,
     inactive: bool,
 ) -> Result<Runs<Response>, DrivenError> {
-    let measures: [Measure<'_, Response>; 3] =
+    let measures: [Reading<'_, Response>; 3] =
         [&|found| found.peak, &|found| found.rms, &|found| found.impact_speed];
     let all = survey(places, &measures, |w| follow(system, pieces, w))?;
     Ok(Runs { all, even: places.even, count_inactive: inactive })

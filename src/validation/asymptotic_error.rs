@@ -41,10 +41,10 @@ pub fn asymptotic_errors(analysis: &Analysis, exact: &FullSystem) -> Vec<Asympto
 pub fn errors_over_frequency(
     system: &System,
     manifold: &Manifold,
-    exact: &[orbits::Boundaries],
+    exact: &[orbits::ExactBoundaries],
 ) -> Vec<(f64, Vec<AsymptoticError>)> {
     let asymmetric = AsymmetricLimits::of(manifold.restitution);
-    let at_frequency = |at: &orbits::Boundaries| {
+    let at_frequency = |at: &orbits::ExactBoundaries| {
         let there = system.with_frequency_ratio(at.frequency_ratio).ok()?;
         let theory = analysis::Boundaries::with(&there, manifold, &asymmetric);
         let theory = clearances_of(&theory, there.forcing_per_clearance());
@@ -53,7 +53,7 @@ pub fn errors_over_frequency(
     exact.iter().filter_map(at_frequency).collect()
 }
 
-fn between(theory: &[BoundaryAt], exact: Option<&orbits::Boundaries>) -> Vec<AsymptoticError> {
+fn between(theory: &[BoundaryAt], exact: Option<&orbits::ExactBoundaries>) -> Vec<AsymptoticError> {
     let limits = exact.into_iter().flat_map(|found| &found.symmetric.limits);
     let symmetric =
         limits.map(|limit| (limit.kind, false, limit.clearance, limit.bounds_stability));

@@ -7,7 +7,7 @@ use super::motions::ROUNDING;
 use super::tolerance::{SAYS_NOTHING, asymptotic_error};
 use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::{read_off, wrapped};
-use crate::cavity::{CavityAnalysis, CavityTheory, FixedPoint, Forcing};
+use crate::cavity::{CavityAnalysis, CavityFixedPoint, CavityTheory, Forcing};
 use crate::motions::{Measured, Motion, RestKind, SettlingTime, Window};
 use crate::orbits::{FullSystem, Measures, Orbit};
 use crate::regimes::Regime;
@@ -24,7 +24,7 @@ struct SharedNumbers {
 }
 
 impl SharedNumbers {
-    fn of_point(point: &FixedPoint) -> Self {
+    fn of_point(point: &CavityFixedPoint) -> Self {
         Self {
             oscillator_amplitude: point.motion.oscillator_amplitude,
             absorber_amplitude: point.motion.absorber_amplitude,

@@ -9,7 +9,7 @@ use super::{Claim, Finding, Reason, Statement, Verdict};
 use crate::analysis::motion::read_off;
 use crate::analysis::{Analysis, Area, FixedPoint, Strip};
 use crate::dissipation::{ModulatedCycle, SteadyState};
-use crate::motions::{Kind, Measured, Motion, Motions, Window};
+use crate::motions::{Measured, Motion, MotionKind, Motions, Window};
 use crate::orbits::{FullSystem, Measures, SymmetricOrbit};
 use crate::regimes::{DynamicsKind, Regime};
 use crate::simulation::StartError;
@@ -130,7 +130,7 @@ pub fn area(analysis: &Analysis, found: &Motions, measured: &[Measured]) -> Clai
     let modulated = among(Regime::StronglyModulated);
     let stays = |(motion, measured): &Seen| {
         let dynamics = measured.classification.dynamics;
-        !matches!(motion.kind(), Kind::Wanders) || dynamics == DynamicsKind::QuasiPeriodic
+        !matches!(motion.kind(), MotionKind::Wanders) || dynamics == DynamicsKind::QuasiPeriodic
     };
     let beside = !others.is_empty();
     let may_end = beside && !others.iter().any(|one| stays(one));

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use vinesink::analysis::Analysis;
 use vinesink::analysis::motion::{read_off, state_of, wrapped};
 use vinesink::motions::{Measured, Window};
-use vinesink::orbits::{Bifurcation, Boundaries, Measures, symmetric_orbits};
+use vinesink::orbits::{Bifurcation, ExactBoundaries, Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
 use vinesink::system::{Parameters, System};
 use vinesink::validation::tolerance::asymptotic_error;
@@ -102,7 +102,8 @@ fn errors_by_exact_orbit(system: &System) -> [f64; 4] {
 /// Relative errors of the boundaries in forcing, of those that the exact families have.
 fn errors_of_boundaries(system: &System) -> BTreeMap<Bifurcation, f64> {
     let theory = Analysis::of(system).expect("analysable").boundaries;
-    let Boundaries { symmetric: exact, asymmetric, .. } = Boundaries::of(system).expect("damped");
+    let ExactBoundaries { symmetric: exact, asymmetric, .. } =
+        ExactBoundaries::of(system).expect("damped");
     let asymmetric = asymmetric.expect("beyond symmetry breaking");
     let of_asymmetric = theory.of_asymmetric().map(|(kind, gamma)| {
         let doubles = kind == Bifurcation::PeriodDoubling;

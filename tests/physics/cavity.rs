@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use vinesink::analysis::{Analysis, Manifold};
-use vinesink::cavity::{CavityTheory, FixedPoint, Forcing, Motion};
-use vinesink::dissipation::Point;
+use vinesink::cavity::{CavityFixedPoint, CavityMotion, CavityTheory, Forcing};
+use vinesink::dissipation::PairPoint;
 use vinesink::equations::cavity as formulas;
 use vinesink::regimes::Regime;
 use vinesink::system::{Cavity, Excitation, Parameters, System};
@@ -48,8 +48,9 @@ fn the_limit_is_the_theory_without_options() {
             {
                 let beta = manifold.stable_absorber(c).expect("above the fold");
                 let motions = cavity.motions_at(c);
-                let near =
-                    |one: &&Motion| one.deviation.abs() < 1e-9 && one.absorber_amplitude > 1.0;
+                let near = |one: &&CavityMotion| {
+                    one.deviation.abs() < 1e-9 && one.absorber_amplitude > 1.0
+                };
                 let motion = motions.iter().find(near).expect("the symmetric one");
                 let rho = manifold.restitution_ratio;
                 let forces = [
@@ -107,7 +108,7 @@ fn the_asymmetric_motion_has_the_known_averages() {
     );
     assert!((one.deviation + other.deviation).abs() < 1e-12);
     for c in [0.8, 0.9, 0.97] {
-        let point = Point::measured(0.6, c, [0.5, 0.3]).expect("a motion");
+        let point = PairPoint::measured(0.6, c, [0.5, 0.3]).expect("a motion");
         assert_eq!((point.regime, point.repeats_after), (Regime::TwoAsymmetric, Some(1)), "{c}");
         let motions = cavity(0.0, 0.0, [0.6, 0.6]).motions_at(c);
         let motion = motions.iter().find(|one| one.stable && one.admissible).expect("one");
@@ -197,7 +198,7 @@ fn folds_are_where_the_number_of_motions_changes() {
         }
     }
     let [symmetric, tilted] = [0.0, 1e-6].map(|a| {
-        let smallest = |least: f64, one: &Motion| least.min(one.oscillator_amplitude);
+        let smallest = |least: f64, one: &CavityMotion| least.min(one.oscillator_amplitude);
         cavity(a, 0.1, [0.6, 0.6]).folds().iter().fold(f64::INFINITY, smallest)
     });
     assert!((symmetric - tilted).abs() < 1e-6, "{symmetric} {tilted}");
@@ -268,9 +269,14 @@ fn friction_alone_leaves_the_fixed_points_a_quadratic() {
 }
 
 /// Rates of `C` and `eta`, the motion being the one nearest to another.
-fn rates(cavity: &CavityTheory, forcing: &Forcing, [c, eta]: [f64; 2], near: &Motion) -> [f64; 2] {
+fn rates(
+    cavity: &CavityTheory,
+    forcing: &Forcing,
+    [c, eta]: [f64; 2],
+    near: &CavityMotion,
+) -> [f64; 2] {
     let motions = cavity.motions_at(c);
-    let apart = |one: &&Motion| {
+    let apart = |one: &&CavityMotion| {
         (one.absorber_amplitude - near.absorber_amplitude).abs()
             + (one.deviation - near.deviation).abs()
     };
@@ -297,7 +303,7 @@ fn fixed_points_are_those_of_the_slow_flow() {
         let cavity = cavity(a, f, ends);
         for forcing in FORCINGS {
             let points = cavity.fixed_points(&forcing);
-            for FixedPoint { motion, eta, trace, determinant, .. } in &points {
+            for CavityFixedPoint { motion, eta, trace, determinant, .. } in &points {
                 let at = [motion.oscillator_amplitude, *eta];
                 let rate =
                     |c: f64, eta: f64| rates(&cavity, &forcing, [at[0] + c, at[1] + eta], motion);
@@ -315,7 +321,7 @@ fn fixed_points_are_those_of_the_slow_flow() {
                 assert!(apart.iter().all(|one| one.abs() < 1e-7 * size), "{apart:?} {motion:?}");
                 compared += 1;
             }
-            let held = |motion: &Motion| {
+            let held = |motion: &CavityMotion| {
                 let Forcing { damping, detuning, forcing_per_clearance: gamma } = forcing;
                 let c = motion.oscillator_amplitude;
                 let sides =

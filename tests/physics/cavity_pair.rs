@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use vinesink::cavity::{AsymmetricLimits, CavityTheory, Motion};
+use vinesink::cavity::{AsymmetricLimits, CavityMotion, CavityTheory};
 
 fn cavity(a: f64, f: f64, restitutions: [f64; 2]) -> CavityTheory {
     CavityTheory::new(a, f, restitutions).expect("valid")
@@ -129,13 +129,13 @@ impl Pair {
 }
 
 /// A period of the pair from a motion's first impact.
-fn one_period(cavity: &CavityTheory, motion: &Motion) -> Period {
+fn one_period(cavity: &CavityTheory, motion: &CavityMotion) -> Period {
     let (c, [u1, _]) = (motion.oscillator_amplitude, motion.velocities);
     Pair::after_first_impact(cavity, c, motion.impact_phase, u1).period()
 }
 
 /// By how much a period is not the motion's: phases, velocities, `S`, `K`; infinite where it has other impacts.
-fn distance(motion: &Motion, period: &Period) -> f64 {
+fn distance(motion: &CavityMotion, period: &Period) -> f64 {
     let [second, first] = period.impacts[..] else { return f64::INFINITY };
     let [u1, u2] = motion.velocities;
     let from = motion.impact_phase;
@@ -250,7 +250,7 @@ fn the_impact_pair_comes_to_no_other_motion() {
                     continue;
                 }
                 came += 1;
-                let apart = |motion: &&Motion| {
+                let apart = |motion: &&CavityMotion| {
                     let phase = (motion.impact_phase - t + PI).rem_euclid(TAU) - PI;
                     phase.abs().max((motion.velocities[0] - v).abs())
                 };
@@ -326,11 +326,11 @@ fn asymmetric_impacts_end_where_the_limits_are() {
         let cavity = cavity(0.0, 0.0, [r, r]);
         let limits = AsymmetricLimits::of(r);
         let places: Vec<f64> = (1..=1250).map(|k| f64::from(k) * 1e-3).collect();
-        let first = |lost: &dyn Fn(&Motion) -> bool| {
+        let first = |lost: &dyn Fn(&CavityMotion) -> bool| {
             let motion = |nu: &f64| cavity.motion(*nu).expect("between the walls");
             places.iter().copied().find(|nu| lost(&motion(nu)))
         };
-        let near = |found: Option<Motion>, seen: Option<f64>| match (found, seen) {
+        let near = |found: Option<CavityMotion>, seen: Option<f64>| match (found, seen) {
             (Some(found), Some(seen)) => (seen - 1e-3..=seen).contains(&found.deviation),
             (None, Some(_)) => true,
             (_, None) => false,

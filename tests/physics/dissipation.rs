@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use vinesink::analysis::{Analysis, Area, Manifold};
 use vinesink::dissipation::{
-    AveragedFlow, Branch, DissipationCurve, ModulatedCycle, Point, Recapture, SteadyState,
+    AveragedFlow, DissipationCurve, ModulatedCycle, PairBranch, PairPoint, Recapture, SteadyState,
 };
 use vinesink::equations::dissipation as formulas;
 use vinesink::executor::Serial;
@@ -46,13 +46,13 @@ fn system(mass_ratio: f64, damping: f64, restitution: f64, sigma: f64, gamma: f6
 }
 
 /// The branches with impacts at an amplitude.
-fn at(curve: &DissipationCurve, amplitude: f64) -> Vec<&Branch> {
-    let moving = |branch: &&Branch| branch.points[0].regime != Regime::AtRest;
+fn at(curve: &DissipationCurve, amplitude: f64) -> Vec<&PairBranch> {
+    let moving = |branch: &&PairBranch| branch.points[0].regime != Regime::AtRest;
     curve.branches.iter().filter(|branch| branch.covers(amplitude)).filter(moving).collect()
 }
 
-fn nearest(branch: &Branch, amplitude: f64) -> &Point {
-    let apart = |point: &&Point| (point.amplitude - amplitude).abs();
+fn nearest(branch: &PairBranch, amplitude: f64) -> &PairPoint {
+    let apart = |point: &&PairPoint| (point.amplitude - amplitude).abs();
     branch.points.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("points")
 }
 
@@ -109,7 +109,7 @@ fn averages_are_the_closed_form_on_the_stable_branch() {
             let point = &closed.points[place];
             let c = point.amplitude;
             let (forces, state) = by_hand(restitution, c);
-            let found = Point::measured(restitution, c, state).expect("a motion");
+            let found = PairPoint::measured(restitution, c, state).expect("a motion");
             let kind = (found.regime, found.repeats_after);
             assert_eq!(kind, (Regime::TwoSymmetric, Some(1)), "{restitution} {c}: {found:?}");
             let between = 0.5 * (c + closed.points[place + 1].amplitude);
@@ -139,7 +139,7 @@ fn values_are_the_known_ones() {
         (3.0, 0.676, -3.556, 4.0),
     ];
     for (c, resistance, reactance, impacts) in known {
-        let matches = |branch: &&Branch| {
+        let matches = |branch: &&PairBranch| {
             let ([s, k], errors) = branch.forces(c).expect("covered");
             let point = nearest(branch, c);
             let repeats = point.repeats_after.is_some();
@@ -165,7 +165,7 @@ fn values_are_the_known_ones() {
 fn averages_are_those_of_a_pair_stepped_by_hand() {
     for (restitution, c) in [(0.6, 0.9), (0.6, 1.2), (0.6, 3.0), (0.75, 2.6), (0.3, 1.0)] {
         let start = [0.3, 1.4 * c];
-        let found = Point::measured(restitution, c, start).expect("a motion");
+        let found = PairPoint::measured(restitution, c, start).expect("a motion");
         assert!(found.repeats_after.is_some() && found.regime != Regime::TwoSymmetric, "{found:?}");
         let by_steps = stepped(restitution, c, start);
         for k in 0..2 {
@@ -183,7 +183,7 @@ fn fold_and_symmetry_breaking_are_where_the_closed_form_has_them() {
         let [fold, end] =
             [manifold.fold, manifold.symmetry_breaking].map(|at| at.oscillator_amplitude);
         let from = |c: f64, of: f64| {
-            Point::measured(restitution, c, by_hand(restitution, of).1).expect("a motion")
+            PairPoint::measured(restitution, c, by_hand(restitution, of).1).expect("a motion")
         };
         assert_eq!(from(1.02 * fold, 1.02 * fold).regime, Regime::TwoSymmetric);
         assert_ne!(from(0.98 * fold, 1.001 * fold).regime, Regime::TwoSymmetric);
@@ -230,7 +230,7 @@ fn no_motion_that_brute_force_finds_is_missed() {
             curve = DissipationCurve::of(row[0], [0.1, 1.5]);
         }
         let (c, forces) = (row[1], [row[3], row[4]]);
-        let close = |branch: &Branch| {
+        let close = |branch: &PairBranch| {
             let (own, errors) = branch.forces(c).expect("covered");
             // A part of what a branch changes by in a step, near an end that is steep, and of what tells motions apart.
             (0..2).all(|k| (own[k] - forces[k]).abs() < 0.01 + errors[k])
@@ -255,9 +255,9 @@ fn elastic_impacts_have_no_curve_because_averages_depend_on_the_start() {
     let starts = [[0.3, 1.4], [-0.8, -0.6], [0.1, 0.5], [-0.3, -2.0], [0.0, 3.2], [-0.6, 4.0]];
     // The largest difference of K, over what both averages are known to.
     let apart = |restitution: f64| {
-        let found: Vec<Point> = starts
+        let found: Vec<PairPoint> = starts
             .iter()
-            .filter_map(|[w, speed]| Point::measured(restitution, C, [*w, speed * C]))
+            .filter_map(|[w, speed]| PairPoint::measured(restitution, C, [*w, speed * C]))
             .filter(|point| point.repeats_after.is_none())
             .collect();
         assert!(found.len() > 3, "{found:?}");
@@ -291,7 +291,7 @@ fn averages_of_motions_that_repeat_are_known_to_rounding() {
     let mut repeat = 0;
     for [w, speed] in starts {
         for c in [0.5, 3.0] {
-            let found = Point::measured(0.97, c, [w, c * speed]).expect("a motion");
+            let found = PairPoint::measured(0.97, c, [w, c * speed]).expect("a motion");
             if found.repeats_after.is_some() {
                 repeat += 1;
                 assert!(found.errors.iter().all(|error| *error < 1e-6), "{found:?}");

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use vinesink::analysis::{Analysis, Branch, FixedPoint, Strip, boundaries};
+use vinesink::analysis::{Analysis, FixedPoint, ManifoldBranch, Strip, boundaries};
 use vinesink::analysis::{Area, FixedPointCurve};
 use vinesink::bifurcation::Bifurcation;
 use vinesink::system::{Cavity, Excitation, Parameters, System};
@@ -199,13 +199,13 @@ proptest! {
         let theory = analysis(&system);
         let on = |branch| theory.fixed_points.iter().any(|point| point.branch == branch);
         let below_hopf = system.forcing_per_clearance() < theory.boundaries.hopf;
-        let expected = if on(Branch::Stable) {
+        let expected = if on(ManifoldBranch::Stable) {
             (Area::Z3, below_hopf.then_some(Strip::A1))
-        } else if on(Branch::Right) {
+        } else if on(ManifoldBranch::Right) {
             let grazes = theory.boundaries.grazing;
             let asymmetric = grazes.is_some_and(|gamma| system.forcing_per_clearance() <= gamma);
             (if asymmetric { Area::Z2 } else { Area::Z1 }, None)
-        } else if on(Branch::Left) && below_hopf {
+        } else if on(ManifoldBranch::Left) && below_hopf {
             (Area::Z3, Some(Strip::A2))
         } else {
             (Area::Z4, None)

@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::common;
-use vinesink::analysis::{Analysis, Branch};
+use vinesink::analysis::{Analysis, ManifoldBranch};
 use vinesink::motions::{Effort, Motion, follow, starts};
 use vinesink::regimes::Regime;
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
@@ -104,7 +104,7 @@ fn ratios(set: Set) -> [f64; 2] {
     let end = if on_stable { collision } else { hopf };
     // The program's own boundaries are these.
     let found = Analysis::of(&system).expect("analysable").boundaries;
-    let node = found.saddle_node.filter(|node| node.branch == Branch::Stable);
+    let node = found.saddle_node.filter(|node| node.branch == ManifoldBranch::Stable);
     assert_eq!(node.is_some(), on_stable);
     let ends = node.map_or(found.hopf, |node| node.forcing_over_clearance);
     assert!((ends / gamma(end) - 1.0).abs() < 1e-12);

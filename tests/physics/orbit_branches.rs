@@ -5,11 +5,11 @@
 
 use crate::common::table_1;
 use crate::orbit_support::impacts_from;
-use vinesink::orbits::branch::{Direction, Settings, follow};
+use vinesink::orbits::branch::{BranchDirection, Settings, follow};
 use vinesink::orbits::newton::solve;
 use vinesink::orbits::switching::{branch_off, continue_beyond};
 use vinesink::orbits::{
-    Bifurcation, Boundaries, Branch, BranchEnd, Closure, Cycle, Orbit, OrbitError, Origin,
+    Bifurcation, Branch, BranchEnd, Closure, Cycle, ExactBoundaries, Orbit, OrbitError, Origin,
     SpecialPoint, SymmetricFamily, symmetric_orbits,
 };
 use vinesink::system::{Parameter, Parameters, System};
@@ -18,7 +18,12 @@ fn stable_orbit(system: &System) -> Orbit {
     symmetric_orbits(system).expect("damped").pop().expect("exists").orbit
 }
 
-fn branch(system: &System, parameter: Parameter, direction: Direction, range: [f64; 2]) -> Branch {
+fn branch(
+    system: &System,
+    parameter: Parameter,
+    direction: BranchDirection,
+    range: [f64; 2],
+) -> Branch {
     let start = stable_orbit(system);
     follow(system, &start, parameter, direction, &Settings::within(range)).expect("regular start")
 }
@@ -34,8 +39,8 @@ fn continuation_and_closed_form_agree_on_the_limits() {
     for (frequency, clearance) in [(8.0, 7.5), (8.5, 20.0)] {
         let system = table_1(frequency, clearance);
         let family = SymmetricFamily::of(&system).expect("damped");
-        let up = branch(&system, Parameter::Clearance, Direction::Up, [0.05, 10.0]);
-        let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
+        let up = branch(&system, Parameter::Clearance, BranchDirection::Up, [0.05, 10.0]);
+        let down = branch(&system, Parameter::Clearance, BranchDirection::Down, [0.05, 10.0]);
         let found: Vec<&SpecialPoint> = up.specials.iter().chain(&down.specials).collect();
         for kind in [SaddleNode, NeimarkSacker, SymmetryBreaking, Grazing] {
             let limits = family.limits.iter().filter(|limit| limit.kind == kind);
@@ -57,7 +62,7 @@ fn continuation_and_closed_form_agree_on_the_limits() {
 #[test]
 fn every_point_of_a_branch_is_an_orbit() {
     let system = table_1(8.5, 20.0);
-    let up = branch(&system, Parameter::Clearance, Direction::Up, [0.05, 10.0]);
+    let up = branch(&system, Parameter::Clearance, BranchDirection::Up, [0.05, 10.0]);
     assert!(up.points.len() > 50);
     for point in &up.points {
         assert!(point.orbit.convergence.residual < 1e-13, "{point:?}");
@@ -76,7 +81,7 @@ fn every_point_of_a_branch_is_an_orbit() {
 #[test]
 fn a_closed_branch_says_that_it_is_closed() {
     let system = table_1(8.5, 20.0);
-    let isola = branch(&system, Parameter::Frequency, Direction::Up, [0.5, 1.5]);
+    let isola = branch(&system, Parameter::Frequency, BranchDirection::Up, [0.5, 1.5]);
     assert!(matches!(isola.end, BranchEnd::Closed { .. }), "{:?}", isola.end);
     let turns = isola.specials.iter().filter(|s| s.kind == Bifurcation::SaddleNode).count();
     assert_eq!(turns, 2, "a closed curve turns back twice");
@@ -86,7 +91,7 @@ fn a_closed_branch_says_that_it_is_closed() {
 #[test]
 fn a_branch_reaches_an_elastic_impact_and_stops_there() {
     let system = table_1(8.0, 7.5);
-    let up = branch(&system, Parameter::Restitution, Direction::Up, [0.0, 1.0]);
+    let up = branch(&system, Parameter::Restitution, BranchDirection::Up, [0.0, 1.0]);
     assert_eq!(up.end, BranchEnd::Range { value: 1.0 });
     assert_eq!(up.points.last().expect("some").value, 1.0);
 }
@@ -95,7 +100,7 @@ fn a_branch_reaches_an_elastic_impact_and_stops_there() {
 #[test]
 fn the_branch_off_a_symmetry_breaking_is_the_simulated_asymmetric_motion() {
     let system = table_1(8.0, 7.5);
-    let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
+    let down = branch(&system, Parameter::Clearance, BranchDirection::Down, [0.05, 10.0]);
     let breaking = first(&down, Bifurcation::SymmetryBreaking);
     let settings = Settings::within([0.05, 10.0]);
     let asymmetric =
@@ -135,7 +140,7 @@ fn common_start(system: &System) -> vinesink::orbits::AfterImpact {
 fn newton_refines_a_disturbed_orbit_of_three_impacts() {
     let system = table_1(8.0, 7.5);
     let settings = Settings::within([0.05, 10.0]);
-    let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
+    let down = branch(&system, Parameter::Clearance, BranchDirection::Down, [0.05, 10.0]);
     let breaking = first(&down, Bifurcation::SymmetryBreaking);
     let asymmetric = branch_off(&system, Parameter::Clearance, breaking, &settings).expect("found");
     let grazing = first(&asymmetric, Bifurcation::Grazing);
@@ -172,7 +177,7 @@ fn newton_refines_a_disturbed_orbit_of_three_impacts() {
 fn a_doubled_branch_leaves_with_squared_multipliers() {
     let system = table_1(8.5, 20.0);
     let settings = Settings::within([0.05, 10.0]);
-    let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
+    let down = branch(&system, Parameter::Clearance, BranchDirection::Down, [0.05, 10.0]);
     let breaking = first(&down, Bifurcation::SymmetryBreaking);
     let asymmetric = branch_off(&system, Parameter::Clearance, breaking, &settings).expect("found");
     let doubling = first(&asymmetric, Bifurcation::PeriodDoubling);
@@ -233,7 +238,7 @@ fn sequences_are_named_once() {
 fn the_border_between_two_and_more_impacts_is_a_grazing() {
     for frequency in [7.6, 7.8, 8.0, 8.2, 8.4, 8.5, 8.7, 9.0] {
         let system = table_1(frequency, 10.0);
-        let boundaries = Boundaries::of(&system).expect("damped");
+        let boundaries = ExactBoundaries::of(&system).expect("damped");
         let asymmetric = boundaries.asymmetric.expect("below resonance and above");
         let grazing = asymmetric.grazing.expect("the branch ends by grazing");
         assert!(asymmetric.attracting, "{frequency}");
@@ -263,7 +268,7 @@ fn the_border_between_two_and_more_impacts_is_a_grazing() {
 fn an_asymmetric_branch_ends_at_the_other_symmetry_breaking() {
     let system = table_1(8.0, 15.0);
     let settings = Settings::within([0.5, 2.0]);
-    let symmetric = branch(&system, Parameter::Frequency, Direction::Up, [0.5, 2.0]);
+    let symmetric = branch(&system, Parameter::Frequency, BranchDirection::Up, [0.5, 2.0]);
     let breakings: Vec<&SpecialPoint> = symmetric
         .specials
         .iter()
@@ -285,12 +290,12 @@ fn an_asymmetric_branch_ends_at_the_other_symmetry_breaking() {
 fn an_asymmetric_branch_turns_back_at_the_symmetry_breaking() {
     let system = table_1(8.0, 7.5);
     let settings = Settings::within([0.05, 10.0]);
-    let down = branch(&system, Parameter::Clearance, Direction::Down, [0.05, 10.0]);
+    let down = branch(&system, Parameter::Clearance, BranchDirection::Down, [0.05, 10.0]);
     let breaking = first(&down, Bifurcation::SymmetryBreaking);
     let asymmetric = branch_off(&system, Parameter::Clearance, breaking, &settings).expect("found");
     let inside = &asymmetric.points[asymmetric.points.len() / 2];
     let there = system.with_clearance_scaled(inside.value).expect("valid");
-    let back = follow(&there, &inside.orbit, Parameter::Clearance, Direction::Up, &settings)
+    let back = follow(&there, &inside.orbit, Parameter::Clearance, BranchDirection::Up, &settings)
         .expect("regular start");
     let met = first(&back, Bifurcation::SymmetryBreaking);
     assert!(met.converged, "{met:?}");
@@ -314,7 +319,7 @@ fn a_followed_orbit_ends_in_sticking_where_the_closed_form_says() {
     let family = SymmetricFamily::of(&system).expect("damped");
     let [expected, node] = family.stable[0].clearance;
     let inside = system.with_clearance_scaled(0.5 * (expected + node)).expect("valid");
-    let branch = branch(&inside, Parameter::Clearance, Direction::Down, [0.2, 2.0]);
+    let branch = branch(&inside, Parameter::Clearance, BranchDirection::Down, [0.2, 2.0]);
     let expected = 2.0 * expected / (expected + node);
     let last = branch.specials.last().expect("ends");
     assert_eq!(last.kind, Bifurcation::Sticking, "{:?}", branch.specials);

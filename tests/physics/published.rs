@@ -2,7 +2,7 @@
 //! Berlioz (2016) with F = 0.25 mm, to all digits that are printed.
 
 use crate::common;
-use vinesink::analysis::{Analysis, Area, Branch, Strip, Zone};
+use vinesink::analysis::{Analysis, Area, ManifoldBranch, Strip, Zone};
 use vinesink::executor::Serial;
 use vinesink::motions::{Effort, Measured, Place, Window, motions};
 use vinesink::system::State;
@@ -22,8 +22,8 @@ fn reduced_parameters() {
 #[test]
 fn boundaries_in_clearance() {
     let table = [
-        (8.0, "4.687", "15.346", "16.259", Branch::Stable),
-        (8.5, "6.443", "26.496", "34.913", Branch::Left),
+        (8.0, "4.687", "15.346", "16.259", ManifoldBranch::Stable),
+        (8.5, "6.443", "26.496", "34.913", ManifoldBranch::Left),
     ];
     for (frequency, breaking, hopf, saddle_node, branch) in table {
         let system = common::table_1(frequency, 10.0);

@@ -3,7 +3,7 @@
 
 use crate::common::table_1;
 use crate::orbit_support::real_cavity::{apart, cavities, orbits, with};
-use vinesink::orbits::branch::{BranchPoint, Direction, Settings, follow};
+use vinesink::orbits::branch::{BranchDirection, BranchPoint, Settings, follow};
 use vinesink::orbits::newton::solve;
 use vinesink::orbits::{
     Bifurcation, Closure, Cycle, FullSystem, Orbit, OrbitError, Origin, SymmetricFamily,
@@ -89,7 +89,8 @@ fn nothing_of_an_ideal_cavity_is_told_of_a_real_one() {
             assert!(symmetric.is_empty() && attracting_orbit(&system).is_none());
             let half = &symmetric_orbits(&ideal).expect("steady")[1].orbit;
             let settings = Settings::within([0.9, 1.1]);
-            let refused = follow(&system, half, Parameter::Clearance, Direction::Up, &settings);
+            let refused =
+                follow(&system, half, Parameter::Clearance, BranchDirection::Up, &settings);
             assert!(matches!(refused, Err(OrbitError::NotACycle { .. })), "{refused:?}");
             // Over a whole period it is a start.
             let near = with(&ideal, 0.1 * a, 0.1 * f, 0.1 * d);
@@ -106,7 +107,7 @@ fn branches_lead_through_the_orbits_that_are_counted() {
     for [a, f, d] in cavities() {
         let system = with(&ideal, a, f, d);
         let start = orbits(&system).into_iter().find(|one| one.attracts()).expect("one");
-        for direction in [Direction::Up, Direction::Down] {
+        for direction in [BranchDirection::Up, BranchDirection::Down] {
             let settings = Settings::within([0.3, 3.0]);
             let branch = follow(&system, &start, Parameter::Clearance, direction, &settings);
             let branch = branch.expect("followed");

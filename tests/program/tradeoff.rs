@@ -17,7 +17,7 @@ use vinesink::operation_count::{self, ELEMENTARY};
 use vinesink::orbits::{Measures, symmetric_orbits};
 use vinesink::regimes::Regime;
 use vinesink::simulation::{Measurement, Simulation};
-use vinesink::study::estimate::{WhyNot, measured};
+use vinesink::study::estimate::{WhyNoAnswer, measured};
 use vinesink::study::fidelity::{AccuracyTarget, Answers, KnownBy, LayerPlan, Question};
 use vinesink::study::{CaseStudy, StudyError};
 use vinesink::symbolic::Symbol;
@@ -229,7 +229,7 @@ fn the_averaged_flow_answers_beyond_symmetry_breaking() {
     let system = common::table_1(8.35, 11.5);
     let (averaged, cost) = Method::AveragedFlow.run(&system, START).expect("analysable");
     let (closed, cheap) = Method::FixedPoints.run(&system, START).expect("analysable");
-    assert_eq!(closed.why_not, Some(WhyNot::NoStablePoint));
+    assert_eq!(closed.why_not, Some(WhyNoAnswer::NoStablePoint));
     assert_eq!((averaged.regime, averaged.impacts_per_period), (Some(Regime::AboveTwo), Some(3.0)));
     let run = Method::Simulation { periods: 400, search: Search::Panels, excursion: None };
     let (simulated, _) = run.run(&system, START).expect("simulated");
@@ -243,7 +243,7 @@ fn the_averaged_flow_answers_beyond_symmetry_breaking() {
         Method::AveragedFlow.run(&common::table_1(8.5, clearance), START).expect("analysable").0
     });
     assert_eq!(modulated.regime, Some(Regime::StronglyModulated));
-    assert_eq!(rests.why_not, Some(WhyNot::NoStableAmplitude));
+    assert_eq!(rests.why_not, Some(WhyNoAnswer::NoStableAmplitude));
 }
 
 #[test]

@@ -9,9 +9,9 @@ use serde::Serialize;
 
 use super::curve::FixedPointCurve;
 use super::frequency_response::detunings;
-use super::manifold::{Branch, Manifold};
+use super::manifold::{Manifold, ManifoldBranch};
 use crate::bifurcation::Bifurcation;
-use crate::cavity::{AsymmetricLimits, Motion};
+use crate::cavity::{AsymmetricLimits, CavityMotion};
 use crate::equations::fixed_points as formulas;
 use crate::numerics::polynomial::{real_roots, through};
 use crate::system::System;
@@ -25,7 +25,7 @@ pub struct SaddleNode {
     #[serde(rename = "B")]
     pub absorber_amplitude: f64,
     /// The branch on which it happens.
-    pub branch: Branch,
+    pub branch: ManifoldBranch,
 }
 
 /// Where saddle-node and Hopf boundary meet: P1 of Fig. 6c.
@@ -88,7 +88,7 @@ impl Boundaries {
     /// `gamma` at which steady 1:1 resonance ends as the forcing falls: two fixed points collide on the stable branch, or one
     /// reaches the fold.
     pub fn end_of_steady(&self) -> f64 {
-        let node = self.saddle_node.filter(|node| node.branch == Branch::Stable);
+        let node = self.saddle_node.filter(|node| node.branch == ManifoldBranch::Stable);
         node.map_or(self.hopf, |node| node.forcing_over_clearance)
     }
 
@@ -137,7 +137,7 @@ pub fn vanishing(system: &System, manifold: &Manifold) -> Vec<f64> {
 }
 
 /// The same of a motion of an ideal cavity: detunings at which it is a fixed point.
-pub fn crossings_of(motion: &Motion, system: &System, manifold: &Manifold) -> Vec<f64> {
+pub fn crossings_of(motion: &CavityMotion, system: &System, manifold: &Manifold) -> Vec<f64> {
     // The square of the forcing is a quadratic in the detuning.
     let excess = |detuning: f64| {
         let curve = FixedPointCurve::at_detuning(system, manifold, detuning);

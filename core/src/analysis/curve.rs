@@ -5,8 +5,8 @@
 //! `gamma - gamma_SN`, and near the collision the distance from it is what is known of them.
 
 use super::areas::{Area, Strip, Zone};
-use super::manifold::{Branch, Manifold};
-use crate::cavity::{AsymmetricLimits, Motion};
+use super::manifold::{Manifold, ManifoldBranch};
+use crate::cavity::{AsymmetricLimits, CavityMotion};
 use crate::equations::dissipation::FORCING_SQUARED;
 use crate::equations::fixed_points as formulas;
 use crate::operation_count;
@@ -91,8 +91,8 @@ impl FixedPointCurve {
     }
 
     /// `gamma` at which a motion of an ideal cavity is a fixed point.
-    pub fn forcing_of(&self, motion: &Motion) -> f64 {
-        let Motion { resistance, reactance, oscillator_amplitude, .. } = *motion;
+    pub fn forcing_of(&self, motion: &CavityMotion) -> f64 {
+        let CavityMotion { resistance, reactance, oscillator_amplitude, .. } = *motion;
         let given = [self.damping, self.detuning, resistance, reactance, oscillator_amplitude];
         FORCING_SQUARED.at(given).sqrt()
     }
@@ -130,17 +130,17 @@ impl FixedPointCurve {
     }
 
     /// The same where it is known, or does not matter, which asymmetric motion grazes.
-    pub fn zone_within(&self, gamma: f64, grazing: impl FnOnce() -> Option<Motion>) -> Zone {
+    pub fn zone_within(&self, gamma: f64, grazing: impl FnOnce() -> Option<CavityMotion>) -> Zone {
         let below_hopf = gamma < self.hopf();
         let on = |branch| {
             self.fixed_points(gamma).any(|at| self.manifold.branch(at.ratio - 1.0) == branch)
         };
-        let (area, strip) = if on(Branch::Stable) {
+        let (area, strip) = if on(ManifoldBranch::Stable) {
             (Area::Z3, below_hopf.then_some(Strip::A1))
-        } else if on(Branch::Right) {
+        } else if on(ManifoldBranch::Right) {
             let within = grazing().is_some_and(|end| gamma <= self.forcing_of(&end));
             (if within { Area::Z2 } else { Area::Z1 }, None)
-        } else if on(Branch::Left) && below_hopf {
+        } else if on(ManifoldBranch::Left) && below_hopf {
             (Area::Z3, Some(Strip::A2))
         } else {
             (Area::Z4, None)

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::AnalysisError;
 use super::ManifoldPoint;
 use super::curve::{Amplitude, FixedPointCurve};
-use super::manifold::{Branch, CAVITY_ROUNDING, Manifold};
+use super::manifold::{CAVITY_ROUNDING, Manifold, ManifoldBranch};
 use crate::equations::fixed_points::{COSINE_SIDE, SINE_SIDE};
 use crate::equations::manifold::MANIFOLD_SQUARE;
 use crate::equations::slow_flow::{DETERMINANT, TRACE};
@@ -22,7 +22,7 @@ use crate::system::System;
 /// What the linearised slow flow does around a fixed point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum FixedPointKind {
     /// Real multipliers of one sign.
     Node,
     /// A complex pair.
@@ -33,7 +33,7 @@ pub enum Kind {
     Degenerate,
 }
 
-impl Kind {
+impl FixedPointKind {
     /// The name in a report.
     pub fn words(self) -> &'static str {
         match self {
@@ -74,13 +74,13 @@ pub struct FixedPoint {
     #[serde(rename = "Theta")]
     pub absorber_phase: f64,
     /// Where on the manifold.
-    pub branch: Branch,
+    pub branch: ManifoldBranch,
     /// Trace of the slow flow's Jacobian, per slow time.
     pub trace: f64,
     /// Its determinant.
     pub determinant: f64,
     /// What the slow flow does nearby.
-    pub kind: Kind,
+    pub kind: FixedPointKind,
     /// Stable in the slow flow and on the stable branch.
     pub stable: bool,
     /// Larger of the two rates of (18) at the point, each over the sum of its terms' absolute
@@ -145,8 +145,8 @@ fn point(
         branch,
         trace,
         determinant,
-        kind: Kind::of(trace, determinant),
-        stable: attracts && branch == Branch::Stable,
+        kind: FixedPointKind::of(trace, determinant),
+        stable: attracts && branch == ManifoldBranch::Stable,
         residual: residual(system, manifold, [ratio, oscillator], sides),
         largest_relative_displacement: largest,
         admissible: largest <= 1.0 + CAVITY_ROUNDING,

@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::ManifoldPoint;
-use super::manifold::{Branch, Manifold};
+use super::manifold::{Manifold, ManifoldBranch};
 use crate::equations::fixed_points::{DETUNING_0, DETUNING_1, DETUNING_2, UNTUNED};
 use crate::system::System;
 
@@ -22,7 +22,7 @@ pub struct ResponsePoint {
     #[serde(rename = "C")]
     pub oscillator_amplitude: f64,
     /// Where on the manifold.
-    pub branch: Branch,
+    pub branch: ManifoldBranch,
 }
 
 /// The two sides of the response curve, by ascending amplitude: where the quadratic has no real

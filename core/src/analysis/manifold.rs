@@ -20,7 +20,7 @@ pub(super) const CAVITY_ROUNDING: f64 = 1e-12;
 /// A part of the manifold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Branch {
+pub enum ManifoldBranch {
     /// Below the fold: unstable.
     Left,
     /// Between fold and symmetry breaking: stable.
@@ -29,7 +29,7 @@ pub enum Branch {
     Right,
 }
 
-impl Branch {
+impl ManifoldBranch {
     /// The name in a report.
     pub fn words(self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl Branch {
 ///
 /// ```
 /// use std::f64::consts::PI;
-/// use vinesink_core::analysis::{Branch, Manifold};
+/// use vinesink_core::analysis::{ManifoldBranch, Manifold};
 ///
 /// let manifold = Manifold::of(0.6);
 /// // rho = 0.4 / 1.6 = 1/4, R = 4 rho^2 / pi^2, and the fold is at B = b / (1 + R), C = b sqrt(R / (1 + R)).
@@ -110,13 +110,13 @@ impl Manifold {
     }
 
     /// The branch on which `B = b (1 + shift)` lies; the two ends of the stable branch belong to it.
-    pub fn branch(&self, shift: f64) -> Branch {
+    pub fn branch(&self, shift: f64) -> ManifoldBranch {
         if shift < self.fold_shift {
-            Branch::Left
+            ManifoldBranch::Left
         } else if 1.0 + shift <= self.symmetry_breaking.absorber_amplitude {
-            Branch::Stable
+            ManifoldBranch::Stable
         } else {
-            Branch::Right
+            ManifoldBranch::Right
         }
     }
 

@@ -26,8 +26,8 @@ pub use areas::{Area, Strip, Zone};
 pub use boundaries::{Boundaries, CodimensionTwo, SaddleNode};
 pub use curve::{Amplitude, FixedPointCurve};
 pub use decay::{EnergyShares, FreeDecay};
-pub use fixed_points::{FixedPoint, Kind, solve as fixed_points};
-pub use manifold::{Branch, Manifold};
+pub use fixed_points::{FixedPoint, FixedPointKind, solve as fixed_points};
+pub use manifold::{Manifold, ManifoldBranch};
 
 /// The quadratic of the fixed points has a coefficient that is not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

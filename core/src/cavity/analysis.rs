@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{CavityTheory, FixedPoint, Forcing, ManifoldPoint};
+use super::{CavityFixedPoint, CavityTheory, Forcing, ManifoldPoint};
 use crate::system::System;
 
 /// The theory of a cavity that is tilted, rubs or has unequal ends, at a system's excitation. Lengths over the clearance.
@@ -12,7 +12,7 @@ pub struct CavityAnalysis {
     /// The cavity.
     pub theory: CavityTheory,
     /// All fixed points of the slow flow, by ascending absorber amplitude.
-    pub fixed_points: Vec<FixedPoint>,
+    pub fixed_points: Vec<CavityFixedPoint>,
     /// The fold of the manifold; none where the cavity is not symmetric.
     pub fold: Option<ManifoldPoint>,
     /// Where symmetric motions end; none where the cavity is not symmetric.
@@ -35,7 +35,7 @@ impl CavityAnalysis {
     }
 
     /// The stable motion with the largest amplitude of the absorber.
-    pub fn stable_point(&self) -> Option<&FixedPoint> {
+    pub fn stable_point(&self) -> Option<&CavityFixedPoint> {
         self.fixed_points.iter().rfind(|point| point.stable)
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{CavityTheory, Motion};
+use super::{CavityMotion, CavityTheory};
 use crate::equations::dissipation::{DETERMINANT, FORCING_SQUARED, TRACE};
 use crate::system::System;
 
@@ -31,9 +31,9 @@ impl Forcing {
 /// A steady 1:1 motion with two impacts per cycle, as the theory sees it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct FixedPoint {
+pub struct CavityFixedPoint {
     /// The motion of the absorber.
-    pub motion: Motion,
+    pub motion: CavityMotion,
     /// Phase of the excitation against the oscillator, in `(-pi, pi]`.
     pub eta: f64,
     /// Trace of the slow flow's Jacobian, per slow time.
@@ -47,7 +47,7 @@ pub struct FixedPoint {
 impl CavityTheory {
     /// All fixed points of the slow flow, by ascending absorber amplitude, inadmissible ones included: the roots of
     /// `gamma^2 = (lambda c + S)^2 + (2 sigma c - K)^2` along the motions.
-    pub fn fixed_points(&self, forcing: &Forcing) -> Vec<FixedPoint> {
+    pub fn fixed_points(&self, forcing: &Forcing) -> Vec<CavityFixedPoint> {
         let Forcing { damping, detuning, forcing_per_clearance: gamma } = *forcing;
         let held = |[s, k]: [f64; 2], c: f64| FORCING_SQUARED.at([damping, detuning, s, k, c]);
         let motions = self.motions_where(|at| held(at.forces, at.amplitude) - gamma * gamma);
@@ -55,13 +55,13 @@ impl CavityTheory {
     }
 }
 
-fn fixed_point(forcing: &Forcing, motion: Motion) -> FixedPoint {
+fn fixed_point(forcing: &Forcing, motion: CavityMotion) -> CavityFixedPoint {
     let Forcing { damping, detuning, .. } = *forcing;
-    let Motion { resistance: s, reactance: k, oscillator_amplitude: c, slopes, .. } = motion;
+    let CavityMotion { resistance: s, reactance: k, oscillator_amplitude: c, slopes, .. } = motion;
     let trace = TRACE.at([damping, s, slopes[0], c]);
     let determinant = DETERMINANT.at([damping, detuning, s, k, slopes[0], slopes[1], c]);
     let attracts = trace < 0.0 && determinant > 0.0;
-    FixedPoint {
+    CavityFixedPoint {
         motion,
         eta: libm::atan2(damping * c + s, k - 2.0 * detuning * c),
         trace,

@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::CavityTheory;
-use super::motion::Motion;
+use super::motion::CavityMotion;
 use super::shape::MotionShape;
 use crate::equations::cavity::{DETERMINANT, DOUBLING, GRAZING, TRACE, TURNING, WALL_1, WALL_2};
 use crate::numerics::bracket::brent;
@@ -24,10 +24,10 @@ const WIDTH: f64 = 4.0 * f64::EPSILON;
 #[non_exhaustive]
 pub struct AsymmetricLimits {
     /// Where they double their period; `None` if a wall is grazed first.
-    pub period_doubling: Option<Motion>,
+    pub period_doubling: Option<CavityMotion>,
     /// Where the absorber grazes a wall, so that a third impact appears: the end of area Z2. `None` where it does
     /// before they begin, as for almost plastic impacts, `r` below a tenth.
-    pub grazing: Option<Motion>,
+    pub grazing: Option<CavityMotion>,
 }
 
 impl AsymmetricLimits {
@@ -50,7 +50,7 @@ impl AsymmetricLimits {
             brent(SMALLEST, LARGEST, WIDTH, f).map(|root| cavity.complete(&at(root.at)))
         };
         let grazing = end(grazing);
-        let before = |one: &Motion| grazing.is_some_and(|end| one.deviation < end.deviation);
+        let before = |one: &CavityMotion| grazing.is_some_and(|end| one.deviation < end.deviation);
         Self { period_doubling: end(doubling).filter(before), grazing }
     }
 }

@@ -12,7 +12,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::CavityTheory;
-use super::motion::Motion;
+use super::motion::CavityMotion;
 use super::shape::MotionShape;
 use crate::equations::cavity::IN_PHASE;
 use crate::numerics::bracket::bisected;
@@ -62,19 +62,19 @@ impl ManifoldStretch {
 
 impl CavityTheory {
     /// All motions at an amplitude `C/b` of the oscillator, by ascending absorber amplitude, inadmissible ones included.
-    pub fn motions_at(&self, oscillator: f64) -> Vec<Motion> {
+    pub fn motions_at(&self, oscillator: f64) -> Vec<CavityMotion> {
         self.motions_where(|shape| shape.amplitude - oscillator)
     }
 
     /// All motions at which the amplitude of the oscillator is smallest or largest along the manifold, by ascending absorber
     /// amplitude, inadmissible ones included: folds, at which a multiplier of the impact pair is 1 and two motions begin
     /// or end; in a symmetric cavity symmetry breaking as well.
-    pub fn folds(&self) -> Vec<Motion> {
+    pub fn folds(&self) -> Vec<CavityMotion> {
         self.motions_where(|shape| self.direction(shape).amplitude)
     }
 
     /// All motions at which `f` changes its sign, by ascending absorber amplitude.
-    pub(super) fn motions_where(&self, f: impl Fn(&MotionShape) -> f64) -> Vec<Motion> {
+    pub(super) fn motions_where(&self, f: impl Fn(&MotionShape) -> f64) -> Vec<CavityMotion> {
         let mut found = Vec::new();
         for stretch in self.stretches() {
             let shape = |part: f64| {

@@ -3,12 +3,12 @@
 //! Between impacts the absorber has `y'' = a + s f`, `s` the sign of `w'`: `a` is gravity's part along the cavity, `f`
 //! the sliding friction, both over `b omega0^2`. `r_1` is the restitution at the wall `w = b`, `r_2` that at `w = -b`.
 //! Every motion with two impacts per cycle, also the asymmetric one of a level cavity without friction, is explicit in
-//! the times between its impacts ([`Motion`]); the slow flow on these motions has its fixed points at the roots of
-//! one function of them ([`FixedPoint`]).
+//! the times between its impacts ([`CavityMotion`]); the slow flow on these motions has its fixed points at the roots of
+//! one function of them ([`CavityFixedPoint`]).
 //!
 //! Source: derived here beyond Li, Seguy, Berlioz (2016), in [`crate::equations::cavity`]; with a level cavity, equal
 //! ends and no friction it is (14) to (18). Valid at first order in the mass ratio, near 1:1 resonance; with friction
-//! only while the relative velocity keeps its sign between impacts, which [`Motion::admissible`] tells. A friction
+//! only while the relative velocity keeps its sign between impacts, which [`CavityMotion::admissible`] tells. A friction
 //! that goes to 0 therefore ends at admissible motions of fewer kinds than none does.
 
 mod analysis;
@@ -28,9 +28,9 @@ use crate::equations::stated::{CURVATURE, RESTITUTION_RATIO};
 use crate::system::{Cavity, InvalidParameter, System, check};
 
 pub use analysis::CavityAnalysis;
-pub use fixed_point::{FixedPoint, Forcing};
+pub use fixed_point::{CavityFixedPoint, Forcing};
 pub use limits::AsymmetricLimits;
-pub use motion::Motion;
+pub use motion::CavityMotion;
 
 /// A point of the manifold, over the clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -21,7 +21,7 @@ const ROUNDING: f64 = 1e-12;
 /// times in radians of `phi`. The first impact is at `w = b`, the second at `w = -b`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Motion {
+pub struct CavityMotion {
     /// `nu`, a quarter of the difference of the two times.
     pub deviation: f64,
     /// Phases from the first impact to the second, and back.
@@ -59,7 +59,7 @@ impl CavityTheory {
     /// The motion whose flight from `w = b` to `w = -b` takes the phase `pi + 2 deviation`, by its closed form. In a
     /// symmetric cavity it is the asymmetric one, which ends at symmetry breaking, where `deviation` is 0. `None` beyond
     /// `pi/2` either way, where the equation has no solution, and where the absorber would not go from wall to wall.
-    pub fn motion(&self, deviation: f64) -> Option<Motion> {
+    pub fn motion(&self, deviation: f64) -> Option<CavityMotion> {
         let inside = deviation.abs() < FRAC_PI_2;
         let shape = match self.equation(deviation) {
             [0.0, 0.0] => self.shape(deviation, self.symmetry_breaking()?.absorber_amplitude - 1.0),
@@ -75,7 +75,7 @@ impl CavityTheory {
 
     /// The motion of a symmetric cavity with impacts half a cycle apart and the absorber amplitude `B/b`; `None` where the
     /// cavity is another, or the amplitude is not above 0.
-    pub fn symmetric_motion(&self, absorber: f64) -> Option<Motion> {
+    pub fn symmetric_motion(&self, absorber: f64) -> Option<CavityMotion> {
         let shape = self.shape(0.0, absorber - 1.0);
         (self.is_symmetric() && shape.is_motion()).then(|| self.complete(&shape))
     }
@@ -121,12 +121,12 @@ impl CavityTheory {
         [VELOCITY_1.at([a, f, t1, shape.absorber]), VELOCITY_2.at([a, f, t2, shape.absorber])]
     }
 
-    pub(super) fn complete(&self, shape: &MotionShape) -> Motion {
+    pub(super) fn complete(&self, shape: &MotionShape) -> CavityMotion {
         operation_count::note(50 + 2 * operation_count::ELEMENTARY);
         let velocities = self.velocities(shape);
         let [trace, determinant] = trace_and_determinant(self, shape, velocities);
         let [in_phase, quadrature] = shape.parts;
-        Motion {
+        CavityMotion {
             deviation: shape.nu,
             times: shape.times,
             oscillator_amplitude: shape.amplitude,
@@ -183,9 +183,9 @@ impl CavityTheory {
     fn is_admissible(&self, shape: &MotionShape, [u1, u2]: [f64; 2]) -> bool {
         let (a, f, [t1, t2]) = (self.acceleration, self.friction, shape.times);
         let hits = u1 > u2 + (a + f) * t2 && u2 < u1 + (a - f) * t1;
-        let first = Crossing { velocity: u1, acceleration: a - f, time: t1, from: 1.0 };
-        let second = Crossing { velocity: u2, acceleration: a + f, time: t2, from: -1.0 };
-        let stays = |flight: &Crossing| {
+        let first = WallToWall { velocity: u1, acceleration: a - f, time: t1, from: 1.0 };
+        let second = WallToWall { velocity: u2, acceleration: a + f, time: t2, from: -1.0 };
+        let stays = |flight: &WallToWall| {
             let [slowest, largest] = flight.extremes(shape);
             largest <= 1.0 + ROUNDING && (f == 0.0 || slowest >= -ROUNDING)
         };
@@ -194,14 +194,14 @@ impl CavityTheory {
 }
 
 /// A flight from the wall `w = from` to the other one.
-struct Crossing {
+struct WallToWall {
     velocity: f64,
     acceleration: f64,
     time: f64,
     from: f64,
 }
 
-impl Crossing {
+impl WallToWall {
     /// Smallest relative velocity towards the other wall, and largest `abs(w)`.
     fn extremes(&self, shape: &MotionShape) -> [f64; 2] {
         let start = shape.at_impacts()[usize::from(self.from < 0.0)];

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::pair::Point;
+use super::pair::PairPoint;
 
 /// Points on either side of a place from which slopes are taken where the motion does not repeat: their scatter
 /// would else be the slope.
@@ -11,14 +11,14 @@ const NEIGHBOURS: usize = 4;
 /// Motions of the impact pair that follow each other.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Branch {
+pub struct PairBranch {
     /// By ascending amplitude, at least two.
-    pub points: Vec<Point>,
+    pub points: Vec<PairPoint>,
     /// Whether it is the manifold's stable branch, in closed form.
     pub closed_form: bool,
 }
 
-impl Branch {
+impl PairBranch {
     /// Its smallest and its largest amplitude.
     pub fn range(&self) -> [f64; 2] {
         let [first, .., last] = &self.points[..] else { return [f64::NAN; 2] };

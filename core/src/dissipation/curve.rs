@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::branch::Branch;
-use super::pair::{Point, scouted};
+use super::branch::PairBranch;
+use super::pair::{PairPoint, scouted};
 use crate::analysis::Manifold;
 use crate::equations::dissipation::{REACTANCE, RESISTANCE};
 use crate::regimes::Regime;
@@ -52,7 +52,7 @@ pub struct DissipationCurve {
     /// `r`.
     pub restitution: f64,
     /// By ascending smallest amplitude; the absorber at rest, `S = K = 0` up to one clearance, is the first.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<PairBranch>,
     /// Whether impacts are so elastic, `r` above 0.995, that averages depend on the start for longer than one is
     /// followed. Beside the closed form there is no curve then; elastic impacts, `r = 1`, forget nothing, and take
     /// nothing: whatever the motion, its `S` is 0 in the mean.
@@ -87,11 +87,12 @@ impl DissipationCurve {
             search.scout(at);
         }
         // The closed form is the better answer where it holds.
-        let better =
-            |point: &Point| point.regime == Regime::TwoSymmetric && closed.covers(point.amplitude);
+        let better = |point: &PairPoint| {
+            point.regime == Regime::TwoSymmetric && closed.covers(point.amplitude)
+        };
         search.known.iter_mut().for_each(|known| known.retain(|point| !better(point)));
         let chains = search.chains().into_iter();
-        let mut branches: Vec<Branch> =
+        let mut branches: Vec<PairBranch> =
             chains.map(|chain| search.branch(chain, |point| !better(point))).collect();
         branches.retain(|branch| branch.points.len() > 1);
         branches.extend([closed, at_rest()]);
@@ -114,14 +115,14 @@ impl DissipationCurve {
 }
 
 /// The absorber at rest in the middle, which no wall reaches.
-fn at_rest() -> Branch {
+fn at_rest() -> PairBranch {
     let count = (1.0 / STEP).round() as u32;
-    let points = (0..=count).map(|k| Point::still(f64::from(k) / f64::from(count)));
-    Branch { points: points.collect(), closed_form: false }
+    let points = (0..=count).map(|k| PairPoint::still(f64::from(k) / f64::from(count)));
+    PairBranch { points: points.collect(), closed_form: false }
 }
 
 /// The manifold's stable branch, as far as its points are motions.
-fn closed_form(restitution: f64) -> Branch {
+fn closed_form(restitution: f64) -> PairBranch {
     let manifold = Manifold::of(restitution);
     let fold = manifold.fold;
     let [from, to] = [fold.oscillator_amplitude, manifold.largest_stable_motion()];
@@ -131,11 +132,11 @@ fn closed_form(restitution: f64) -> Branch {
         let ratio = manifold.stable_absorber(amplitude).filter(|_| k > 0);
         let shift = ratio.map_or(manifold.fold_shift, |ratio| ratio - 1.0);
         let ratio = ratio.unwrap_or(fold.absorber_amplitude);
-        Point::symmetric(amplitude, symmetric_forces(&manifold, amplitude, ratio, shift))
+        PairPoint::symmetric(amplitude, symmetric_forces(&manifold, amplitude, ratio, shift))
     };
     // For elastic impacts the fold is at 0, where no phase is.
     let points = (0..=CLOSED_POINTS).map(point).filter(|point| point.amplitude > 0.0);
-    Branch { points: points.collect(), closed_form: true }
+    PairBranch { points: points.collect(), closed_form: true }
 }
 
 /// `S` and `K` of the symmetric motion with two impacts per period, whose absorber has the amplitude `1 + shift`.
@@ -153,7 +154,7 @@ pub(super) fn symmetric_forces(
 struct CurveSearch {
     restitution: f64,
     amplitudes: Vec<f64>,
-    known: Vec<Vec<Point>>,
+    known: Vec<Vec<PairPoint>>,
     /// States that led to motions which were known by then, of mirror images for instance.
     seen: Vec<Vec<[f64; 2]>>,
 }
@@ -162,7 +163,7 @@ impl CurveSearch {
     /// The motion that a state leads to at an amplitude: what is carried on, and whether it is a new one. None
     /// where the absorber comes to rest.
     fn visit(&mut self, at: usize, state: [f64; 2]) -> Option<([f64; 2], bool)> {
-        let point = Point::measured(self.restitution, *self.amplitudes.get(at)?, state)?;
+        let point = PairPoint::measured(self.restitution, *self.amplitudes.get(at)?, state)?;
         if point.regime == Regime::AtRest {
             return None;
         }
@@ -216,14 +217,14 @@ impl CurveSearch {
     }
 
     /// Whether two motions, the second at the next larger amplitude, are one that changes.
-    fn connected(from: &Point, to: &Point) -> bool {
+    fn connected(from: &PairPoint, to: &PairPoint) -> bool {
         let steep = STEEPEST * (to.amplitude - from.amplitude);
         !from.is_another_kind(to) && from.distance(to) <= steep
     }
 
     /// Motions at successive amplitudes that belong together, those most alike first.
-    fn chains(&self) -> Vec<Vec<Point>> {
-        let mut chains: Vec<Vec<Point>> = Vec::new();
+    fn chains(&self) -> Vec<Vec<PairPoint>> {
+        let mut chains: Vec<Vec<PairPoint>> = Vec::new();
         for known in &self.known {
             let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
             for (c, chain) in chains.iter().enumerate() {
@@ -252,13 +253,17 @@ impl CurveSearch {
 
     /// A branch of a chain, its ends located within a part of a step, or joined to a motion that is another branch's
     /// as well.
-    fn branch(&self, mut points: Vec<Point>, accepted: impl Fn(&Point) -> bool) -> Branch {
+    fn branch(
+        &self,
+        mut points: Vec<PairPoint>,
+        accepted: impl Fn(&PairPoint) -> bool,
+    ) -> PairBranch {
         for up in [true, false] {
             let last = if up { points[points.len() - 1] } else { points[0] };
-            let add = |points: &mut Vec<Point>, point| {
+            let add = |points: &mut Vec<PairPoint>, point| {
                 points.insert(if up { points.len() } else { 0 }, point)
             };
-            let joins = |point: &Point| {
+            let joins = |point: &PairPoint| {
                 let [low, high] = if up { [&last, point] } else { [point, &last] };
                 let step = high.amplitude - low.amplitude;
                 step > 0.0 && step < 1.5 * STEP && Self::connected(low, high)
@@ -269,11 +274,11 @@ impl CurveSearch {
             }
             self.extend(&mut points, up, &accepted);
         }
-        Branch { points, closed_form: false }
+        PairBranch { points, closed_form: false }
     }
 
     /// Adds motions beyond an end of a chain by ever shorter steps, within the range.
-    fn extend(&self, points: &mut Vec<Point>, up: bool, accepted: impl Fn(&Point) -> bool) {
+    fn extend(&self, points: &mut Vec<PairPoint>, up: bool, accepted: impl Fn(&PairPoint) -> bool) {
         let [from, to] = [self.amplitudes[0], self.amplitudes[self.amplitudes.len() - 1]];
         let mut step = if up { STEP } else { -STEP };
         for _ in 0..HALVINGS {
@@ -281,8 +286,9 @@ impl CurveSearch {
             let last = if up { points[points.len() - 1] } else { points[0] };
             let amplitude = last.amplitude + step;
             let further = (from..=to).contains(&amplitude);
-            let further =
-                further.then(|| Point::measured(self.restitution, amplitude, last.state)).flatten();
+            let further = further
+                .then(|| PairPoint::measured(self.restitution, amplitude, last.state))
+                .flatten();
             let Some(further) = further.filter(|one| one.regime != Regime::AtRest && accepted(one))
             else {
                 continue;

@@ -7,9 +7,9 @@
 
 use serde::Serialize;
 
-use super::branch::Branch;
+use super::branch::PairBranch;
 use super::curve::DissipationCurve;
-use super::pair::Point;
+use super::pair::PairPoint;
 use crate::analysis::{self, Analysis, AnalysisError, FreeDecay};
 use crate::equations::dissipation::{
     DECAY, DETERMINANT, LOWER_DETUNING, RESPONSE_ROOT, TRACE, UPPER_DETUNING,
@@ -113,7 +113,7 @@ impl<'a> AveragedFlow<'a> {
 
     /// The two detunings `sigma` at which the system's forcing holds a motion of the curve; none where it is too
     /// weak. Over all points of a branch that is the frequency response.
-    pub fn detunings(&self, point: &Point) -> Option<[f64; 2]> {
+    pub fn detunings(&self, point: &PairPoint) -> Option<[f64; 2]> {
         let (lambda, gamma) = (self.system.damping(), self.system.forcing_per_clearance());
         let [resistance, reactance] = point.forces();
         let c = point.amplitude;
@@ -124,7 +124,7 @@ impl<'a> AveragedFlow<'a> {
     }
 
     /// The same with whether the motion, on its branch, is stable at each of the two.
-    pub fn stability(&self, branch: &Branch, point: &Point) -> Option<[(f64, bool); 2]> {
+    pub fn stability(&self, branch: &PairBranch, point: &PairPoint) -> Option<[(f64, bool); 2]> {
         let slopes = branch.slopes(point.amplitude);
         let stable = |sigma: f64| {
             let [trace, determinant] =
@@ -146,9 +146,9 @@ impl<'a> AveragedFlow<'a> {
     pub fn decay(&self, from: f64, to: f64) -> Vec<DecayPoint> {
         let mut path = Vec::new();
         let branches = self.curve.branches.iter().enumerate();
-        let begins = |(_, branch): &(usize, &Branch)| branch.covers(from);
-        let moves = |branch: &Branch| branch.points[0].regime != Regime::AtRest;
-        let highest = |a: &(usize, &Branch), b: &(usize, &Branch)| {
+        let begins = |(_, branch): &(usize, &PairBranch)| branch.covers(from);
+        let moves = |branch: &PairBranch| branch.points[0].regime != Regime::AtRest;
+        let highest = |a: &(usize, &PairBranch), b: &(usize, &PairBranch)| {
             let by_end = a.1.range()[1].total_cmp(&b.1.range()[1]);
             moves(a.1).cmp(&moves(b.1)).then(by_end)
         };
@@ -176,7 +176,7 @@ impl<'a> AveragedFlow<'a> {
     }
 
     /// Slow time from one amplitude of a piece of a branch down to another.
-    fn fall(&self, branch: &Branch, from: f64, to: f64) -> f64 {
+    fn fall(&self, branch: &PairBranch, from: f64, to: f64) -> f64 {
         if branch.closed_form {
             return FreeDecay::of(&self.system).time(from, to).unwrap_or(f64::NAN);
         }
@@ -196,7 +196,7 @@ impl<'a> AveragedFlow<'a> {
         let old = &self.curve.branches[left];
         let (forces, _) = old.forces(end)?;
         let others = self.curve.branches.iter().enumerate().filter(|(index, _)| *index != left);
-        let distance = |(index, branch): (usize, &Branch)| {
+        let distance = |(index, branch): (usize, &PairBranch)| {
             let [bottom, top] = branch.range();
             let at = end.min(top);
             let near = bottom < end && end - at < GAP;
@@ -213,7 +213,7 @@ impl<'a> AveragedFlow<'a> {
     fn fixed_points(&self, branch: usize) -> Result<Vec<SteadyState>, AnalysisError> {
         let analysis = Analysis::of(&self.system)?;
         let stable = |point: &&analysis::FixedPoint| {
-            point.branch == analysis::Branch::Stable && point.admissible
+            point.branch == analysis::ManifoldBranch::Stable && point.admissible
         };
         let state = |point: &analysis::FixedPoint| SteadyState {
             amplitude: point.oscillator_amplitude,
@@ -230,7 +230,7 @@ impl<'a> AveragedFlow<'a> {
     }
 
     /// Steady amplitudes on a branch that was followed.
-    fn on(&self, index: usize, branch: &Branch) -> Vec<SteadyState> {
+    fn on(&self, index: usize, branch: &PairBranch) -> Vec<SteadyState> {
         let (lambda, sigma) = (self.system.damping(), self.system.detuning());
         let gamma = self.system.forcing_per_clearance();
         let mut found = Vec::new();
@@ -259,7 +259,7 @@ impl<'a> AveragedFlow<'a> {
         found
     }
 
-    fn state(&self, index: usize, branch: &Branch, c: f64, nearer: &Point) -> SteadyState {
+    fn state(&self, index: usize, branch: &PairBranch, c: f64, nearer: &PairPoint) -> SteadyState {
         let (lambda, sigma) = (self.system.damping(), self.system.detuning());
         let unknown = ([f64::NAN; 2], [f64::NAN; 2]);
         let ([resistance, reactance], errors) = branch.forces(c).unwrap_or(unknown);

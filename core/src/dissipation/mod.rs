@@ -18,9 +18,9 @@ mod flow;
 mod pair;
 mod recapture;
 
-pub use branch::Branch;
+pub use branch::PairBranch;
 pub use curve::DissipationCurve;
 pub use cycle::ModulatedCycle;
 pub use flow::{AveragedFlow, DecayPoint, SteadyState};
-pub use pair::Point;
+pub use pair::PairPoint;
 pub use recapture::Recapture;

@@ -48,7 +48,7 @@ const AGAIN: usize = 12;
 /// The pair's long-term motion at one amplitude.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Point {
+pub struct PairPoint {
     /// Amplitude of the oscillator, `C/b`.
     #[serde(rename = "C")]
     pub amplitude: f64,
@@ -72,7 +72,7 @@ pub struct Point {
     pub(super) state: [f64; 2],
 }
 
-impl Point {
+impl PairPoint {
     /// The motion that the pair comes to at an amplitude, above 0, from a relative displacement `w` and an absorber
     /// velocity at the oscillator's lowest place. None where a number is out of range, or impacts crowd without end.
     pub fn measured(restitution: f64, amplitude: f64, state: [f64; 2]) -> Option<Self> {
@@ -188,7 +188,7 @@ impl Point {
 }
 
 /// Where a start is after some tens of periods, if it repeats then and is near none of the states that are known; as
-/// [`Point::measured`], and a fraction of its cost.
+/// [`PairPoint::measured`], and a fraction of its cost.
 pub(super) fn scouted(
     restitution: f64,
     amplitude: f64,

@@ -16,7 +16,7 @@ mod sine_sweep;
 
 pub use record::{Piece, Record, RecordQuantity, Spectrum};
 pub use release::{Release, amplitude};
-pub use sine_sweep::{SineSweep, Stretch, SweepRate};
+pub use sine_sweep::{SineSweep, SweepRate, SweepStretch};
 
 use crate::system::Parameter;
 

@@ -118,7 +118,7 @@ impl SineSweep {
     }
 
     /// The stretches in which it is flown, in order.
-    pub fn stretches(&self, scales: &Scales) -> impl Iterator<Item = Stretch> + use<> {
+    pub fn stretches(&self, scales: &Scales) -> impl Iterator<Item = SweepStretch> + use<> {
         let (sweep, scales) = (*self, *scales);
         let frequency = move |begin: f64, end: f64| {
             let [from, to] = [begin, end].map(|periods| sweep.time(periods));
@@ -131,7 +131,7 @@ impl SineSweep {
             let parts = libm::ceil((error / Self::PHASE_ERROR).sqrt()).max(1.0);
             (0..parts as u32).map(move |k| {
                 let [begin, end] = [k, k + 1].map(|k| f64::from(k) / parts);
-                Stretch {
+                SweepStretch {
                     ratio: scales.frequency_ratio(frequency(n + begin, n + end)),
                     of_period: scales.frequency_ratio(of_period),
                     first: k == 0,
@@ -145,7 +145,7 @@ impl SineSweep {
 
 /// A stretch of a sweep, at one frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stretch {
+pub struct SweepStretch {
     /// Its frequency ratio: that which it has on average.
     pub ratio: f64,
     /// That of the period that it belongs to.
@@ -158,7 +158,7 @@ pub struct Stretch {
     pub lead: f64,
 }
 
-impl Stretch {
+impl SweepStretch {
     /// Fast time from its beginning to its end.
     pub fn duration(&self) -> f64 {
         (TAU - self.begins) / self.ratio

@@ -1,10 +1,10 @@
 //! A structure with its absorber through a range of frequencies, flight by flight: each stretch of the sweep
-//! ([`Stretch`]) is flown exactly at the constant frequency that it has on average, from the state and the phase in which
+//! ([`SweepStretch`]) is flown exactly at the constant frequency that it has on average, from the state and the phase in which
 //! the one before ended.
 
 use std::f64::consts::TAU;
 
-use crate::excitation::{SineSweep, Stretch};
+use crate::excitation::{SineSweep, SweepStretch};
 use crate::linear::Passage;
 use crate::simulation::{Detail, Impact, Measurement, Observer, Simulation, StartError, Stop};
 use crate::system::{Scales, State, System};
@@ -64,7 +64,7 @@ impl Passage {
 /// Tells of impacts of a stretch in the time and phase of the sweep.
 struct Teller<'a> {
     elapsed: f64,
-    stretch: Stretch,
+    stretch: SweepStretch,
     told: &'a mut dyn FnMut(&Impact),
 }
 

@@ -35,7 +35,7 @@ pub struct Damped {
 
 /// Where the structure alone moves farthest along a band, and how far.
 pub fn bare_along(band: &Band) -> (f64, f64) {
-    Along::of(band).largest(bare_amplitude)
+    BandSystems::of(band).largest(bare_amplitude)
 }
 
 /// Places around a resonance that is narrower than a piece of the band, ever closer ones down to its width; none in other
@@ -60,13 +60,13 @@ fn near_resonance(band: &Band) -> Vec<f64> {
 }
 
 /// A band with its systems at even places, at which many amplitudes are asked for.
-pub struct Along<'a> {
+pub struct BandSystems<'a> {
     /// The band.
     pub band: &'a Band,
     systems: Vec<(f64, System)>,
 }
 
-impl<'a> Along<'a> {
+impl<'a> BandSystems<'a> {
     /// Its systems at even places and closer ones around resonance.
     pub fn of(band: &'a Band) -> Self {
         let system = |at: f64| Some((at, band.system(at).ok()?));
@@ -119,6 +119,6 @@ impl<'a> Along<'a> {
 impl TunedMassDamper {
     /// What it comes to along a band.
     pub fn along(self, band: &Band) -> Damped {
-        Along::of(band).damped(self)
+        BandSystems::of(band).damped(self)
     }
 }

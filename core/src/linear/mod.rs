@@ -12,7 +12,7 @@ mod passage;
 mod response;
 mod settling;
 
-pub use along::Along;
+pub use along::BandSystems;
 pub use along::{Damped, bare_along};
 pub use damper::TunedMassDamper;
 pub use motion::{Linear, driven, released, swept};

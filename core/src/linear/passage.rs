@@ -1,6 +1,6 @@
 //! What is read of a sweep through resonance: the largest displacement in each period of the excitation.
 
-use crate::excitation::Stretch;
+use crate::excitation::SweepStretch;
 
 /// What a structure did on its way through a range of frequencies.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +31,7 @@ impl Passage {
     }
 
     /// The largest displacement of a stretch.
-    pub fn passed(&mut self, stretch: &Stretch, peak: f64) {
+    pub fn passed(&mut self, stretch: &SweepStretch, peak: f64) {
         match self.envelope.last_mut() {
             Some(last) if !stretch.first => last[1] = last[1].max(peak),
             _ => self.envelope.push([stretch.of_period, peak]),

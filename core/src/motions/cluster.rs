@@ -1,7 +1,7 @@
 //! What wanders is known by averages: which windows are of one motion, whether it still settles, and its numbers.
 
 use super::watch::WindowSample;
-use super::{Facts, Kind, Motion, Reached, Value};
+use super::{Facts, Motion, MotionKind, Reached, Value};
 use crate::numerics::scatter::twice_standard_error;
 use crate::regimes::Regime;
 use crate::simulation::Stop;
@@ -94,7 +94,7 @@ impl Cluster {
         let evidence: Vec<_> = self.samples.iter().map(|one| one.evidence).collect();
         Motion {
             facts: Facts::pooled(&facts),
-            kind: Kind::Wanders,
+            kind: MotionKind::Wanders,
             regime: Regime::of_several(&evidence),
             state: self.samples[0].begin,
             reached,

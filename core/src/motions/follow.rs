@@ -8,7 +8,7 @@ use super::flight::{StartFlight, StartOutcome, flown};
 use super::repetition::Repetition;
 use super::rest::Rest;
 use super::watch::{Watch, WindowSample};
-use super::{Effort, Facts, Kind, Motion, Reached, SettlingTime};
+use super::{Effort, Facts, Motion, MotionKind, Reached, SettlingTime};
 use crate::operation_count;
 use crate::simulation::{Impact, Simulation, StartError, Stop};
 use crate::system::{InvalidParameter, Parameter, State, System};
@@ -81,10 +81,10 @@ impl Motion {
                 let WindowSample { facts, evidence, end: state, stop, .. } = *sample;
                 let kind = match evidence.periodicity {
                     Some(found) if found.impacts == 0 => {
-                        Kind::Rest(Rest::seen(system, facts.peak.value))
+                        MotionKind::Rest(Rest::seen(system, facts.peak.value))
                     }
-                    Some(found) => Kind::Repeats(Repetition::seen(&sample, found)),
-                    None => Kind::Wanders,
+                    Some(found) => MotionKind::Repeats(Repetition::seen(&sample, found)),
+                    None => MotionKind::Wanders,
                 };
                 let settled = evidence.periodicity.is_some() || !sample.drifts;
                 Self { facts, kind, regime: sample.regime(), state, reached, settled, stop }

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::repetition::{Polished, Repetition};
 use super::watch::WindowSample;
-use super::{Facts, Kind, Measured, Motion, Reached};
+use super::{Facts, Measured, Motion, MotionKind, Reached};
 use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, ONE_ORBIT, Orbit, Origin, Wall};
 use crate::regimes::{Periodicity, Regime};
@@ -27,7 +27,7 @@ const CAPTURED: f64 = 0.03;
 /// What a trajectory that repeats is.
 pub(super) enum Proof {
     /// An orbit that attracts, or a repetition that no solver of orbits covers, with what is seen of it.
-    Is(Kind, Box<WindowSample>),
+    Is(MotionKind, Box<WindowSample>),
     /// An orbit, or a repetition, that does not attract: the trajectory is about to leave it.
     Leaves,
     /// Neither: it is still settling.
@@ -50,7 +50,7 @@ impl Proof {
                 return Self::Leaves;
             }
             let is_over = found.has_settled();
-            let seen = Kind::Repeats(Repetition::seen(sample, found));
+            let seen = MotionKind::Repeats(Repetition::seen(sample, found));
             return if is_over { Self::Is(seen, Box::new(sample.clone())) } else { Self::Open };
         };
         if polished.multiplier > 1.0 + ONE_ORBIT {
@@ -75,18 +75,19 @@ impl Proof {
     /// An orbit, if it attracts.
     fn attracting(orbit: Option<Orbit>, sample: &WindowSample) -> Option<Self> {
         let orbit = orbit.filter(Orbit::attracts)?;
-        Some(Self::Is(Kind::Orbit(Box::new(orbit)), Box::new(sample.clone())))
+        Some(Self::Is(MotionKind::Orbit(Box::new(orbit)), Box::new(sample.clone())))
     }
 
     /// A repetition that attracts.
     fn polished(polished: &Polished, sample: WindowSample, found: Periodicity) -> Self {
         let multiplier = Some(polished.multiplier);
-        let kind = Kind::Repeats(Repetition { multiplier, ..Repetition::seen(&sample, found) });
+        let kind =
+            MotionKind::Repeats(Repetition { multiplier, ..Repetition::seen(&sample, found) });
         Self::Is(kind, Box::new(sample))
     }
 }
 
-impl Kind {
+impl MotionKind {
     /// Whether two motions of one place are one, whatever is known of both; by averages that is for [`super::cluster`] to say.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
@@ -102,15 +103,15 @@ impl Motion {
     /// One that is proven or was seen to repeat.
     pub(super) fn proven(
         system: &System,
-        kind: Kind,
+        kind: MotionKind,
         sample: Option<&WindowSample>,
     ) -> Option<Self> {
         let (facts, regime, state) = match &kind {
-            Kind::Orbit(orbit) => {
+            MotionKind::Orbit(orbit) => {
                 let facts = Facts::of_orbit(system, orbit).ok()?;
                 (facts, regime_of(orbit), state_of(system, orbit)?)
             }
-            Kind::Repeats(repetition) => {
+            MotionKind::Repeats(repetition) => {
                 let sample = sample?;
                 let left = 1.0 - repetition.multiplier.unwrap_or_default();
                 (sample.facts.within(left.max(ONE_ORBIT)), sample.regime(), sample.end)
@@ -192,8 +193,8 @@ impl KnownMotion {
     /// A motion with where it stands at phase 0, if it repeats and is known to attract.
     pub fn new(system: &System, motion: Motion) -> Self {
         let states = match &motion.kind {
-            Kind::Orbit(orbit) => states(system, orbit),
-            Kind::Repeats(Repetition { periods, multiplier: Some(_), .. }) => {
+            MotionKind::Orbit(orbit) => states(system, orbit),
+            MotionKind::Repeats(Repetition { periods, multiplier: Some(_), .. }) => {
                 let State { x, x_velocity, y, y_velocity } = motion.state;
                 let turned =
                     State { x: -x, x_velocity: -x_velocity, y: -y, y_velocity: -y_velocity };

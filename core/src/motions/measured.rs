@@ -1,6 +1,6 @@
 //! A motion, or a trajectory, measured in full: statistics, energy, the kind of dynamics, its impacts.
 
-use super::{Effort, Facts, Kind, Motion, SettlingTime};
+use super::{Effort, Facts, Motion, MotionKind, SettlingTime};
 use crate::operation_count;
 use crate::regimes::modulation::{self, Amplitudes};
 use crate::regimes::periodicity;
@@ -95,7 +95,7 @@ pub fn measured(
     effort: &Effort,
     log: &mut ImpactLog,
 ) -> Result<Measured, StartError> {
-    let wanders = matches!(motion.kind, Kind::Wanders);
+    let wanders = matches!(motion.kind, MotionKind::Wanders);
     let mut periods = effort.periods;
     let mut longest = log.clone();
     let mut found = Measured::from(system, motion.state, periods, &mut longest)?;

@@ -131,7 +131,7 @@ impl Place {
 
 /// What a motion is, and thereby how surely it is known.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Kind {
+pub enum MotionKind {
     /// The absorber takes no part: there is no impact.
     Rest(Rest),
     /// A proven periodic orbit that attracts.
@@ -170,7 +170,7 @@ pub enum WhyNot {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     facts: Facts,
-    kind: Kind,
+    kind: MotionKind,
     regime: Regime,
     state: State,
     reached: Reached,
@@ -185,17 +185,17 @@ impl Motion {
     }
 
     /// What it is.
-    pub fn kind(&self) -> &Kind {
+    pub fn kind(&self) -> &MotionKind {
         &self.kind
     }
 
     /// The name of its kind in documents.
     pub fn kind_name(&self) -> &'static str {
         match self.kind {
-            Kind::Rest(_) => "rest",
-            Kind::Orbit(_) => "orbit",
-            Kind::Repeats(_) => "repeats",
-            Kind::Wanders => "wanders",
+            MotionKind::Rest(_) => "rest",
+            MotionKind::Orbit(_) => "orbit",
+            MotionKind::Repeats(_) => "repeats",
+            MotionKind::Wanders => "wanders",
         }
     }
 
@@ -227,12 +227,12 @@ impl Motion {
 
     /// The same where the absorber is at rest.
     pub fn rest(&self) -> Option<&Rest> {
-        if let Kind::Rest(rest) = &self.kind { Some(rest) } else { None }
+        if let MotionKind::Rest(rest) = &self.kind { Some(rest) } else { None }
     }
 
     /// The proven orbit that it is.
     pub fn orbit(&self) -> Option<&Orbit> {
-        if let Kind::Orbit(orbit) = &self.kind { Some(orbit) } else { None }
+        if let MotionKind::Orbit(orbit) = &self.kind { Some(orbit) } else { None }
     }
 
     /// Whether it was solved for, so that along a band its extremes are known without places.
@@ -243,28 +243,28 @@ impl Motion {
     /// Excitation periods after which it repeats.
     pub fn repeats_after(&self) -> Option<u32> {
         match &self.kind {
-            Kind::Rest(_) => Some(1),
-            Kind::Orbit(orbit) => Some(orbit.cycle.periods()),
-            Kind::Repeats(repetition) => Some(repetition.periods),
-            Kind::Wanders => None,
+            MotionKind::Rest(_) => Some(1),
+            MotionKind::Orbit(orbit) => Some(orbit.cycle.periods()),
+            MotionKind::Repeats(repetition) => Some(repetition.periods),
+            MotionKind::Wanders => None,
         }
     }
 
     /// Largest modulus of the multipliers over one excitation period; none at rest, and where none is known.
     pub fn largest_multiplier(&self) -> Option<f64> {
         match &self.kind {
-            Kind::Orbit(orbit) => Some(orbit.radius_per_period()),
-            Kind::Repeats(repetition) => repetition.multiplier,
-            Kind::Rest(_) | Kind::Wanders => None,
+            MotionKind::Orbit(orbit) => Some(orbit.radius_per_period()),
+            MotionKind::Repeats(repetition) => repetition.multiplier,
+            MotionKind::Rest(_) | MotionKind::Wanders => None,
         }
     }
 
     /// Whether it has one impact on each wall in every excitation period, steadily: 1:1 resonance, symmetric or not.
     pub fn is_one_to_one(&self) -> bool {
         let walls = match &self.kind {
-            Kind::Orbit(orbit) => orbit.cycle.sequence(),
-            Kind::Repeats(repetition) => repetition.walls(),
-            Kind::Rest(_) | Kind::Wanders => return false,
+            MotionKind::Orbit(orbit) => orbit.cycle.sequence(),
+            MotionKind::Repeats(repetition) => repetition.walls(),
+            MotionKind::Rest(_) | MotionKind::Wanders => return false,
         };
         walls == "+-" && self.repeats_after() == Some(1)
     }

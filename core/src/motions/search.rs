@@ -11,7 +11,7 @@ use super::identity::{KnownMotion, Proof};
 use super::rest::Rest;
 use super::settling::SettlingTime;
 use super::watch::WindowSample;
-use super::{Effort, Facts, Kind, Motion, Motions, Place, Reached, settling, solved};
+use super::{Effort, Facts, Motion, MotionKind, Motions, Place, Reached, settling, solved};
 use crate::executor::{Executor, map};
 use crate::operation_count;
 use crate::orbits::Orbit;
@@ -412,10 +412,9 @@ impl Ground {
             all.push(Motion { reached, ..one.motion });
         }
         for cluster in wanders {
-            let known = all
-                .iter_mut()
-                .enumerate()
-                .find(|(_, one)| matches!(one.kind, Kind::Wanders) && cluster.is_like(&one.facts));
+            let known = all.iter_mut().enumerate().find(|(_, one)| {
+                matches!(one.kind, MotionKind::Wanders) && cluster.is_like(&one.facts)
+            });
             if let Some((index, known)) = known {
                 known.reached.starts +=
                     cluster.members.iter().filter(|start| is_counted(start)).count() as u32;

@@ -7,7 +7,7 @@
 use super::identity::{KnownMotion, Proof, state_of};
 use super::rest::{AtRest, Rest};
 use super::watch::Watch;
-use super::{Facts, Kind, Motion, Reached};
+use super::{Facts, Motion, MotionKind, Reached};
 use crate::orbits::{Orbit, attracting_orbit, attracting_orbits, two_impact_orbits};
 use crate::regimes::Regime;
 use crate::simulation::{Simulation, Stop};
@@ -29,7 +29,7 @@ pub fn one_to_one(system: &System) -> Vec<Motion> {
 pub fn steady(system: &System) -> Option<Motion> {
     if system.cavity().is_ideal() {
         // There is no need to look for others.
-        let symmetric = attracting_orbit(system).map(|one| Kind::Orbit(Box::new(one.orbit)));
+        let symmetric = attracting_orbit(system).map(|one| MotionKind::Orbit(Box::new(one.orbit)));
         let motion = symmetric.and_then(|kind| Motion::proven(system, kind, None));
         if motion.is_some() {
             return motion.map(Motion::solved);
@@ -59,7 +59,7 @@ pub(super) fn known(system: &System) -> Vec<KnownMotion> {
     // Without excitation, or at an undamped resonance, there are none.
     for orbit in orbits.unwrap_or_default() {
         let (kind, sample) = match (orbit.attracts(), orbit.admissibility.reverses()) {
-            (true, _) => (Kind::Orbit(Box::new(orbit)), None),
+            (true, _) => (MotionKind::Orbit(Box::new(orbit)), None),
             (false, true) => match repeated(system, &orbit) {
                 Some(Proof::Is(kind, sample)) => (kind, Some(*sample)),
                 _ => continue,
@@ -118,7 +118,7 @@ impl Motion {
     pub(super) fn resting(rest: Rest, facts: Facts, state: State) -> Self {
         Self {
             facts,
-            kind: Kind::Rest(rest),
+            kind: MotionKind::Rest(rest),
             regime: Regime::AtRest,
             state,
             reached: Reached::default(),

@@ -29,7 +29,7 @@ pub trait Curve {
 
 /// The band that a curve is watched in, and how closely.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Band {
+pub struct CrossingBand {
     /// Lower edge (may be minus infinity).
     pub lower: f64,
     /// Upper edge (may be infinity).
@@ -77,7 +77,7 @@ pub enum Search {
 ///
 /// The curve may start on an edge: it has left only when it moves outwards there. Steps are never
 /// shorter than the one in which the curve can pass the edge by `touch`, so the search ends.
-pub fn first_crossing(curve: &impl Curve, from: f64, until: f64, band: Band) -> Search {
+pub fn first_crossing(curve: &impl Curve, from: f64, until: f64, band: CrossingBand) -> Search {
     first_of(|s| [curve.sample(s)], curve.horizon(), [from], until, [band]).0
 }
 
@@ -88,7 +88,7 @@ pub fn first_of<const N: usize>(
     horizon: f64,
     from: [f64; N],
     until: f64,
-    bands: [Band; N],
+    bands: [CrossingBand; N],
 ) -> (Search, usize) {
     let mut s = from.into_iter().fold(f64::INFINITY, f64::min);
     let mut evaluations = 0;
@@ -120,7 +120,7 @@ pub fn first_of<const N: usize>(
     }
 }
 
-fn left_through(sample: &Sample, band: &Band) -> Option<Edge> {
+fn left_through(sample: &Sample, band: &CrossingBand) -> Option<Edge> {
     if sample.value >= band.upper && sample.slope > 0.0 {
         Some(Edge::Upper)
     } else if sample.value <= band.lower && sample.slope < 0.0 {
@@ -131,7 +131,7 @@ fn left_through(sample: &Sample, band: &Band) -> Option<Edge> {
 }
 
 /// The largest step in which the bounding parabolas stay within `touch` of the band.
-fn safe_step(sample: &Sample, band: &Band) -> f64 {
+fn safe_step(sample: &Sample, band: &CrossingBand) -> f64 {
     let up = parabola_reach(band.upper - sample.value, sample.slope, sample.curvature_bound, band);
     let down =
         parabola_reach(sample.value - band.lower, -sample.slope, sample.curvature_bound, band);
@@ -140,7 +140,7 @@ fn safe_step(sample: &Sample, band: &Band) -> f64 {
 
 /// Time until `slope s + bound s^2 / 2` uses up `gap + touch`, by the form of the root that does
 /// not cancel.
-fn parabola_reach(gap: f64, slope: f64, bound: f64, band: &Band) -> f64 {
+fn parabola_reach(gap: f64, slope: f64, bound: f64, band: &CrossingBand) -> f64 {
     if gap == f64::INFINITY {
         return f64::INFINITY;
     }
@@ -150,7 +150,7 @@ fn parabola_reach(gap: f64, slope: f64, bound: f64, band: &Band) -> f64 {
 }
 
 /// One Newton step back onto the edge, for the `touch` that the last step may have gone past it.
-fn corrected(s: f64, sample: &Sample, band: &Band, edge: Edge) -> f64 {
+fn corrected(s: f64, sample: &Sample, band: &CrossingBand, edge: Edge) -> f64 {
     let excess = match edge {
         Edge::Upper => sample.value - band.upper,
         Edge::Lower => sample.value - band.lower,
@@ -184,7 +184,7 @@ mod tests {
         }
     }
 
-    const BAND: Band = Band { lower: -1.0, upper: 1.0, touch: 4e-15 };
+    const BAND: CrossingBand = CrossingBand { lower: -1.0, upper: 1.0, touch: 4e-15 };
 
     #[test]
     fn a_transversal_crossing_is_found_to_rounding() {
@@ -217,7 +217,7 @@ mod tests {
     fn a_curve_that_starts_on_the_edge_and_turns_inwards_is_followed_to_the_other_side() {
         let wave = Wave { amplitude: 1.0, drift: -0.05 };
         let from = std::f64::consts::FRAC_PI_2;
-        let band = Band { upper: wave.sample(from).value, ..BAND };
+        let band = CrossingBand { upper: wave.sample(from).value, ..BAND };
         let Search::Crossed(crossing) = first_crossing(&wave, from, 20.0, band) else { panic!() };
         assert_eq!(crossing.edge, Edge::Lower);
         assert!((wave.sample(crossing.time).value + 1.0).abs() < 1e-14);

@@ -14,10 +14,10 @@
 use serde::Serialize;
 
 use super::cycle::Cycle;
-use super::flight::{Flight, Motion};
+use super::flight::{Derivatives, Propagator};
 use super::impact_map::{ImpactMap, Leg, Wall};
 use crate::numerics::bracket::brent;
-use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing};
+use crate::numerics::crossing::{CrossingBand, Curve, Edge, Sample, Search, first_crossing};
 
 /// Units in the last place of the largest length involved that count as touching a wall.
 const TOUCH_ULPS: f64 = 64.0;
@@ -218,13 +218,13 @@ impl Departure {
 
 struct GapOverFlight<'a> {
     leg: &'a Leg,
-    flight: &'a Flight,
+    flight: &'a Propagator,
 }
 
 impl GapOverFlight<'_> {
     /// The oscillator about the place of its rest, and the most of `hypot(x, v)` within the horizon: it grows no faster
     /// than the largest force.
-    fn size(&self, oscillator: Motion) -> f64 {
+    fn size(&self, oscillator: Derivatives) -> f64 {
         libm::hypot(oscillator.x - self.leg.push(), oscillator.v) + self.flight.force() * HORIZON
     }
 }
@@ -267,7 +267,7 @@ fn free_of_contact(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
     if !positive || departure.is_still() && departure.acceleration <= 0.0 {
         return false;
     }
-    let band = Band { lower: -1.0, upper: 1.0, touch: departure.touch };
+    let band = CrossingBand { lower: -1.0, upper: 1.0, touch: departure.touch };
     let curve = GapOverFlight { leg, flight: &map.flight };
     match first_crossing(&curve, departure.begin(duration), duration * (1.0 + EARLY), band) {
         Search::Crossed(contact) => {
@@ -281,7 +281,7 @@ fn free_of_contact(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
 /// Whether the absorber slides away from the wall where a flight begins until it ends.
 fn free_of_reversal(map: &ImpactMap, leg: &Leg, departure: &Departure) -> bool {
     let curve = Slip(GapOverFlight { leg, flight: &map.flight });
-    let band = Band { lower: 0.0, upper: f64::INFINITY, touch: departure.touch };
+    let band = CrossingBand { lower: 0.0, upper: f64::INFINITY, touch: departure.touch };
     let begin = departure.begin(leg.duration);
     matches!(first_crossing(&curve, begin, leg.duration, band), Search::Clear { .. })
 }
@@ -304,7 +304,11 @@ fn turning_points(map: &ImpactMap, leg: &Leg, departure: &Departure) -> Vec<f64>
 /// Places within a flight at which a rate of the motion vanishes, by its value and slope at a time, where
 /// the oscillator's motion is given: every change of sign between neighbouring pieces, and every pair of
 /// changes around a flattest place.
-pub(super) fn zeros(leg: &Leg, frequency: f64, rate: impl Fn(f64, Motion) -> [f64; 2]) -> Vec<f64> {
+pub(super) fn zeros(
+    leg: &Leg,
+    frequency: f64,
+    rate: impl Fn(f64, Derivatives) -> [f64; 2],
+) -> Vec<f64> {
     let duration = leg.duration;
     let pieces =
         (duration * frequency.max(1.0) * PIECES_PER_RADIAN).ceil().clamp(PIECES[0], PIECES[1]);

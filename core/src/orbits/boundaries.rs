@@ -45,7 +45,7 @@ pub struct AsymmetricOrbits {
 
 /// All boundaries at one frequency and forcing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Boundaries {
+pub struct ExactBoundaries {
     /// `Omega`.
     pub frequency_ratio: f64,
     /// Of the symmetric orbits.
@@ -55,7 +55,7 @@ pub struct Boundaries {
     pub asymmetric: Option<AsymmetricOrbits>,
 }
 
-impl Boundaries {
+impl ExactBoundaries {
     /// Where the asymmetric orbits graze a wall: the border between Z2 and Z1.
     pub fn grazing(&self) -> Option<f64> {
         self.asymmetric.as_ref()?.grazing
@@ -79,9 +79,9 @@ impl Boundaries {
 
 /// The boundaries at each of `frequency_ratios`, everything else being as in `system`; frequencies
 /// without a steady motion are left out.
-pub fn over_frequency(system: &System, frequency_ratios: &[f64]) -> Vec<Boundaries> {
+pub fn over_frequency(system: &System, frequency_ratios: &[f64]) -> Vec<ExactBoundaries> {
     let there = frequency_ratios.iter().filter_map(|at| system.with_frequency_ratio(*at).ok());
-    there.filter_map(|system| Boundaries::of(&system).ok()).collect()
+    there.filter_map(|system| ExactBoundaries::of(&system).ok()).collect()
 }
 
 /// The asymmetric orbits of `system` over the clearance, followed from the symmetry breaking at `limit`.

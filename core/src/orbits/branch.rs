@@ -38,7 +38,7 @@ impl Settings {
 /// Which way along the parameter a branch sets out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Direction {
+pub enum BranchDirection {
     /// Towards larger values.
     Up,
     /// Towards smaller ones.
@@ -145,7 +145,7 @@ const BESIDE: f64 = 2.0;
 /// # })?;
 /// use vinesink_core::bifurcation::Bifurcation;
 /// use vinesink_core::orbits::attracting_orbit;
-/// use vinesink_core::orbits::branch::{Direction, Settings, follow};
+/// use vinesink_core::orbits::branch::{BranchDirection, Settings, follow};
 /// use vinesink_core::system::Parameter;
 ///
 /// let start = attracting_orbit(&system).expect("one attracts").orbit;
@@ -168,13 +168,13 @@ pub fn follow(
     base: &System,
     start: &Orbit,
     parameter: Parameter,
-    direction: Direction,
+    direction: BranchDirection,
     settings: &Settings,
 ) -> Result<Branch, OrbitError> {
     let tracer = Tracer::new(base, parameter);
     let along = match direction {
-        Direction::Up => Vector5::from(PARAMETER),
-        Direction::Down => -Vector5::from(PARAMETER),
+        BranchDirection::Up => Vector5::from(PARAMETER),
+        BranchDirection::Down => -Vector5::from(PARAMETER),
     };
     let scaled = parameter.of(base) / tracer.scale;
     // A tilt leaves no orbit its symmetry.

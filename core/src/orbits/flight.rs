@@ -21,7 +21,7 @@ const FAR_ABOVE: f64 = 2.0;
 /// The oscillator of a system, ready to be propagated. Pairs are displacement and velocity, over the
 /// clearance, in fast time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flight {
+pub struct Propagator {
     /// Half the damping coefficient, `d = eps lambda / 2`.
     decay: f64,
     /// `Omega`.
@@ -36,7 +36,7 @@ pub struct Flight {
 
 /// A displacement with its derivatives by fast time, over the clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct Derivatives {
     /// Displacement.
     pub x: f64,
     /// Velocity.
@@ -50,7 +50,7 @@ pub struct Motion {
 /// The oscillator from a moment on: its steady motion, and the free motion beside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
-    flight: Flight,
+    flight: Propagator,
     phase: f64,
     /// Constant force, which shifts the place about which the free motion is.
     push: f64,
@@ -62,7 +62,7 @@ pub struct Course {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arrival {
     /// The motion at the end.
-    pub at: Motion,
+    pub at: Derivatives,
     /// Derivative of the end by the phase at the beginning.
     pub by_phase: Vector2<f64>,
     /// Derivatives by displacement and velocity at the beginning.
@@ -73,7 +73,7 @@ pub struct Arrival {
     pub by_frequency: Vector2<f64>,
 }
 
-impl Flight {
+impl Propagator {
     /// The oscillator of `system`.
     ///
     /// # Errors
@@ -234,11 +234,11 @@ impl Flight {
     }
 
     /// The motion of which the steady and the free part are known.
-    fn motion(&self, steady: Vector2<f64>, free: Vector2<f64>) -> Motion {
+    fn motion(&self, steady: Vector2<f64>, free: Vector2<f64>) -> Derivatives {
         operation_count::note(22);
         let (omega, damping) = (self.frequency, self.damping());
         let free_a = -damping * free.y - free.x;
-        Motion {
+        Derivatives {
             x: steady.x + free.x,
             v: steady.y + free.y,
             a: free_a - omega * omega * steady.x,
@@ -247,7 +247,7 @@ impl Flight {
     }
 }
 
-impl Motion {
+impl Derivatives {
     /// The same motion about another place.
     fn shifted(self, by: f64) -> Self {
         Self { x: self.x + by, ..self }
@@ -267,14 +267,14 @@ impl Course {
     }
 
     /// The motion after a time `s`, by equation (1).
-    pub fn at(&self, s: f64) -> Motion {
+    pub fn at(&self, s: f64) -> Derivatives {
         let steady = self.flight.steady_at(self.phase + self.flight.frequency * s);
         self.flight.motion(steady, self.flight.free(s) * self.deviation).shifted(self.push)
     }
 
     /// The motion after a time `s`, and a bound on its acceleration from then on: that of the steady motion, and of the free
     /// motion, which only fades.
-    pub(super) fn bounded(&self, s: f64) -> (Motion, f64) {
+    pub(super) fn bounded(&self, s: f64) -> (Derivatives, f64) {
         let Self { flight, .. } = self;
         let steady = flight.steady_at(self.phase + flight.frequency * s);
         let free = flight.free(s) * self.deviation;
@@ -285,7 +285,11 @@ impl Course {
 
     /// The motion after each of `count` steps of equal length, with one sine, cosine and exponential for
     /// all: rounding grows by a unit in the last place with each.
-    pub(super) fn at_steps(&self, step: f64, count: u32) -> impl Iterator<Item = Motion> + use<> {
+    pub(super) fn at_steps(
+        &self,
+        step: f64,
+        count: u32,
+    ) -> impl Iterator<Item = Derivatives> + use<> {
         let Self { flight, phase, push, mut deviation } = *self;
         let propagator = flight.free(step);
         operation_count::note(2 * ELEMENTARY);
@@ -358,7 +362,7 @@ mod tests {
                 excitation: Excitation::BaseDisplacement,
                 cavity: Cavity::IDEAL,
             });
-            let flight = Flight::of(&system.expect("valid")).expect("a steady motion");
+            let flight = Propagator::of(&system.expect("valid")).expect("a steady motion");
             let course = flight.course(0.7, Vector2::new(-0.4, 0.9));
             for (k, found) in course.at_steps(0.05, 400).enumerate() {
                 let exact = course.at(0.05 * (k + 1) as f64);

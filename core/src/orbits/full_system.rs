@@ -3,8 +3,8 @@
 
 use serde::Serialize;
 
-use super::boundaries::Boundaries;
-use super::branch::{Direction, Settings, follow};
+use super::boundaries::ExactBoundaries;
+use super::branch::{BranchDirection, Settings, follow};
 use super::impact_map::ImpactMap;
 use super::limits::{Limit, StableStretch};
 use super::measures::Peaks;
@@ -49,7 +49,7 @@ pub struct FullSystem {
     /// The boundaries at its frequency and forcing; `None` without forcing, for an undamped
     /// oscillator driven at its natural frequency, which has no steady motion between impacts, and for a cavity that is
     /// not ideal.
-    pub boundaries: Option<Boundaries>,
+    pub boundaries: Option<ExactBoundaries>,
 }
 
 impl FullSystem {
@@ -61,7 +61,7 @@ impl FullSystem {
             system: *system,
             orbits: symmetric_orbits(system).unwrap_or_default(),
             two_impact: real.then(|| two_impact_orbits(system).ok()).flatten(),
-            boundaries: driven.then(|| Boundaries::of(system).ok()).flatten(),
+            boundaries: driven.then(|| ExactBoundaries::of(system).ok()).flatten(),
         }
     }
 
@@ -106,7 +106,7 @@ impl FullSystem {
             return self.boundaries.as_ref()?.symmetric.stretch_around(1.0).copied();
         }
         let end = |direction| self.limit(orbit, Parameter::Clearance, CLEARANCES, direction);
-        let limits = [end(Direction::Down)?, end(Direction::Up)?];
+        let limits = [end(BranchDirection::Down)?, end(BranchDirection::Up)?];
         let clearance = [0, 1].map(|k| limits[k].value);
         Some(StableStretch { clearance, ends: [0, 1].map(|k| Some(limits[k].kind)) })
     }
@@ -126,7 +126,7 @@ impl FullSystem {
     /// raised, by continuation; values are frequency ratios.
     pub fn frequency_limits(&self) -> [Option<SpecialPoint>; 2] {
         let range = FREQUENCIES.map(|factor| factor * self.system.frequency_ratio());
-        [Direction::Down, Direction::Up].map(|direction| {
+        [BranchDirection::Down, BranchDirection::Up].map(|direction| {
             self.limit(self.attracting_orbit()?, Parameter::Frequency, range, direction)
         })
     }
@@ -134,7 +134,7 @@ impl FullSystem {
     /// The same as the forcing alone is lowered and raised; values are over the system's own. In an ideal cavity they
     /// are the reciprocals of the clearances at the ends of [`Self::stretch`].
     pub fn forcing_limits(&self) -> [Option<SpecialPoint>; 2] {
-        [Direction::Down, Direction::Up].map(|direction| {
+        [BranchDirection::Down, BranchDirection::Up].map(|direction| {
             self.limit(self.attracting_orbit()?, Parameter::Amplitude, CLEARANCES, direction)
         })
     }
@@ -142,7 +142,7 @@ impl FullSystem {
     /// The same as the cavity alone is tilted, towards `x - y = -b` and towards `x - y = b`; values are gravity's
     /// accelerations along it over `b omega0^2`.
     pub fn tilt_limits(&self) -> [Option<SpecialPoint>; 2] {
-        [Direction::Down, Direction::Up].map(|direction| {
+        [BranchDirection::Down, BranchDirection::Up].map(|direction| {
             let range = [-LARGEST_ACCELERATION, LARGEST_ACCELERATION];
             self.limit(self.attracting_orbit()?, Parameter::GravityAlong, range, direction)
         })
@@ -151,7 +151,7 @@ impl FullSystem {
     /// The same as friction alone grows; the value is its acceleration over `b omega0^2`.
     pub fn friction_limit(&self) -> Option<SpecialPoint> {
         let (orbit, range) = (self.attracting_orbit()?, [-1.0, LARGEST_ACCELERATION]);
-        self.limit(orbit, Parameter::FrictionAcceleration, range, Direction::Up)
+        self.limit(orbit, Parameter::FrictionAcceleration, range, BranchDirection::Up)
     }
 
     /// The first bifurcation on the branch of an attracting orbit.
@@ -160,7 +160,7 @@ impl FullSystem {
         start: &Orbit,
         parameter: Parameter,
         range: [f64; 2],
-        direction: Direction,
+        direction: BranchDirection,
     ) -> Option<SpecialPoint> {
         let settings = Settings::within(range);
         let branch = follow(&self.system, start, parameter, direction, &settings).ok()?;

@@ -13,7 +13,7 @@
 
 use nalgebra::{Matrix4, Vector2, Vector4};
 
-use super::flight::{Arrival, Course, Flight, Motion};
+use super::flight::{Arrival, Course, Derivatives, Propagator};
 use crate::system::{Cavity, State, System};
 
 /// A wall of the cavity: where `x - y = +b` or `x - y = -b`.
@@ -96,7 +96,7 @@ impl AfterImpact {
     }
 
     /// The oscillator from here on.
-    fn course(&self, flight: &Flight) -> Course {
+    fn course(&self, flight: &Propagator) -> Course {
         flight.course(self.phase, Vector2::new(self.x, self.x_velocity))
     }
 }
@@ -117,17 +117,17 @@ pub struct Leg {
 
 impl Leg {
     /// The oscillator a time `s` after the first impact.
-    pub fn oscillator(&self, s: f64) -> Motion {
+    pub fn oscillator(&self, s: f64) -> Derivatives {
         self.course.at(s)
     }
 
     /// The relative displacement `w` a time `s` after the first impact.
-    pub fn relative(&self, s: f64) -> Motion {
+    pub fn relative(&self, s: f64) -> Derivatives {
         self.relative_of(self.oscillator(s), s)
     }
 
     /// The relative displacement, and a bound on its second derivative from then on.
-    pub(super) fn bounded(&self, s: f64) -> (Motion, f64) {
+    pub(super) fn bounded(&self, s: f64) -> (Derivatives, f64) {
         let (oscillator, bound) = self.course.bounded(s);
         (self.relative_of(oscillator, s), bound + self.acceleration.abs())
     }
@@ -137,16 +137,16 @@ impl Leg {
         &self,
         step: f64,
         count: u32,
-    ) -> impl Iterator<Item = Motion> + use<> {
+    ) -> impl Iterator<Item = Derivatives> + use<> {
         self.course.at_steps(step, count)
     }
 
     /// The same, the oscillator's motion being known.
-    pub fn relative_of(&self, at: Motion, s: f64) -> Motion {
+    pub fn relative_of(&self, at: Derivatives, s: f64) -> Derivatives {
         let sliding = self.acceleration * s;
         let x = at.x - self.start.x + self.start.wall.sign() - self.start.y_velocity * s;
         let v = at.v - self.start.y_velocity - sliding;
-        Motion { x: x - 0.5 * sliding * s, v, a: at.a - self.acceleration, ..at }
+        Derivatives { x: x - 0.5 * sliding * s, v, a: at.a - self.acceleration, ..at }
     }
 
     /// What friction pushes the oscillator with, per unit of mass.
@@ -194,7 +194,7 @@ impl Step {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpactMap {
     /// The oscillator between impacts.
-    pub flight: Flight,
+    pub flight: Propagator,
     mass_ratio: f64,
     restitutions: [f64; 2],
     cavity: Cavity,
@@ -208,7 +208,7 @@ impl ImpactMap {
     /// frequency.
     pub fn of(system: &System) -> Result<Self, super::OrbitError> {
         Ok(Self {
-            flight: Flight::of(system)?,
+            flight: Propagator::of(system)?,
             mass_ratio: system.mass_ratio(),
             restitutions: system.restitutions(),
             cavity: system.cavity(),

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::OrbitError;
 use super::admissibility::zeros;
 use super::cycle::Cycle;
-use super::flight::Motion;
+use super::flight::Derivatives;
 use super::impact_map::{ImpactMap, Step};
 
 use crate::numerics::{is_zero, quadrature};
@@ -36,7 +36,7 @@ impl Peaks {
         let mut peaks = Self { displacement: 0.0, velocity: 0.0 };
         for leg in cycle.flights(map) {
             let frequency = map.flight.frequency();
-            let zeros = |rates: fn(Motion) -> [f64; 2]| {
+            let zeros = |rates: fn(Derivatives) -> [f64; 2]| {
                 zeros(&leg, frequency, |_, oscillator| rates(oscillator))
             };
             let turns = zeros(|at| [at.v, at.a]).into_iter().chain(zeros(|at| [at.a, at.jerk]));

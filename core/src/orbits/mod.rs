@@ -33,7 +33,7 @@ mod two_impact;
 
 pub use crate::bifurcation::Bifurcation;
 pub use admissibility::{Admissibility, Narrowest};
-pub use boundaries::{AsymmetricOrbits, Boundaries};
+pub use boundaries::{AsymmetricOrbits, ExactBoundaries};
 pub use branch::{Branch, BranchEnd, BranchPoint};
 pub use cycle::{Closure, Convergence, Cycle};
 pub use full_system::{BestClearance, FullSystem};

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::flow::{Kinematics, Motion};
+use super::flow::{Kinematics, SmoothMotion};
 use crate::system::State;
 
 /// A start that no motion can have.
@@ -96,7 +96,7 @@ impl Impact {
 #[derive(Debug, Clone, Copy)]
 pub struct Segment {
     /// Motion of the oscillator.
-    pub motion: Motion,
+    pub motion: SmoothMotion,
     /// Motion of the absorber.
     pub absorber: Absorber,
     /// Whole periods since the start of the run.

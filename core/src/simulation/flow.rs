@@ -92,14 +92,20 @@ impl Oscillator {
 
     /// The motion that starts at displacement `x` and velocity `v` when the excitation's phase is
     /// `phase`.
-    pub fn motion(&self, x: f64, v: f64, phase: f64) -> Motion {
+    pub fn motion(&self, x: f64, v: f64, phase: f64) -> SmoothMotion {
         self.motion_about(0.0, x, v, phase)
     }
 
     /// The same under a constant force besides, in which the oscillator would rest at `rest`.
-    pub fn motion_about(&self, rest: f64, x: f64, v: f64, phase: f64) -> Motion {
+    pub fn motion_about(&self, rest: f64, x: f64, v: f64, phase: f64) -> SmoothMotion {
         let steady = self.forced(phase, 0.0, &Propagator::identity());
-        Motion { oscillator: *self, rest, phase, free_x: x - rest - steady.x, free_v: v - steady.v }
+        SmoothMotion {
+            oscillator: *self,
+            rest,
+            phase,
+            free_x: x - rest - steady.x,
+            free_v: v - steady.v,
+        }
     }
 
     /// Free motion, `x'' + 2 d x' + k x = 0`, a time `s` after it had displacement `x` and velocity
@@ -200,7 +206,7 @@ pub struct Kinematics {
 
 /// One stretch of smooth motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct SmoothMotion {
     oscillator: Oscillator,
     /// Where it would rest without excitation.
     rest: f64,
@@ -209,7 +215,7 @@ pub struct Motion {
     free_v: f64,
 }
 
-impl Motion {
+impl SmoothMotion {
     /// Displacement and velocity a time `s` after the stretch began; error a few units in the last
     /// place of the larger of the free and the forced part.
     pub fn at(&self, s: f64) -> Kinematics {

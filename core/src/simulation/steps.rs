@@ -5,12 +5,14 @@ use std::f64::consts::TAU;
 
 use super::contact::rebound;
 use super::events::{Absorber, Observer, Segment, Side};
-use super::flow::{Kinematics, Motion};
+use super::flow::{Kinematics, SmoothMotion};
 use super::path::{Parabola, Path, StraightLine};
 use super::run::{Mode, Simulation, Stop};
 use super::sliding::Sliding;
 use super::walls::{self, TOUCH_ULPS};
-use crate::numerics::crossing::{Band, Curve, Edge, Sample, Search, first_crossing, first_of};
+use crate::numerics::crossing::{
+    CrossingBand, Curve, Edge, Sample, Search, first_crossing, first_of,
+};
 use crate::system::State;
 
 /// Distance over the clearance by which rounding may move the walls before the search gives up.
@@ -33,7 +35,7 @@ impl Simulation {
         let (touch, remaining) = (self.touch(), self.remaining());
         let curve = GapCurve { motion, path: self.path() };
         let from = self.tangential_start(&motion, touch).min(remaining);
-        let band = Band { lower: -1.0, upper: 1.0, touch };
+        let band = CrossingBand { lower: -1.0, upper: 1.0, touch };
         let (found, which) = if self.sliding.friction == 0.0 {
             (first_crossing(&curve, from, remaining, band), WALL)
         } else {
@@ -54,7 +56,7 @@ impl Simulation {
         gap: &GapCurve,
         from: f64,
         remaining: f64,
-        band: Band,
+        band: CrossingBand,
     ) -> (Search, usize) {
         let GapCurve { motion, path } = gap;
         let (sense, State { x, x_velocity, y_velocity, .. }) = (self.at.sense, self.at.state);
@@ -62,7 +64,7 @@ impl Simulation {
         let touch = TOUCH_ULPS * f64::EPSILON * size;
         let slips = if x_velocity == y_velocity { self.first_slip(motion, touch) } else { 0.0 };
         // The slope is positive the way that the absorber slides.
-        let slope = Band { lower: 0.0, upper: f64::INFINITY, touch };
+        let slope = CrossingBand { lower: 0.0, upper: f64::INFINITY, touch };
         let samples = |s: f64| {
             let at = motion.at(s);
             let StraightLine { y, velocity } = path.from(s).line;
@@ -93,7 +95,7 @@ impl Simulation {
 
     /// How long a slip that begins now, without speed and maybe without acceleration, lasts at least: with a jerk `j`
     /// for `3 j / snap bound`.
-    fn first_slip(&self, motion: &Motion, touch: f64) -> f64 {
+    fn first_slip(&self, motion: &SmoothMotion, touch: f64) -> f64 {
         let at = motion.at(0.0);
         let sense = self.at.sense;
         let slope = sense * (motion.acceleration(0.0, at) - self.sliding.acceleration(sense));
@@ -120,7 +122,7 @@ impl Simulation {
             Mode::Held { gap } => (Absorber::Held { gap }, 1.0, held),
             Mode::Flight => return Ok(()),
         };
-        let band = Band { lower: -held, upper, touch };
+        let band = CrossingBand { lower: -held, upper, touch };
         let from = if friction > 0.0 { SHORTEST_HOLD.min(self.remaining()) } else { 0.0 };
         let force = ContactForce { motion, sign, gravity };
         let found = first_crossing(&force, from, self.remaining(), band);
@@ -134,7 +136,7 @@ impl Simulation {
     /// Moves on to the edge that a search has found, which is returned, or to the end of the period.
     fn follow(
         &mut self,
-        motion: Motion,
+        motion: SmoothMotion,
         absorber: Absorber,
         found: Search,
         observer: &mut dyn Observer,
@@ -203,7 +205,7 @@ impl Simulation {
     /// the parabola that bounds the next step has no room. Third and fourth derivatives have: with
     /// closing acceleration `a <= 0` the gap stays open for `3 |a| / jerk bound`, and with `a = 0`
     /// and closing jerk `j < 0` for `4 |j| / snap bound`.
-    fn tangential_start(&self, motion: &Motion, touch: f64) -> f64 {
+    fn tangential_start(&self, motion: &SmoothMotion, touch: f64) -> f64 {
         let State { x, x_velocity, y_velocity, .. } = self.at.state;
         let gap = self.at.state.relative_displacement();
         let at = Kinematics { x, v: x_velocity };
@@ -228,7 +230,7 @@ impl Simulation {
 
 /// Relative displacement `w = x - y` during a flight.
 struct GapCurve {
-    motion: Motion,
+    motion: SmoothMotion,
     path: Parabola,
 }
 
@@ -251,7 +253,7 @@ impl Curve for GapCurve {
 /// `x'' - a` of an absorber in tow, times a sign: its acceleration by the forces of wall and friction, of which friction
 /// gives up to `f` either way, and a wall any away from it.
 struct ContactForce {
-    motion: Motion,
+    motion: SmoothMotion,
     sign: f64,
     gravity: f64,
 }

@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 
 use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, STEADY, Section, TRANSFER};
-use vinesink::analysis::{Branch, motion};
+use vinesink::analysis::{ManifoldBranch, motion};
 use vinesink::motions::Motion;
 use vinesink::orbits::Bifurcation;
 use vinesink::regimes::Regime;
@@ -31,7 +31,10 @@ pub(super) fn figure_3(cases: &CaseSet) -> Result<Section, PaperError> {
     let point = |b: f64, c: f64| json!({ "B": b, "C": c });
     Ok(Section::new(
         [
-            ("one_stable_branch", predicted.branch == Branch::Stable && !between.is_empty()),
+            (
+                "one_stable_branch",
+                predicted.branch == ManifoldBranch::Stable && !between.is_empty(),
+            ),
             ("on_the_branch", between.contains(&seen.absorber_amplitude) && away < allowed),
         ],
         json!({
@@ -59,7 +62,7 @@ pub(super) fn steady(cases: &CaseSet, name: &'static str) -> Result<Value, Paper
         "breaking": member.boundary(Bifurcation::SymmetryBreaking)?,
         "hopf": member.boundary(Bifurcation::NeimarkSacker)?,
         "collision": member.boundary(Bifurcation::SaddleNode)?,
-        "ends_by_collision": member.collides_on(Branch::Stable),
+        "ends_by_collision": member.collides_on(ManifoldBranch::Stable),
         "exact": exact.map(|stretch| stretch.clearance.map(|end| member.length(end))),
         "exact_end": exact.and_then(|stretch| stretch.ends[1]).map(Bifurcation::words),
         "simulated": simulated.map(|limit| [limit.kept, limit.lost.factor].map(|at| member.length(at))),
@@ -80,9 +83,9 @@ pub(super) fn figure_5(cases: &CaseSet) -> Result<Section, PaperError> {
     let unsteady = |at: &Regime| matches!(at, Regime::StronglyModulated | Regime::BelowTwo);
     Ok(Section::new(
         [
-            ("hopf_first", beats.collides_on(Branch::Left) && hopf < collision),
+            ("hopf_first", beats.collides_on(ManifoldBranch::Left) && hopf < collision),
             ("modulated", beats.regime() == Some(Regime::StronglyModulated)),
-            ("collide", hysteresis.collides_on(Branch::Stable)),
+            ("collide", hysteresis.collides_on(ManifoldBranch::Stable)),
             (
                 "side_by_side",
                 regimes.contains(&Regime::TwoSymmetric) && regimes.iter().any(unsteady),
@@ -116,7 +119,8 @@ pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
         [
             (
                 "branches",
-                hysteresis.collides_on(Branch::Stable) && member.collides_on(Branch::Left),
+                hysteresis.collides_on(ManifoldBranch::Stable)
+                    && member.collides_on(ManifoldBranch::Left),
             ),
             ("one_meeting", meeting.forcing_over_clearance > 0.0),
             ("least_at_the_end", least.clearance == last.clearance),

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use vinesink::analysis::Branch;
+use vinesink::analysis::ManifoldBranch;
 use vinesink::case::Case;
 use vinesink::executor::Executor;
 use vinesink::motions::{Measured, Motion};
@@ -128,7 +128,7 @@ impl CaseReport {
     }
 
     /// Whether fixed points collide on a branch.
-    fn collides_on(&self, branch: Branch) -> bool {
+    fn collides_on(&self, branch: ManifoldBranch) -> bool {
         self.study.analysis.boundaries.saddle_node.is_some_and(|node| node.branch == branch)
     }
 

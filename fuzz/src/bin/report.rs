@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 use libfuzzer_sys::fuzz_target;
 use vinesink::diff::markdown::markdown;
 use vinesink::diff::{Difference, Document, Reports};
-use vinesink::report::index::{CaseReport, Summary, files};
+use vinesink::report::index::{IndexedReport, Summary, files};
 
 const OWN: &str = include_str!("../../corpus/report/footbridge.json");
 
@@ -20,7 +20,7 @@ fn reports(text: &str) -> Option<Reports> {
 
 fuzz_target!(|text: &str| {
     if let Ok(summary) = Summary::read("report.json", text) {
-        let member = CaseReport { name: "one".to_owned(), summary, files: Vec::new() };
+        let member = IndexedReport { name: "one".to_owned(), summary, files: Vec::new() };
         let _ = files(vec![member], Vec::new());
     }
     let Some(read) = reports(text) else { return };

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::scale::{Scale, rounded};
 use crate::analysis::ManifoldPoint;
-use crate::cavity::{CavityAnalysis, FixedPoint};
+use crate::cavity::{CavityAnalysis, CavityFixedPoint};
 use crate::method::Method::{ExactOrbit, Theory};
 use crate::orbits::{FullSystem, SteadyOrbit};
 use crate::quantity::Quantity;
@@ -34,7 +34,7 @@ pub fn cavity(scale: &Scale, theory: Option<&CavityAnalysis>, exact: &FullSystem
     }))
 }
 
-fn point(scale: &Scale, point: &FixedPoint) -> Value {
+fn point(scale: &Scale, point: &CavityFixedPoint) -> Value {
     let length = |kind, value| scale.units.quantity(kind, value, Theory);
     let number = |kind, value| Quantity::new(kind, value, Theory);
     let motion = &point.motion;

@@ -20,7 +20,7 @@ mod statistics;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::analysis::Branch;
+use crate::analysis::ManifoldBranch;
 use crate::case::Case;
 use crate::measure::Measure;
 use crate::method::Method;
@@ -70,7 +70,7 @@ struct Ends {
     hopf: f64,
     /// Where two fixed points collide and leave nothing, and on which branch, if they do.
     last: Option<f64>,
-    branch: Option<Branch>,
+    branch: Option<ManifoldBranch>,
 }
 
 impl<'a> Scene<'a> {

@@ -2,14 +2,14 @@
 
 use serde_json::json;
 
-use crate::analysis::{Branch, Manifold};
+use crate::analysis::{Manifold, ManifoldBranch};
 use crate::quantity::catalogue as of;
 use crate::report::figure::{
     Color, Dash, Figure, Label, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
 use crate::study::plots::restitutions::Taken;
 use crate::study::plots::{Modulation, Restitutions};
-use crate::study::stretches::Stretch;
+use crate::study::stretches::TraceStretch;
 
 use super::Scene;
 use super::chart::Chart;
@@ -58,7 +58,7 @@ pub(super) fn modulation(scene: &Scene, data: &Modulation) -> Figure {
 fn on_manifold(
     scene: &Scene,
     data: &Modulation,
-    stretch: Option<Stretch>,
+    stretch: Option<TraceStretch>,
     [x, y]: [[f64; 2]; 2],
 ) -> Panel {
     let farthest = data.projection.path.iter().map(|(_, at)| at[0]).fold(2.0, f64::max);
@@ -112,7 +112,7 @@ fn manifolds(scene: &Scene, data: &Restitutions) -> Panel {
         panel = panel.with(thick.labelled(format!("r = {restitution}")));
         let close = |at: &&Taken| (at.restitution - restitution).abs() < 1e-9;
         if let Some(at) = data.taken.iter().find(close) {
-            let filled = at.branch == Branch::Stable;
+            let filled = at.branch == ManifoldBranch::Stable;
             let marker = Marker { filled, ..Marker::hollow(Shape::Circle).sized(8.0) };
             let what = format!("r = {restitution}");
             let mark = scene.mark(&chart, [at.absorber, data.level], &what);

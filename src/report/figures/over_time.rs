@@ -11,8 +11,8 @@ use crate::report::figure::{
 };
 use crate::simulation::{Impact, Trace, TracePoint};
 use crate::study::plots::traces::Part;
-use crate::study::plots::{Motion, Transfer, first_drawn};
-use crate::study::stretches::{Stretch, impulse};
+use crate::study::plots::{MotionTrace, Transfer, first_drawn};
+use crate::study::stretches::{TraceStretch, impulse};
 use crate::system::{Excitation, State, System};
 
 use super::Scene;
@@ -71,7 +71,7 @@ impl<'a> Series<'a> {
 }
 
 /// A motion: oscillator and relative displacement over time, and both amplitudes on the manifold.
-pub(super) fn motion(scene: &Scene, data: &Motion) -> Figure {
+pub(super) fn motion(scene: &Scene, data: &MotionTrace) -> Figure {
     let window = [0.0, data.trace.points.last().map_or(1.0, |point| point.periods)];
     let series = |kind, range| Series::new(scene, &data.trace, (kind, range), window, 0.0);
     let top = series(&of::DISPLACEMENT, FITTED);
@@ -99,7 +99,7 @@ pub(super) fn motion(scene: &Scene, data: &Motion) -> Figure {
         .with_panel(projection(scene, data))
 }
 
-fn projection(scene: &Scene, data: &Motion) -> Panel {
+fn projection(scene: &Scene, data: &MotionTrace) -> Panel {
     let path = data.projection.line(None);
     let [farthest, highest] =
         [0, 1].map(|index| path.iter().map(|at| at[index]).fold(0.0, f64::max));
@@ -121,7 +121,7 @@ fn projection(scene: &Scene, data: &Motion) -> Panel {
 }
 
 /// What the motion's own facts do not say.
-fn motion_facts(scene: &Scene, data: &Motion) -> Value {
+fn motion_facts(scene: &Scene, data: &MotionTrace) -> Value {
     let evidence = &scene.study.measured[data.index].classification.evidence;
     json!({
         "index": data.index,
@@ -261,8 +261,9 @@ pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
 fn transfer_facts(scene: &Scene, data: &Transfer, largest: f64) -> Value {
     let window = data.window;
     let captures = data.periods.captures();
-    let whole = |capture: &&Stretch| window.first <= capture.first && capture.end() <= window.end();
-    let inside: Vec<&Stretch> = captures.iter().filter(whole).collect();
+    let whole =
+        |capture: &&TraceStretch| window.first <= capture.first && capture.end() <= window.end();
+    let inside: Vec<&TraceStretch> = captures.iter().filter(whole).collect();
     let captured: usize = inside.iter().map(|capture| capture.periods).sum();
     let peaks = &data.periods.peaks[window.first..window.end()];
     json!({

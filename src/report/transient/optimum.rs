@@ -10,10 +10,10 @@ use crate::quantity::catalogue as of;
 use crate::report::document::NOTICEABLE;
 use crate::report::render::RenderError;
 use crate::report::template::render;
-use crate::transient::{BestClearance, WithError};
+use crate::transient::{ClearanceOptimum, WithError};
 
 /// What was found: `vinesink/optimization@3`, in SI. `written` is the document of the case with the best clearance.
-pub fn optimum(case: &Case, best: &BestClearance, written: &Value) -> Value {
+pub fn optimum(case: &Case, best: &ClearanceOptimum, written: &Value) -> Value {
     let records = written["records"].as_u64().unwrap_or(1);
     let (objective, kind, [bare, damper]) = match case.design.scene() {
         Scene::Release => ("decay-time", &of::DECAY_TIME, ["bare_decay_time", "damper_decay_time"]),

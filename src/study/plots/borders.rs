@@ -5,7 +5,9 @@
 
 use serde::Serialize;
 
-use crate::analysis::{AsymmetricLimits, Boundaries, Branch, FixedPointCurve, Manifold, Strip};
+use crate::analysis::{
+    AsymmetricLimits, Boundaries, FixedPointCurve, Manifold, ManifoldBranch, Strip,
+};
 use crate::study::CaseStudy;
 use crate::system::System;
 
@@ -87,7 +89,7 @@ impl Border {
         // Without a collision a fixed point that passes the fold lives on until B = 0, where C = b.
         let vanishing = libm::hypot(system.damping(), 2.0 * detuning);
         let (last, strip) = match at.saddle_node {
-            Some(node) if node.branch == Branch::Left => {
+            Some(node) if node.branch == ManifoldBranch::Left => {
                 (node.forcing_over_clearance, Some(Strip::A2))
             }
             Some(node) => (node.forcing_over_clearance, Some(Strip::A1)),
@@ -126,7 +128,7 @@ pub struct Condition {
     /// The clearance with a fixed point at the fold.
     pub hopf: f64,
     /// The clearance at which two fixed points collide, their `B/b`, and the branch.
-    pub collision: Option<(f64, f64, Branch)>,
+    pub collision: Option<(f64, f64, ManifoldBranch)>,
 }
 
 impl Bifurcations {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::dissipation::{AveragedFlow, Branch, Point};
+use crate::dissipation::{AveragedFlow, PairBranch, PairPoint};
 use crate::regimes::Regime;
 use crate::study::{Averages, CaseStudy};
 
@@ -65,7 +65,7 @@ impl Dissipation {
         let flow = AveragedFlow::of(system, &averages.curve);
         for branch in &averages.curve.branches {
             for k in 0..2 {
-                let place = |point: &Point| Some(([point.amplitude, point.forces()[k]], true));
+                let place = |point: &PairPoint| Some(([point.amplitude, point.forces()[k]], true));
                 draw(branch, &place, &mut forces[k]);
                 let scattered = branch.points.iter().filter(|point| point.repeats_after.is_none());
                 errors[k].extend(scattered.flat_map(|point| {
@@ -73,7 +73,7 @@ impl Dissipation {
                     [[c, value - error], [c, value + error], [f64::NAN; 2]]
                 }));
                 let ratio = |sigma: f64| 1.0 + system.mass_ratio() * sigma;
-                let place = |point: &Point| {
+                let place = |point: &PairPoint| {
                     let (sigma, stable) = flow.stability(branch, point)?[k];
                     Some(([ratio(sigma), point.amplitude], stable))
                 };
@@ -85,11 +85,11 @@ impl Dissipation {
 }
 
 /// Where a point lies, and whether it is stable there.
-type Place<'a> = &'a dyn Fn(&Point) -> Option<([f64; 2], bool)>;
+type Place<'a> = &'a dyn Fn(&PairPoint) -> Option<([f64; 2], bool)>;
 
 /// What is drawn of a branch.
-fn draw(branch: &Branch, place: Place, drawn: &mut Looks) {
-    let known = |point: &Point| match (branch.closed_form, point.repeats_after) {
+fn draw(branch: &PairBranch, place: Place, drawn: &mut Looks) {
+    let known = |point: &PairPoint| match (branch.closed_form, point.repeats_after) {
         (true, _) => AverageSource::ClosedForm,
         (false, Some(_)) => AverageSource::Repeating,
         (false, None) => AverageSource::Scattered,

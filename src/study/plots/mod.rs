@@ -13,11 +13,11 @@ pub mod restitutions;
 pub mod statistics;
 pub mod traces;
 
-use crate::analysis::Branch;
+use crate::analysis::ManifoldBranch;
 use crate::case::{Case, ExtraFigure};
-use crate::motions::{Measured, Motion as LongTermMotion};
+use crate::motions::{Measured, Motion};
 use crate::orbits::boundaries::over_frequency;
-use crate::orbits::{Boundaries, SteadyOrbit, steady_orbits};
+use crate::orbits::{ExactBoundaries, SteadyOrbit, steady_orbits};
 use crate::simulation::Stop;
 use crate::system::{Parameter, System};
 use crate::validation::AsymptoticError;
@@ -37,7 +37,7 @@ pub use ranges::Ranges;
 pub use responses::Responses;
 pub use restitutions::Restitutions;
 pub use statistics::{MotionExponents, StartPlane};
-pub use traces::{Modulation, Motion, Transfer};
+pub use traces::{Modulation, MotionTrace, Transfer};
 
 /// So many motions are drawn.
 const MOTIONS: usize = 3;
@@ -75,7 +75,7 @@ pub enum Plot {
     /// Peaks over frequency.
     Amplitude(Amplitude),
     /// A motion over time, and the times between its impacts.
-    Motion(Motion),
+    Motion(MotionTrace),
     /// The areas along the manifold.
     Areas(Areas),
     /// The conditions of saddle-node and Hopf boundary.
@@ -143,7 +143,7 @@ impl Plot {
             plots.push(Self::Amplitude(Amplitude::of(study)?));
         }
         for index in 0..study.motions.len().min(MOTIONS) {
-            plots.extend(Motion::of(study, index)?.map(Self::Motion));
+            plots.extend(MotionTrace::of(study, index)?.map(Self::Motion));
         }
         Ok(plots)
     }
@@ -177,14 +177,14 @@ impl Plot {
 }
 
 /// The motion with an index if it can be drawn: it moves, was reached and followed to the end.
-pub fn drawn(study: &CaseStudy, index: usize) -> Option<(&LongTermMotion, &Measured)> {
+pub fn drawn(study: &CaseStudy, index: usize) -> Option<(&Motion, &Measured)> {
     let (motion, measured) = study.each().nth(index)?;
     let followed = measured.stop == Stop::EndTime;
     (motion.rest().is_none() && followed).then_some((motion, measured))
 }
 
 /// The first motion that can be drawn: the one that most starts lead to.
-pub fn first_drawn(study: &CaseStudy) -> Option<(&LongTermMotion, &Measured)> {
+pub fn first_drawn(study: &CaseStudy) -> Option<(&Motion, &Measured)> {
     (0..study.motions.len()).find_map(|index| drawn(study, index))
 }
 
@@ -215,7 +215,7 @@ pub struct Map {
     /// The theory's boundaries.
     pub borders: Borders,
     /// The exact ones at some frequencies; none away from resonance.
-    pub exact: Vec<Boundaries>,
+    pub exact: Vec<ExactBoundaries>,
     /// The first against the second, with the frequency ratio.
     pub errors: Vec<(f64, Vec<AsymptoticError>)>,
 }
@@ -276,8 +276,8 @@ fn steady_orbits_at(system: Option<System>) -> Vec<SteadyOrbit> {
 
 /// Whether a fixed point where the curve of fixed points rises or falls is stable: it must lie on the stable
 /// branch, and not where the curve has turned back.
-fn on_stable_branch(branches: [Branch; 2], rises: bool) -> bool {
-    rises && branches == [Branch::Stable; 2]
+fn on_stable_branch(branches: [ManifoldBranch; 2], rises: bool) -> bool {
+    rises && branches == [ManifoldBranch::Stable; 2]
 }
 
 /// A curve as two lines with gaps: the stable pieces between neighbouring points, and the others.

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 use crate::analysis::motion::read_off;
 use serde::Serialize;
 
-use crate::analysis::{Branch, Manifold};
+use crate::analysis::{Manifold, ManifoldBranch};
 use crate::motions::Measured;
 use crate::study::CaseStudy;
 use crate::system::{Parameters, System};
@@ -29,7 +29,7 @@ pub struct Taken {
     /// `E sin(Theta)/b`, the part that enters the first equation of (18).
     pub damping: f64,
     /// Where on the manifold.
-    pub branch: Branch,
+    pub branch: ManifoldBranch,
 }
 
 /// Which restitutions matter at an oscillator amplitude.
@@ -71,7 +71,7 @@ impl Restitutions {
 
     /// `[restitution, value]` on the stable branch of the manifold, and beside it.
     pub fn lines(&self, value: fn(&Taken) -> f64) -> [Line; 2] {
-        let stable = |[_, next]: [&Taken; 2]| next.branch == Branch::Stable;
+        let stable = |[_, next]: [&Taken; 2]| next.branch == ManifoldBranch::Stable;
         branches(&self.taken, &stable, &|at| [at.restitution, value(at)])
     }
 }
@@ -96,7 +96,7 @@ fn taken(restitution: f64, level: f64) -> Option<Taken> {
 
 /// Where 1:1 resonance is not steady the manifold takes nothing.
 fn strongest(all: &[Taken]) -> Option<Strongest> {
-    let stable = || all.iter().filter(|at| at.branch == Branch::Stable);
+    let stable = || all.iter().filter(|at| at.branch == ManifoldBranch::Stable);
     let largest = |value: fn(&Taken) -> f64| {
         let at = stable().max_by(|a, b| value(a).total_cmp(&value(b)))?;
         Some(at.restitution)

@@ -2,13 +2,13 @@
 
 use serde::Serialize;
 
-use crate::analysis::Branch;
+use crate::analysis::ManifoldBranch;
 use crate::case::Case;
 use crate::motions::Measured;
 use crate::regimes::Regime;
 use crate::simulation::Trace;
 use crate::study::scenes::{projected, projected_after, trace};
-use crate::study::stretches::{Periods, SHORTEST_CAPTURE, Stretch, impulse};
+use crate::study::stretches::{Periods, SHORTEST_CAPTURE, TraceStretch, impulse};
 use crate::study::{CaseStudy, StudyError};
 use crate::system::System;
 
@@ -34,7 +34,7 @@ impl Projection {
     }
 
     /// The path within a stretch, or all of it.
-    pub fn line(&self, stretch: Option<Stretch>) -> Line {
+    pub fn line(&self, stretch: Option<TraceStretch>) -> Line {
         let inside = |at: f64| stretch.is_none_or(|stretch| stretch.holds(at));
         self.path.iter().filter(|(at, _)| inside(*at)).map(|(_, place)| *place).collect()
     }
@@ -55,7 +55,7 @@ const IMPACTS: f64 = 400.0;
 
 /// Some periods of a motion.
 #[derive(Debug, Clone)]
-pub struct Motion {
+pub struct MotionTrace {
     /// Which one.
     pub index: usize,
     /// Excitation periods.
@@ -66,7 +66,7 @@ pub struct Motion {
     pub projection: Projection,
 }
 
-impl Motion {
+impl MotionTrace {
     pub(super) fn of(study: &CaseStudy, index: usize) -> Result<Option<Self>, StudyError> {
         let Some((motion, measured)) = drawn(study, index) else { return Ok(None) };
         let system = &study.analysis.system;
@@ -97,12 +97,12 @@ pub struct Modulation {
     /// The whole motion.
     pub projection: Projection,
     /// Its captures.
-    pub captures: Vec<Stretch>,
+    pub captures: Vec<TraceStretch>,
     /// How far from the stable branch it is while captured, relative in `C` (rms); the first periods of each
     /// capture are left out.
     pub away: Option<f64>,
     /// The way into the longest capture, and the stay in it.
-    pub enlarged: [Stretch; 2],
+    pub enlarged: [TraceStretch; 2],
 }
 
 impl Modulation {
@@ -122,13 +122,13 @@ impl Modulation {
         let trace = trace(system, motion.state(), Self::PERIODS, 4.0)?;
         let captures = Periods::of(&trace).captures();
         let before = Self::TRANSITION;
-        let arrival = |capture: &&Stretch| capture.first >= before;
+        let arrival = |capture: &&TraceStretch| capture.first >= before;
         let longest = captures.iter().filter(arrival).max_by_key(|capture| capture.periods);
-        let Some(&Stretch { first, periods }) = longest else { return Ok(None) };
+        let Some(&TraceStretch { first, periods }) = longest else { return Ok(None) };
         let skipped = before.min(periods - 1);
         let enlarged = [
-            Stretch { first: first - before, periods: 2 * before.min(periods) },
-            Stretch { first: first + skipped, periods: periods - skipped },
+            TraceStretch { first: first - before, periods: 2 * before.min(periods) },
+            TraceStretch { first: first + skipped, periods: periods - skipped },
         ];
         let projection = Projection::of(system, &trace);
         let away = away(study, &projection, &captures);
@@ -136,15 +136,16 @@ impl Modulation {
     }
 }
 
-fn away(study: &CaseStudy, projection: &Projection, captures: &[Stretch]) -> Option<f64> {
+fn away(study: &CaseStudy, projection: &Projection, captures: &[TraceStretch]) -> Option<f64> {
     let manifold = &study.analysis.manifold;
     let settled = |at: f64| {
         captures.iter().any(|capture| {
             (capture.first + Modulation::TRANSITION) as f64 <= at && at <= capture.end() as f64
         })
     };
-    let on_branch =
-        |absorber: f64, at: f64| settled(at) && manifold.branch(absorber - 1.0) == Branch::Stable;
+    let on_branch = |absorber: f64, at: f64| {
+        settled(at) && manifold.branch(absorber - 1.0) == ManifoldBranch::Stable
+    };
     let squares: Vec<f64> = projection
         .landed
         .iter()
@@ -166,7 +167,7 @@ pub struct Transfer {
     /// What its periods look like.
     pub periods: Periods,
     /// What is shown.
-    pub window: Stretch,
+    pub window: TraceStretch,
     /// (d) captured, and yet the amplitude grows; (e) captured, and it falls most; (f) fewest impacts, and it
     /// grows.
     pub parts: [Option<Part>; 3],
@@ -177,7 +178,7 @@ pub struct Transfer {
 pub struct Part {
     /// Where it is.
     #[serde(flatten)]
-    pub stretch: Stretch,
+    pub stretch: TraceStretch,
     /// Last peak over the first one, less 1.
     pub change: f64,
     /// Impacts in it.
@@ -220,12 +221,12 @@ impl Transfer {
 
     /// In the window that is shown as a whole, or else in the whole motion that was searched.
     fn parts(&self, mass_ratio: f64) -> [Option<Part>; 3] {
-        let all = Stretch { first: 0, periods: self.periods.count() };
+        let all = TraceStretch { first: 0, periods: self.periods.count() };
         let periods = &self.periods;
         let weak = |outer| {
             (SHORTEST_CAPTURE..=Self::SHORT).rev().find_map(|length| periods.weak(outer, length))
         };
-        let pick = |choose: &dyn Fn(Stretch) -> Option<Stretch>| {
+        let pick = |choose: &dyn Fn(TraceStretch) -> Option<TraceStretch>| {
             let stretch = choose(self.window).or_else(|| choose(all))?;
             let inside = self.trace.impacts.iter().filter(|(at, _)| stretch.holds(*at));
             let strengths: Vec<f64> =

@@ -96,7 +96,7 @@ impl<S: Simd> Lanes<S> {
 
     /// What the flights end with.
     #[inline(always)]
-    fn event(&self, panel: &PanelSearch<S>, end: &FlightEnd<S>) -> FlightEvents<S> {
+    fn event(&self, panel: &PanelSearch<S>, end: &PanelEnd<S>) -> FlightEvents<S> {
         let StraightLine { y, velocity } = self.line;
         let flight = Wide::choose(end.over, self.left, self.time + end.time);
         let (x, v, y) = (end.x, end.v, y + velocity * flight);
@@ -117,7 +117,7 @@ impl<S: Simd> Lanes<S> {
 
     /// Lets the lanes stand where their flights have ended.
     #[inline(always)]
-    fn stand(&mut self, event: &FlightEvents<S>, end: &FlightEnd<S>) {
+    fn stand(&mut self, event: &FlightEvents<S>, end: &PanelEnd<S>) {
         let FlightEvents { good, impact, x, v, y, wall, after, .. } = event;
         let (good, impact, over) = (*good, *impact, *good & end.over);
         let follows = self.restitution.at_most(x.like(0.0));
@@ -141,7 +141,7 @@ impl<S: Simd> Lanes<S> {
     /// Where the flights end within their panels: at a wall, or with the period in lanes that are
     /// clear until then or cross later.
     #[inline(always)]
-    fn end(&self, panel: &PanelSearch<S>) -> FlightEnd<S> {
+    fn end(&self, panel: &PanelSearch<S>) -> PanelEnd<S> {
         let PanelSearch { there, length, slack, wall, crossing, over: clear, .. } = *panel;
         let line = self.line.from(self.time);
         let (zero, none) = (self.x.like(0.0), WideMask::from_bits(self.simd, 0));
@@ -149,7 +149,7 @@ impl<S: Simd> Lanes<S> {
         let guess = guess.larger(zero).smaller(length);
         let rest = self.left - self.time;
         let mut time = guess;
-        let mut end = FlightEnd {
+        let mut end = PanelEnd {
             over: clear,
             time: zero,
             x: zero,
@@ -250,7 +250,7 @@ struct PanelSearch<S: Simd> {
 }
 
 /// Where flights end within their panels, times from the panel's beginning.
-struct FlightEnd<S: Simd> {
+struct PanelEnd<S: Simd> {
     /// With the period, not at a wall.
     over: WideMask<S>,
     time: Wide<S>,
