@@ -3,7 +3,7 @@
 use vinesink::system::{Parameters, State, System};
 use vinesink_evidence::extremes::layers::rows;
 use vinesink_evidence::extremes::list::table_1;
-use vinesink_evidence::extremes::{Layer, Verdict, entries, unit_checks};
+use vinesink_evidence::extremes::{CheckedLayer, RunVerdict, entries, unit_checks};
 use vinesink_evidence::reference::{Event, Reference};
 
 /// Every entry but the long runs, which the committed page has.
@@ -17,7 +17,7 @@ fn whatever_is_trusted_agrees_with_the_reference() {
         let outcome = entry.outcome();
         let name = format!("{:?} {:?}", outcome.entry.varied, outcome.entry.start);
         match outcome.verdict {
-            Verdict::Holds => {
+            RunVerdict::Holds => {
                 let comparison = outcome.measured.and_then(|measured| measured.comparison);
                 assert!(
                     comparison.is_some_and(|found| found.events >= 6),
@@ -25,9 +25,9 @@ fn whatever_is_trusted_agrees_with_the_reference() {
                 );
                 seen[0] += 1;
             }
-            Verdict::Flagged(_) => seen[1] += 1,
-            Verdict::Refused(_) => seen[2] += 1,
-            Verdict::Wrong => panic!("{name}: {:?}", outcome.measured),
+            RunVerdict::Flagged(_) => seen[1] += 1,
+            RunVerdict::Refused(_) => seen[2] += 1,
+            RunVerdict::Wrong => panic!("{name}: {:?}", outcome.measured),
         }
     }
     assert!(seen[0] > 30 && seen[1] > 2 && seen[2] == 1, "{seen:?}");
@@ -37,13 +37,13 @@ fn whatever_is_trusted_agrees_with_the_reference() {
 /// operations.
 #[test]
 fn every_layer_holds_or_says_why() {
-    let mut held = Layer::ALL.map(|layer| (layer, 0));
+    let mut held = CheckedLayer::ALL.map(|layer| (layer, 0));
     let mut wrong = Vec::new();
     for row in rows().expect("a table") {
         let outcome = row.outcome().expect("a valid system");
         match outcome.verdict {
-            Verdict::Wrong => wrong.push(format!("{row:?}: {:?}", outcome.wrong)),
-            Verdict::Holds if outcome.compared > 0 => {
+            RunVerdict::Wrong => wrong.push(format!("{row:?}: {:?}", outcome.wrong)),
+            RunVerdict::Holds if outcome.compared > 0 => {
                 held.iter_mut().filter(|(layer, _)| *layer == row.layer).for_each(|one| one.1 += 1);
             }
             _ => {}

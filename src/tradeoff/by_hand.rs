@@ -39,7 +39,7 @@ pub struct ByHand {
 
 /// What an integrator makes of some periods.
 #[derive(Debug, Clone)]
-pub struct Run {
+pub struct IntegratorRun {
     /// Where it ends.
     pub end: State,
     /// When each impact took place, and the state after it.
@@ -120,9 +120,9 @@ impl ByHand {
     }
 
     /// Integrates so many excitation periods from `start` at phase 0.
-    pub fn run(&self, start: State, periods: u64) -> Run {
+    pub fn run(&self, start: State, periods: u64) -> IntegratorRun {
         let h = self.system.period() / f64::from(self.steps);
-        let mut run = Run { end: start, impacts: Vec::new(), squares: 0.0 };
+        let mut run = IntegratorRun { end: start, impacts: Vec::new(), squares: 0.0 };
         for step in 0..periods * u64::from(self.steps) {
             // The phase starts afresh in every period, as careful people do.
             let in_period = (step % u64::from(self.steps)) as f64 * h;
@@ -133,7 +133,7 @@ impl ByHand {
         run
     }
 
-    fn step(&self, run: &mut Run, mut time: f64, period: f64, mut left: f64) {
+    fn step(&self, run: &mut IntegratorRun, mut time: f64, period: f64, mut left: f64) {
         for _ in 0..MOST_IN_STEP {
             let state = run.end;
             let next = self.advanced(time, &state, left);

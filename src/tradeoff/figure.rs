@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::by_hand::Locate;
 use super::page::Page;
-use super::{Layer, Method, Search};
+use super::{ImpactSearch, MethodGroup, TradeoffMethod};
 use crate::quantity::numbers::{asked, operations, relative_error};
 use crate::report::figure::{
     Axis, Color, Dash, Figure, Layer as Drawn, MarkedPoint, Marker, Panel, Role, Rule, Shape, Style,
@@ -12,7 +12,7 @@ use crate::report::figure::{
 
 /// A group of trials that is drawn alike: name, mark, color, the line that joins what gets better step by
 /// step, and which methods it has.
-type Series = (&'static str, Marker, Color, Option<Dash>, fn(&Method) -> bool);
+type Series = (&'static str, Marker, Color, Option<Dash>, fn(&TradeoffMethod) -> bool);
 
 /// From the back to the front.
 fn series() -> [Series; 8] {
@@ -20,10 +20,10 @@ fn series() -> [Series; 8] {
     let (hollow, filled) = (Marker::hollow, Marker::filled);
     [
         ("fixed step, interpolation", hollow(Shape::Square), Orange, Some(Dash::Dotted), |one| {
-            matches!(one, Method::FixedStep { locate: Locate::Interpolation, .. })
+            matches!(one, TradeoffMethod::FixedStep { locate: Locate::Interpolation, .. })
         }),
         ("fixed step, bisection", filled(Shape::Cross), Vermillion, Some(Dash::Dashed), |one| {
-            matches!(one, Method::FixedStep { locate: Locate::Bisection, .. })
+            matches!(one, TradeoffMethod::FixedStep { locate: Locate::Bisection, .. })
         }),
         ("simulation", filled(Shape::Circle), ReddishPurple, Some(Dash::Solid), is_usual),
         (
@@ -31,30 +31,32 @@ fn series() -> [Series; 8] {
             hollow(Shape::Diamond),
             ReddishPurple,
             None,
-            |one| one.layer() == Layer::Simulation && !is_usual(one),
+            |one| one.layer() == MethodGroup::Simulation && !is_usual(one),
         ),
         ("slow flow", hollow(Shape::Triangle), BluishGreen, None, |one| {
-            one.layer() == Layer::SlowFlow
+            one.layer() == MethodGroup::SlowFlow
         }),
         ("averaged flow", filled(Shape::Triangle), BluishGreen, None, |one| {
-            one.layer() == Layer::AveragedFlow
+            one.layer() == MethodGroup::AveragedFlow
         }),
-        ("closed form", filled(Shape::Square), Blue, None, |one| one.layer() == Layer::ClosedForm),
+        ("closed form", filled(Shape::Square), Blue, None, |one| {
+            one.layer() == MethodGroup::ClosedForm
+        }),
         ("exact orbit", hollow(Shape::Circle).sized(10.0), Black, None, |one| {
-            one.layer() == Layer::ExactOrbit
+            one.layer() == MethodGroup::ExactOrbit
         }),
     ]
 }
 
 /// Whether it is the event engine as everybody uses it.
-fn is_usual(one: &Method) -> bool {
-    matches!(one, Method::Simulation { search: Search::Panels, excursion: None, .. })
+fn is_usual(one: &TradeoffMethod) -> bool {
+    matches!(one, TradeoffMethod::Simulation { search: ImpactSearch::Panels, excursion: None, .. })
 }
 
 /// The diagram.
 pub fn figure(page: &Page) -> Figure {
     let tradeoff = page.found;
-    let placed: Vec<(Method, MarkedPoint)> = tradeoff
+    let placed: Vec<(TradeoffMethod, MarkedPoint)> = tradeoff
         .trials
         .iter()
         .filter_map(|trial| {

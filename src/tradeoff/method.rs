@@ -17,7 +17,7 @@ use crate::system::{State, System};
 /// Which search for impacts a simulation uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Search {
+pub enum ImpactSearch {
     /// By phasors in panels of the period.
     Panels,
     /// By bounding parabolas, step by step.
@@ -28,7 +28,7 @@ pub enum Search {
 /// the transient and measures the second.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "method", rename_all = "kebab-case")]
-pub enum Method {
+pub enum TradeoffMethod {
     /// The manifold and the fixed points of the slow flow, in closed form.
     FixedPoints,
     /// The slow flow (18), integrated for so many excitation periods.
@@ -50,7 +50,7 @@ pub enum Method {
         /// Excitation periods.
         periods: u64,
         /// How impacts are found.
-        search: Search,
+        search: ImpactSearch,
         /// Excursion at which a chattering sequence is ended, over the clearance, where that is not the
         /// engine's own.
         excursion: Option<f64>,
@@ -70,7 +70,7 @@ pub enum Method {
 /// The group that a method belongs to, in order of effort.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Layer {
+pub enum MethodGroup {
     /// Manifold and fixed points.
     ClosedForm,
     /// Slow flow in time.
@@ -85,16 +85,16 @@ pub enum Layer {
     FixedStep,
 }
 
-impl Method {
+impl TradeoffMethod {
     /// The layer it belongs to.
-    pub fn layer(self) -> Layer {
+    pub fn layer(self) -> MethodGroup {
         match self {
-            Self::FixedPoints => Layer::ClosedForm,
-            Self::SlowFlow { .. } => Layer::SlowFlow,
-            Self::AveragedFlow => Layer::AveragedFlow,
-            Self::SymmetricOrbit | Self::OrbitFromSimulation { .. } => Layer::ExactOrbit,
-            Self::Simulation { .. } => Layer::Simulation,
-            Self::FixedStep { .. } => Layer::FixedStep,
+            Self::FixedPoints => MethodGroup::ClosedForm,
+            Self::SlowFlow { .. } => MethodGroup::SlowFlow,
+            Self::AveragedFlow => MethodGroup::AveragedFlow,
+            Self::SymmetricOrbit | Self::OrbitFromSimulation { .. } => MethodGroup::ExactOrbit,
+            Self::Simulation { .. } => MethodGroup::Simulation,
+            Self::FixedStep { .. } => MethodGroup::FixedStep,
         }
     }
 
@@ -190,13 +190,13 @@ fn simulated(
     system: &System,
     start: State,
     periods: u64,
-    search: Search,
+    search: ImpactSearch,
     excursion: Option<f64>,
 ) -> Result<Estimate, StudyError> {
     let usual = ContactTolerance::default();
     let tolerance = ContactTolerance { excursion: excursion.unwrap_or(usual.excursion), ..usual };
     let mut simulation = Simulation::new(system, start, 0.0)?.with_tolerance(tolerance);
-    if search == Search::StepByStep {
+    if search == ImpactSearch::StepByStep {
         simulation = simulation.step_by_step();
     }
     let discard = periods / 2;
@@ -208,7 +208,7 @@ fn simulated(
         Stop::ImpactLimit => None,
     };
     // The slow search notes every evaluation itself.
-    if search == Search::Panels {
+    if search == ImpactSearch::Panels {
         operation_count::note(simulation.operations());
     }
     Ok(answer.unwrap_or_else(|| Estimate::none(WhyNoAnswer::ImpactLimit)))

@@ -7,7 +7,7 @@
 //! one that is smaller than the best answer's own is only known to be below that.
 //!
 //! Costs are operations as [`crate::operation_count`] counts them. Time is not measured here: whoever has a
-//! clock runs [`Method::run`] again.
+//! clock runs [`TradeoffMethod::run`] again.
 
 pub mod by_hand;
 mod figure;
@@ -26,7 +26,7 @@ use crate::system::{State, System};
 use by_hand::{ByHand, Flights, Locate};
 
 pub use figure::figure;
-pub use method::{Layer, Method, Search};
+pub use method::{ImpactSearch, MethodGroup, TradeoffMethod};
 
 /// What is tried.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,7 +71,7 @@ const BEFORE_NEWTON: u64 = 400;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Best {
     /// Exact orbit or simulation.
-    pub layer: Layer,
+    pub layer: MethodGroup,
     /// Periods measured, if it is a simulation.
     pub periods: Option<u64>,
     /// Impacts and periods of the orbit, if it is one.
@@ -117,7 +117,7 @@ const ALIKE: f64 = 10.0;
 pub struct Trial {
     /// What was tried.
     #[serde(flatten)]
-    pub method: Method,
+    pub method: TradeoffMethod,
     /// What it answers.
     #[serde(flatten)]
     pub answer: Estimate,
@@ -212,19 +212,19 @@ impl Tradeoff {
     /// scatter, or its averages settle, or those of the best answer do, which is longer, and it is not much
     /// further off than that.
     pub fn transient(&self, trial: &Trial) -> Option<u64> {
-        let Method::Simulation { periods, .. } = trial.method else { return None };
+        let TradeoffMethod::Simulation { periods, .. } = trial.method else { return None };
         let error = trial.rms_error.filter(|error| !error.below)?.value;
         let (best, left_out) = (&self.best, periods / 2);
         let left = best.decay_periods.map_or(1.0, |decay| libm::exp(-(left_out as f64) / decay));
         let with_best = best.in_transient && error < ALIKE * best.rms_error;
-        let seen = best.layer == Layer::ExactOrbit || with_best || trial.answer.settles;
+        let seen = best.layer == MethodGroup::ExactOrbit || with_best || trial.answer.settles;
         (seen && left > error.min(MUCH_LEFT)).then_some(left_out)
     }
 
     /// The place of the cheapest trial of a layer whose error of the root mean square is within `allowed`:
     /// with the right regime, where it tells one, and not by chance, which means that every longer run and
     /// every smaller step of the same kind is within it too.
-    pub fn cheapest(&self, layer: Layer, allowed: f64) -> Option<usize> {
+    pub fn cheapest(&self, layer: MethodGroup, allowed: f64) -> Option<usize> {
         let within = |trial: &Trial| trial.rms_error.is_some_and(|error| error.value <= allowed);
         let lasts = |(_, trial): &(usize, &Trial)| {
             let named = trial.answer.regime.is_none_or(|regime| regime == self.best.regime);
@@ -236,7 +236,7 @@ impl Tradeoff {
     }
 
     /// The trials of a layer, with their places.
-    fn of_layer(&self, layer: Layer) -> impl Iterator<Item = (usize, &Trial)> {
+    fn of_layer(&self, layer: MethodGroup) -> impl Iterator<Item = (usize, &Trial)> {
         let all = self.trials.iter().enumerate();
         all.filter(move |(_, trial)| trial.method.layer() == layer)
     }
@@ -247,14 +247,14 @@ fn best(system: &System, main: &Motion, effort: &TradeoffEffort) -> Result<Best,
         Some(proven) => {
             let orbit = Some((proven.cycle.impact_count(), proven.cycle.periods()));
             let rate = -libm::log(proven.radius_per_period());
-            (Layer::ExactOrbit, None, orbit, rate, Estimate::of_motion(main))
+            (MethodGroup::ExactOrbit, None, orbit, rate, Estimate::of_motion(main))
         }
         None => {
             let mut simulation = Simulation::new(system, main.state(), 0.0)?;
             let answer =
                 estimate::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
             let rate = 0.5 * system.mass_ratio() * system.damping() * system.period();
-            (Layer::Simulation, Some(effort.longest), None, rate, answer)
+            (MethodGroup::Simulation, Some(effort.longest), None, rate, answer)
         }
     };
     Ok(Best {
@@ -271,23 +271,28 @@ fn best(system: &System, main: &Motion, effort: &TradeoffEffort) -> Result<Best,
     })
 }
 
-fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<Method> {
-    let mut all = vec![Method::FixedPoints];
-    all.extend(effort.lengths.iter().map(|periods| Method::SlowFlow { periods: *periods }));
-    all.extend([Method::AveragedFlow, Method::SymmetricOrbit]);
-    if best.layer == Layer::ExactOrbit && best.regime != Regime::TwoSymmetric {
-        all.push(Method::OrbitFromSimulation { periods: BEFORE_NEWTON });
+fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<TradeoffMethod> {
+    let mut all = vec![TradeoffMethod::FixedPoints];
+    all.extend(effort.lengths.iter().map(|periods| TradeoffMethod::SlowFlow { periods: *periods }));
+    all.extend([TradeoffMethod::AveragedFlow, TradeoffMethod::SymmetricOrbit]);
+    if best.layer == MethodGroup::ExactOrbit && best.regime != Regime::TwoSymmetric {
+        all.push(TradeoffMethod::OrbitFromSimulation { periods: BEFORE_NEWTON });
     }
-    let simulation = |periods, search, excursion| Method::Simulation { periods, search, excursion };
-    all.extend(effort.lengths.iter().map(|n| simulation(*n, Search::Panels, None)));
+    let simulation =
+        |periods, search, excursion| TradeoffMethod::Simulation { periods, search, excursion };
+    all.extend(effort.lengths.iter().map(|n| simulation(*n, ImpactSearch::Panels, None)));
     if rests {
         let usual = effort.usual_length;
-        all.extend(EXCURSIONS.iter().map(|at| simulation(usual, Search::Panels, Some(*at))));
+        all.extend(EXCURSIONS.iter().map(|at| simulation(usual, ImpactSearch::Panels, Some(*at))));
     }
-    all.push(simulation(effort.usual_length, Search::StepByStep, None));
+    all.push(simulation(effort.usual_length, ImpactSearch::StepByStep, None));
     for locate in [Locate::Bisection, Locate::Interpolation] {
         let periods = effort.usual_length;
-        all.extend(effort.steps.iter().map(|n| Method::FixedStep { periods, steps: *n, locate }));
+        all.extend(effort.steps.iter().map(|n| TradeoffMethod::FixedStep {
+            periods,
+            steps: *n,
+            locate,
+        }));
     }
     all
 }
@@ -295,16 +300,16 @@ fn methods(best: &Best, rests: bool, effort: &TradeoffEffort) -> Vec<Method> {
 fn trial(
     system: &System,
     start: State,
-    method: Method,
+    method: TradeoffMethod,
     best: &Best,
     effort: &TradeoffEffort,
 ) -> Result<Trial, StudyError> {
     let (answer, operations) = method.run(system, start)?;
     // What repeats has no scatter but that of its transient, which is an error and seen as one.
-    let repeats = best.layer == Layer::ExactOrbit;
+    let repeats = best.layer == MethodGroup::ExactOrbit;
     let own = |scatter: Option<f64>| scatter.filter(|scatter| !repeats && scatter.is_finite());
     let flights = match method {
-        Method::FixedStep { steps, locate, .. } => {
+        TradeoffMethod::FixedStep { steps, locate, .. } => {
             Some(Flights::of(&ByHand::new(system, steps, locate), start, effort.flights)?)
         }
         _ => None,

@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Best, Layer, Method, Search, Tradeoff, Trial};
+use super::{Best, ImpactSearch, MethodGroup, Tradeoff, TradeoffMethod, Trial};
 use crate::case::Case;
 use crate::method::Method as KnownBy;
 use crate::quantity::{Quantity, catalogue};
@@ -14,8 +14,13 @@ use crate::report::template::{render, worded};
 pub const USUAL: f64 = 0.01;
 
 /// Layers that compete, from the cheapest; the baseline is compared with them.
-const COMPETING: [Layer; 5] =
-    [Layer::ClosedForm, Layer::SlowFlow, Layer::AveragedFlow, Layer::ExactOrbit, Layer::Simulation];
+const COMPETING: [MethodGroup; 5] = [
+    MethodGroup::ClosedForm,
+    MethodGroup::SlowFlow,
+    MethodGroup::AveragedFlow,
+    MethodGroup::ExactOrbit,
+    MethodGroup::Simulation,
+];
 
 /// The page of a case.
 #[derive(Debug, Clone, Copy)]
@@ -52,7 +57,7 @@ impl Page<'_> {
             }
             row
         };
-        let others = COMPETING.into_iter().chain([Layer::FixedStep]);
+        let others = COMPETING.into_iter().chain([MethodGroup::FixedStep]);
         let others =
             others.filter(|layer| enough.is_none_or(|k| found.trials[k].method.layer() != *layer));
         let mut document = json!(found);
@@ -96,7 +101,7 @@ impl Page<'_> {
 
 fn impacts(best: &Best) -> Quantity {
     let method = match best.layer {
-        Layer::ExactOrbit => KnownBy::ExactOrbit,
+        MethodGroup::ExactOrbit => KnownBy::ExactOrbit,
         _ => KnownBy::Simulation,
     };
     let found = Quantity::new(&catalogue::IMPACTS_PER_PERIOD, best.impacts_per_period, method);
@@ -104,7 +109,7 @@ fn impacts(best: &Best) -> Quantity {
 }
 
 /// What a layer has to offer against the cheapest that is enough.
-fn layer(found: &Tradeoff, layer: Layer, allowed: f64) -> Value {
+fn layer(found: &Tradeoff, layer: MethodGroup, allowed: f64) -> Value {
     let trials = || found.of_layer(layer);
     let errors = trials().filter_map(|(k, trial)| Some((k, trial.rms_error?.value)));
     let closest = errors.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k);
@@ -131,7 +136,9 @@ fn winner(found: &Tradeoff, allowed: f64) -> Option<usize> {
 /// the root of the length. Of a transient that is not over no length can be told.
 fn longer(found: &Tradeoff, allowed: f64) -> Option<Value> {
     let simulations = found.trials.iter().filter_map(|trial| match trial.method {
-        Method::Simulation { periods, search: Search::Panels, .. } => Some((periods, trial)),
+        TradeoffMethod::Simulation { periods, search: ImpactSearch::Panels, .. } => {
+            Some((periods, trial))
+        }
         _ => None,
     });
     let (periods, longest) = simulations
@@ -139,7 +146,7 @@ fn longer(found: &Tradeoff, allowed: f64) -> Option<Value> {
         .max_by_key(|(periods, _)| *periods)?;
     let in_transient = found.transient(longest).is_some();
     let factor = longest.answer.scatter? / allowed;
-    let told = in_transient || (found.best.layer == Layer::Simulation && factor > 1.0);
+    let told = in_transient || (found.best.layer == MethodGroup::Simulation && factor > 1.0);
     let longer = json!({
         // Whether the longest that was tried is still in its transient: then no length can be told.
         "in_transient": in_transient,
@@ -155,7 +162,7 @@ const WRONG_COUNT: f64 = 0.5;
 
 fn wrong_count(found: &Tradeoff) -> Option<usize> {
     let exact = found.best.impacts_per_period;
-    let hand = found.of_layer(Layer::FixedStep);
+    let hand = found.of_layer(MethodGroup::FixedStep);
     let off = hand.filter_map(|(k, trial)| {
         let difference = (trial.answer.impacts_per_period? - exact).abs();
         Some((k, difference / exact.max(f64::MIN_POSITIVE)))

@@ -3,7 +3,7 @@
 use crate::common;
 use std::f64::consts::TAU;
 
-use crate::reference::{Moment, Real, Reference};
+use crate::reference::{Decimal, Moment, Reference};
 use vinesink::simulation::{Impact, ImpactLog, Simulation, Stop};
 use vinesink::system::{State, System};
 
@@ -51,13 +51,13 @@ const CHANGE: f64 = 1e-40;
 /// reference, for each number there those of the numbers here.
 type Jacobian = [[f64; NUMBERS]; NUMBERS];
 
-fn numbers(moment: &Moment) -> [Real; NUMBERS] {
+fn numbers(moment: &Moment) -> [Decimal; NUMBERS] {
     let [x, v, y, u] = moment.state.clone();
     [moment.time.clone(), x, v, y, u]
 }
 
 fn jacobian(reference: &Reference, from: &Moment, to: &Moment) -> Jacobian {
-    let change = Real::of(CHANGE);
+    let change = Decimal::of(CHANGE);
     let after = &to.time - &from.time;
     let end = numbers(to);
     std::array::from_fn(|changed| {

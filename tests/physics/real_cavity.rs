@@ -3,7 +3,7 @@
 
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 use vinesink_evidence::reference::real::{BITS, ROUND};
-use vinesink_evidence::reference::{Event, Reference, real::Real};
+use vinesink_evidence::reference::{Event, Reference, real::Decimal};
 
 /// So light an absorber that 77 digits do not show what it does to the oscillator beyond the 60th.
 const LIGHT: f64 = 1e-60;
@@ -38,16 +38,16 @@ fn absorber(y: f64, y_velocity: f64) -> State {
     State { y, y_velocity, ..State::AT_REST }
 }
 
-fn root(number: &Real) -> Real {
-    Real(number.0.sqrt(BITS, ROUND))
+fn root(number: &Decimal) -> Decimal {
+    Decimal(number.0.sqrt(BITS, ROUND))
 }
 
 /// Quotient of two numbers.
-fn over(above: f64, below: f64) -> Real {
-    &Real::of(above) / &Real::of(below)
+fn over(above: f64, below: f64) -> Decimal {
+    &Decimal::of(above) / &Decimal::of(below)
 }
 
-fn same(found: &Real, expected: &Real) {
+fn same(found: &Decimal, expected: &Decimal) {
     let error = (found - expected).to_f64().abs();
     assert!(error < DIGITS, "{} for {}: {error:e}", found.to_f64(), expected.to_f64());
 }
@@ -68,7 +68,7 @@ fn a_sliding_absorber_stops_after_its_stopping_distance_and_stays() {
         let [time, _, _, y, velocity] = reference.moment();
         same(&time, &over(u, f));
         same(&y, &over(sign * 0.5 * u * u, f));
-        same(&velocity, &Real::of(0.0));
+        same(&velocity, &Decimal::of(0.0));
         assert!(reference.rests());
         assert_eq!(reference.next(100.0), None);
     }
@@ -81,19 +81,19 @@ fn an_absorber_slides_back_where_the_incline_is_steeper_than_its_friction() {
     let steep = system(LIGHT, cavity(a, f, [0.5; 2]), 0.0);
     let mut reference = Reference::new(&steep, absorber(0.5, -u), 0.0);
     let Some(Event::Reversal { tau, x }) = reference.next(100.0) else { panic!() };
-    let (stop, way) = (over(u, a + f), &over(0.5 * u * u, a + f) - &Real::of(0.5));
+    let (stop, way) = (over(u, a + f), &over(0.5 * u * u, a + f) - &Decimal::of(0.5));
     close(tau, u / (a + f));
     close(x, 0.0);
     same(&reference.moment()[0], &stop);
     same(&reference.moment()[3], &-&way);
     // To y = 1 from rest.
-    let fall = &Real::of(1.0) + &way;
+    let fall = &Decimal::of(1.0) + &way;
     let event = reference.next(100.0);
     assert!(matches!(event, Some(Event::Impact { side: -1.0, sticks: false, .. })), "{event:?}");
     let [time, _, _, y, after] = reference.moment();
     same(&time, &(&stop + &root(&(&fall / &over(a - f, 2.0)))));
-    same(&y, &Real::of(1.0));
-    same(&after, &-&(&Real::of(0.5) * &root(&(&fall * &Real::of(2.0 * (a - f))))));
+    same(&y, &Decimal::of(1.0));
+    same(&after, &-&(&Decimal::of(0.5) * &root(&(&fall * &Decimal::of(2.0 * (a - f))))));
 
     let gentle = system(LIGHT, cavity(0.125, 0.25, [0.5; 2]), 0.0);
     let mut reference = Reference::new(&gentle, absorber(0.5, -u), 0.0);
@@ -143,9 +143,9 @@ fn on_the_level_an_absorber_stops_next_to_the_wall() {
     assert!(matches!(event, Some(Event::Impact { side: -1.0, sticks: false, .. })), "{event:?}");
     let event = reference.next(100.0);
     assert!(matches!(event, Some(Event::Stick { wall: None, .. })), "{event:?}");
-    let thrown = Real::of(r * r * (u * u - 2.0 * f));
-    let gap = &Real::of(1.0) - &reference.moment()[3];
-    same(&gap, &(&thrown / &Real::of(2.0 * f)));
+    let thrown = Decimal::of(r * r * (u * u - 2.0 * f));
+    let gap = &Decimal::of(1.0) - &reference.moment()[3];
+    same(&gap, &(&thrown / &Decimal::of(2.0 * f)));
     assert_eq!(reference.next(100.0), None);
 
     let plastic = system(LIGHT, cavity(0.0, f, [0.5, 0.0]), 0.0);
@@ -240,11 +240,11 @@ fn energy_goes_where_friction_and_impacts_take_it() {
         let bodies = system(eps, cavity(a, f, r), 0.0);
         let start = State { x: 2.0, x_velocity: -0.5, y: 1.5 + 0.1 * k as f64, y_velocity: 1.0 };
         let mut reference = Reference::new(&bodies, start, 0.0);
-        let half = Real::of(0.5);
-        let eps = Real::of(eps);
-        let stored = |[_, x, v, y, u]: &[Real; 5]| {
+        let half = Decimal::of(0.5);
+        let eps = Decimal::of(eps);
+        let stored = |[_, x, v, y, u]: &[Decimal; 5]| {
             let oscillator = &(v * v) + &(x * x);
-            let absorber = &(&(u * u) * &half) - &(&Real::of(a) * y);
+            let absorber = &(&(u * u) * &half) - &(&Decimal::of(a) * y);
             &(&oscillator * &half) + &(&eps * &absorber)
         };
         let mut before = reference.moment();
@@ -252,14 +252,14 @@ fn energy_goes_where_friction_and_impacts_take_it() {
             let Some(event) = reference.next(60.0) else { break };
             let after = reference.moment();
             let way = (&(&after[1] - &after[3]) - &(&before[1] - &before[3])).abs();
-            let mut taken = &(&eps * &Real::of(f)) * &way;
+            let mut taken = &(&eps * &Decimal::of(f)) * &way;
             // What the end of chattering takes beyond its impact is 1e-40 wide.
             let mut allowed = 1e-70;
             if let Event::Impact { side, sticks, loss, .. } = event {
-                let r = Real::of(if side > 0.0 { r[0] } else { r[1] });
+                let r = Decimal::of(if side > 0.0 { r[0] } else { r[1] });
                 let approach = &(&after[2] - &after[4]) / &r;
-                let total = &Real::of(2.0) * &(&Real::of(1.0) + &eps);
-                let kept = &Real::of(1.0) - &(&r * &r);
+                let total = &Decimal::of(2.0) * &(&Decimal::of(1.0) + &eps);
+                let kept = &Decimal::of(1.0) - &(&r * &r);
                 let lost = &(&(&eps * &kept) * &(&approach * &approach)) / &total;
                 assert!(sticks || (loss - lost.to_f64()).abs() <= 1e-15 * loss, "{event:?}");
                 taken = &taken + &lost;

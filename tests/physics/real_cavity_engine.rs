@@ -9,7 +9,7 @@ use vinesink::executor::Serial;
 use vinesink::motions::{Effort, Place, motions};
 use vinesink::simulation::{Impact, Observer, Reversal, Segment, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
-use vinesink_evidence::reference::{Event, Reference, real::Real};
+use vinesink_evidence::reference::{Event, Reference, real::Decimal};
 
 /// Relative speed of an impact, a rest's duration and a gap to a wall: what is smaller belongs to the end of a
 /// chattering sequence, which the engine may cut short.
@@ -50,7 +50,7 @@ fn marks(system: &System, start: State, rounding: f64, latest: f64, events: usiz
         let Some(event) = reference.next(latest) else { break };
         let [tau, x, v, y, u] = reference.moment();
         let gap = &x - &y;
-        let off = (&Real::of(1.0) - &gap.abs()).to_f64();
+        let off = (&Decimal::of(1.0) - &gap.abs()).to_f64();
         let [tau, x, slip, gap] = [tau, x, &v - &u, gap].map(|part| part.to_f64());
         let seen = match event {
             Event::Impact { side, loss, .. } => {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::common::{table_1, unforced};
-use crate::reference::{Moment, Real, Reference};
+use crate::reference::{Decimal, Moment, Reference};
 use vinesink::excitation::{Record, RecordQuantity, SineSweep, SweepRate};
 use vinesink::flights::{Ringdown, STEPS, follow};
 use vinesink::simulation::{ImpactLog, Measurement, Simulation};
@@ -69,7 +69,7 @@ fn a_sweep_has_the_references_impact_times() {
         state = simulation.state();
         let reference = Reference::new(&piece);
         let [_, moved] = &mut moments;
-        moved.state[0] = &moved.state[0] + &Real::of(DISPLACED);
+        moved.state[0] = &moved.state[0] + &Decimal::of(DISPLACED);
         let [(there, then), (near, later)] =
             moments.map(|moment| reference.until(moment, TAU / ratio, STEP));
         assert!(log.impacts.len() == there.len() && near.len() == there.len());

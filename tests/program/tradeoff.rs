@@ -23,7 +23,9 @@ use vinesink::study::{CaseStudy, StudyError};
 use vinesink::symbolic::Symbol;
 use vinesink::system::{Parameters, State, System};
 use vinesink::tradeoff::by_hand::{ByHand, Flights, Locate};
-use vinesink::tradeoff::{Layer, Method, Search, Tradeoff, TradeoffEffort, Trial};
+use vinesink::tradeoff::{
+    ImpactSearch, MethodGroup, Tradeoff, TradeoffEffort, TradeoffMethod, Trial,
+};
 
 const START: State = State { x: 0.3, x_velocity: -0.2, y: 0.1, y_velocity: 0.5 };
 
@@ -168,10 +170,14 @@ fn flights_tell_which_impacts_a_baseline_misses() {
 #[test]
 fn operations_are_counted_and_repeat() {
     let system = common::table_1(8.0, 7.5);
-    let cost = |method: Method| method.run(&system, START).expect("runs").1;
-    let simulation =
-        |periods| Method::Simulation { periods, search: Search::Panels, excursion: None };
-    let fixed = |periods| Method::FixedStep { periods, steps: 100, locate: Locate::Interpolation };
+    let cost = |method: TradeoffMethod| method.run(&system, START).expect("runs").1;
+    let simulation = |periods| TradeoffMethod::Simulation {
+        periods,
+        search: ImpactSearch::Panels,
+        excursion: None,
+    };
+    let fixed =
+        |periods| TradeoffMethod::FixedStep { periods, steps: 100, locate: Locate::Interpolation };
     assert_eq!(cost(simulation(200)), cost(simulation(200)));
     for [short, long] in
         [[cost(simulation(200)), cost(simulation(400))], [cost(fixed(200)), cost(fixed(400))]]
@@ -185,7 +191,7 @@ fn operations_are_counted_and_repeat() {
     assert!((8.0..12.0).contains(&(per_step / ELEMENTARY as f64)), "{per_step}");
     // An orbit with its proof costs something, and less than a hundred simulated periods.
     let hundred = cost(simulation(100));
-    let orbit = cost(Method::SymmetricOrbit);
+    let orbit = cost(TradeoffMethod::SymmetricOrbit);
     assert!(10_000 < orbit && orbit < hundred, "{orbit} {hundred}");
 }
 
@@ -210,13 +216,14 @@ fn the_closed_form_is_the_cheapest_row() {
         ("force", force),
     ] {
         let found = Tradeoff::of(&system, &effort, &Serial, &mut |_| ()).expect("tried");
-        let closed = found.trials.iter().find(|trial| trial.method == Method::FixedPoints);
+        let closed = found.trials.iter().find(|trial| trial.method == TradeoffMethod::FixedPoints);
         let closed = closed.expect("tried").operations;
         // Each point has two angles of its own.
         let points = Analysis::of(&system).expect("analysable").fixed_points.len() as u64;
         assert!(points > 0 && closed > points * 2 * ELEMENTARY, "{name}: {closed}");
         assert!(closed <= 500, "{name}: {closed}");
-        let others = found.trials.iter().filter(|trial| trial.method != Method::FixedPoints);
+        let others =
+            found.trials.iter().filter(|trial| trial.method != TradeoffMethod::FixedPoints);
         let next = others.map(|trial| trial.operations).min().expect("others");
         // Tenfold differences of counts are real.
         assert!(10 * closed < next, "{name}: {closed} beside {next}");
@@ -227,11 +234,12 @@ fn the_closed_form_is_the_cheapest_row() {
 #[test]
 fn the_averaged_flow_answers_beyond_symmetry_breaking() {
     let system = common::table_1(8.35, 11.5);
-    let (averaged, cost) = Method::AveragedFlow.run(&system, START).expect("analysable");
-    let (closed, cheap) = Method::FixedPoints.run(&system, START).expect("analysable");
+    let (averaged, cost) = TradeoffMethod::AveragedFlow.run(&system, START).expect("analysable");
+    let (closed, cheap) = TradeoffMethod::FixedPoints.run(&system, START).expect("analysable");
     assert_eq!(closed.why_not, Some(WhyNoAnswer::NoStablePoint));
     assert_eq!((averaged.regime, averaged.impacts_per_period), (Some(Regime::AboveTwo), Some(3.0)));
-    let run = Method::Simulation { periods: 400, search: Search::Panels, excursion: None };
+    let run =
+        TradeoffMethod::Simulation { periods: 400, search: ImpactSearch::Panels, excursion: None };
     let (simulated, _) = run.run(&system, START).expect("simulated");
     assert_eq!(simulated.regime, Some(Regime::AboveTwo));
     let error = averaged.rms.expect("an answer") / simulated.rms.expect("an answer") - 1.0;
@@ -240,7 +248,10 @@ fn the_averaged_flow_answers_beyond_symmetry_breaking() {
     assert!(cost > 1000 * cheap, "{cost} {cheap}");
     // At 8.5 Hz and 28 mm it is modulated; an absorber at rest, at 100 mm, is no answer to what it does.
     let [modulated, rests] = [28.0, 100.0].map(|clearance| {
-        Method::AveragedFlow.run(&common::table_1(8.5, clearance), START).expect("analysable").0
+        TradeoffMethod::AveragedFlow
+            .run(&common::table_1(8.5, clearance), START)
+            .expect("analysable")
+            .0
     });
     assert_eq!(modulated.regime, Some(Regime::StronglyModulated));
     assert_eq!(rests.why_not, Some(WhyNoAnswer::NoStableAmplitude));
@@ -253,47 +264,51 @@ fn a_steady_case_is_answered_by_its_orbit_and_every_error_is_what_it_should_be()
     let orbits = symmetric_orbits(&system).expect("orbits");
     let orbit = orbits.iter().find(|orbit| orbit.orbit.attracts()).expect("one attracts");
     let rms = Measures::of(&system, &orbit.orbit.cycle).expect("measured").rms;
-    assert_eq!((found.best.layer, found.best.orbit), (Layer::ExactOrbit, Some((2, 1))));
+    assert_eq!((found.best.layer, found.best.orbit), (MethodGroup::ExactOrbit, Some((2, 1))));
     assert!((found.best.rms / rms - 1.0).abs() < 1e-10, "{} {rms}", found.best.rms);
-    let error = |wanted: fn(Method) -> bool| {
+    let error = |wanted: fn(TradeoffMethod) -> bool| {
         let trial = found.trials.iter().find(|trial| wanted(trial.method)).expect("tried");
         trial.rms_error.expect("an answer")
     };
-    let closed = error(|method| method == Method::FixedPoints);
+    let closed = error(|method| method == TradeoffMethod::FixedPoints);
     assert!((0.02..0.03).contains(&closed.value) && !closed.below, "{closed:?}");
-    assert!(error(|method| method == Method::SymmetricOrbit).below);
+    assert!(error(|method| method == TradeoffMethod::SymmetricOrbit).below);
     let long = error(|method| {
-        matches!(method, Method::Simulation { periods: 1000, search: Search::Panels, .. })
+        matches!(
+            method,
+            TradeoffMethod::Simulation { periods: 1000, search: ImpactSearch::Panels, .. }
+        )
     });
     assert!(long.below, "{long:?}");
-    let short = error(|method| matches!(method, Method::Simulation { periods: 50, .. }));
+    let short = error(|method| matches!(method, TradeoffMethod::Simulation { periods: 50, .. }));
     assert!(short.value > 1e-6 && !short.below, "{short:?}");
-    let slow = error(|method| matches!(method, Method::SlowFlow { periods: 1000 }));
+    let slow = error(|method| matches!(method, TradeoffMethod::SlowFlow { periods: 1000 }));
     assert!((slow.value - closed.value).abs() < 1e-6, "{slow:?} {closed:?}");
-    let averaged = error(|method| method == Method::AveragedFlow);
+    let averaged = error(|method| method == TradeoffMethod::AveragedFlow);
     // One amplitude; first harmonics, of which the square of the mass ratio is left out.
     assert!((averaged.value - closed.value).abs() < 3e-4, "{averaged:?} {closed:?}");
     let steps = |steps| {
-        let wanted = |method: Method| matches!(method, Method::FixedStep { steps: n, locate: Locate::Bisection, .. } if n == steps);
+        let wanted = |method: TradeoffMethod| matches!(method, TradeoffMethod::FixedStep { steps: n, locate: Locate::Bisection, .. } if n == steps);
         let trial = found.trials.iter().find(|trial| wanted(trial.method)).expect("tried");
         trial.rms_error.expect("an answer").value
     };
     assert!(steps(200) < 0.1 * steps(50), "{} {}", steps(200), steps(50));
     // The cheapest that is enough is never a layer that is not.
-    assert!(found.cheapest(Layer::ClosedForm, 0.01).is_none());
-    assert!(found.cheapest(Layer::ClosedForm, 0.05).is_some());
+    assert!(found.cheapest(MethodGroup::ClosedForm, 0.01).is_none());
+    assert!(found.cheapest(MethodGroup::ClosedForm, 0.05).is_some());
     // The shortest simulation is close by chance, not yet settled and takes the motion for another:
     // the next length is further off.
     let [chance, later] = [50, 100].map(|n| {
-        let wanted = |method| matches!(method, Method::Simulation { periods, .. } if periods == n);
+        let wanted =
+            |method| matches!(method, TradeoffMethod::Simulation { periods, .. } if periods == n);
         found.trials.iter().find(|trial| wanted(trial.method)).expect("tried")
     });
     let error = |trial: &Trial| trial.rms_error.expect("an answer").value;
     assert!(error(chance) < 0.001 && error(later) > 0.01, "{chance:?} {later:?}");
     let enough = |found: &Tradeoff| {
-        found.trials[found.cheapest(Layer::Simulation, 0.01).expect("one is")].method
+        found.trials[found.cheapest(MethodGroup::Simulation, 0.01).expect("one is")].method
     };
-    assert!(matches!(enough(&found), Method::Simulation { periods: 200, .. }), "{found:?}");
+    assert!(matches!(enough(&found), TradeoffMethod::Simulation { periods: 200, .. }), "{found:?}");
     // Either reason is enough by itself.
     let (chance, later) = (chance.clone(), later.clone());
     let changed = |from: &Trial, to: &dyn Fn(&mut Trial)| {
@@ -302,28 +317,28 @@ fn a_steady_case_is_answered_by_its_orbit_and_every_error_is_what_it_should_be()
         enough(&changed)
     };
     let named = changed(&chance, &|trial| trial.answer.regime = Some(Regime::TwoSymmetric));
-    assert!(matches!(named, Method::Simulation { periods: 200, .. }), "{named:?}");
+    assert!(matches!(named, TradeoffMethod::Simulation { periods: 200, .. }), "{named:?}");
     let close = changed(&later, &|trial| trial.rms_error = chance.rms_error);
-    assert!(matches!(close, Method::Simulation { periods: 100, .. }), "{close:?}");
+    assert!(matches!(close, TradeoffMethod::Simulation { periods: 100, .. }), "{close:?}");
 }
 
 #[test]
 fn a_modulated_case_is_known_no_better_than_it_scatters() {
     let system = common::table_1(8.5, 28.0);
     let found = Tradeoff::of(&system, &small(), &Serial, &mut |_| ()).expect("tried");
-    assert_eq!((found.best.layer, found.best.periods), (Layer::Simulation, Some(8000)));
+    assert_eq!((found.best.layer, found.best.periods), (MethodGroup::Simulation, Some(8000)));
     assert_eq!(found.best.regime, Regime::StronglyModulated);
     assert!((1e-4..0.05).contains(&found.best.rms_error), "{:?}", found.best);
     assert!(found.rests, "the absorber rests on its walls between captures");
     for trial in &found.trials {
         match trial.method.layer() {
-            Layer::Simulation | Layer::FixedStep => {
+            MethodGroup::Simulation | MethodGroup::FixedStep => {
                 let error = trial.rms_error.expect("an answer").value;
                 let own = trial.answer.scatter.expect("a scatter");
                 assert!(error >= own && error >= found.best.rms_error, "{trial:?}");
             }
             // A modulated cycle, whose captures at random leave a twentieth open.
-            Layer::AveragedFlow => {
+            MethodGroup::AveragedFlow => {
                 let error = trial.rms_error.expect("an answer").value;
                 assert!(error < 0.05 && trial.answer.regime == Some(Regime::StronglyModulated));
             }
@@ -333,7 +348,9 @@ fn a_modulated_case_is_known_no_better_than_it_scatters() {
         }
     }
     // Contact tolerances are tried where there is contact.
-    let other = |method: Method| matches!(method, Method::Simulation { excursion: Some(1e-3), .. });
+    let other = |method: TradeoffMethod| {
+        matches!(method, TradeoffMethod::Simulation { excursion: Some(1e-3), .. })
+    };
     assert!(found.trials.iter().any(|trial| other(trial.method)));
 }
 
@@ -378,7 +395,7 @@ fn a_transient_that_lasts_is_no_scatter() {
     let decay = found.best.decay_periods.expect("damped");
     assert!((decay * std::f64::consts::TAU * 5e-5 / 1.02 - 1.0).abs() < 1e-12, "{decay}");
     let simulated = |found: &Tradeoff| {
-        let wanted = |method| matches!(method, Method::Simulation { periods: 1000, .. });
+        let wanted = |method| matches!(method, TradeoffMethod::Simulation { periods: 1000, .. });
         let trial = found.trials.iter().find(|trial| wanted(trial.method)).expect("tried");
         found.transient(trial)
     };

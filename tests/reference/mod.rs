@@ -6,7 +6,7 @@
 use std::cell::RefCell;
 
 use vinesink::system::{Parameters, System};
-pub use vinesink_evidence::reference::real::Real;
+pub use vinesink_evidence::reference::real::Decimal;
 use vinesink_evidence::reference::real::{BITS, Consts, ROUND};
 
 /// Distance from a wall, over the clearance, that no motion here crosses and comes back within one
@@ -17,48 +17,48 @@ thread_local! {
     static CONSTANTS: RefCell<Consts> = RefCell::new(Consts::new().expect("constants"));
 }
 
-fn sincos(angle: &Real) -> (Real, Real) {
+fn sincos(angle: &Decimal) -> (Decimal, Decimal) {
     CONSTANTS.with_borrow_mut(|constants| {
-        (Real(angle.0.sin(BITS, ROUND, constants)), Real(angle.0.cos(BITS, ROUND, constants)))
+        (Decimal(angle.0.sin(BITS, ROUND, constants)), Decimal(angle.0.cos(BITS, ROUND, constants)))
     })
 }
 
-fn exp(number: &Real) -> Real {
-    CONSTANTS.with_borrow_mut(|constants| Real(number.0.exp(BITS, ROUND, constants)))
+fn exp(number: &Decimal) -> Decimal {
+    CONSTANTS.with_borrow_mut(|constants| Decimal(number.0.exp(BITS, ROUND, constants)))
 }
 
 #[test]
 fn functions_have_seventy_digits() {
-    let angle = &Real::of(1e3) / &Real::of(3.0);
+    let angle = &Decimal::of(1e3) / &Decimal::of(3.0);
     let (sin, cos) = sincos(&angle);
     let one = &(&sin * &sin) + &(&cos * &cos);
-    assert!((&one - &Real::of(1.0)).to_f64().abs() < 1e-75);
+    assert!((&one - &Decimal::of(1.0)).to_f64().abs() < 1e-75);
     let (up, down) = (exp(&angle), exp(&-&angle));
-    assert!((&(&up * &down) - &Real::of(1.0)).to_f64().abs() < 1e-70);
+    assert!((&(&up * &down) - &Decimal::of(1.0)).to_f64().abs() < 1e-70);
     // Abramowitz and Stegun, table 4.6: sin 1.
-    assert!((sincos(&Real::of(1.0)).0.to_f64() - 0.841_470_984_807_896_5).abs() < 1e-15);
+    assert!((sincos(&Decimal::of(1.0)).0.to_f64() - 0.841_470_984_807_896_5).abs() < 1e-15);
 }
 
 /// One flight: absolute time of its start, state there.
 struct Flight<'a> {
     reference: &'a Reference,
-    start: Real,
-    free_x: Real,
-    free_v: Real,
-    y: Real,
-    y_velocity: Real,
+    start: Decimal,
+    free_x: Decimal,
+    free_v: Decimal,
+    y: Decimal,
+    y_velocity: Decimal,
 }
 
 /// A system whose motions it knows.
 pub struct Reference {
-    eps: Real,
-    restitution: Real,
-    omega: Real,
-    decay: Real,
-    ringing: Real,
-    steady: [Real; 2],
+    eps: Decimal,
+    restitution: Decimal,
+    omega: Decimal,
+    decay: Decimal,
+    ringing: Decimal,
+    steady: [Decimal; 2],
     /// Displacement that the oscillator is pushed to, and its rate.
-    line: [Real; 2],
+    line: [Decimal; 2],
 }
 
 impl Reference {
@@ -66,19 +66,19 @@ impl Reference {
     pub fn pushed(system: &System, [f, g]: [f64; 2]) -> Self {
         let none = Parameters { forcing_per_clearance: 0.0, ..system.parameters() };
         let without = Self::new(&System::new(none).expect("valid"));
-        let lag = &(&Real::of(2.0) * &without.decay) * &Real::of(g);
-        Self { line: [&Real::of(f) - &lag, Real::of(g)], ..without }
+        let lag = &(&Decimal::of(2.0) * &without.decay) * &Decimal::of(g);
+        Self { line: [&Decimal::of(f) - &lag, Decimal::of(g)], ..without }
     }
 
     pub fn new(system: &System) -> Self {
         let p = system.parameters();
         let (eps, lambda, omega) =
-            (Real::of(p.mass_ratio), Real::of(p.damping), Real::of(p.frequency_ratio));
-        let (one, two) = (Real::of(1.0), Real::of(2.0));
+            (Decimal::of(p.mass_ratio), Decimal::of(p.damping), Decimal::of(p.frequency_ratio));
+        let (one, two) = (Decimal::of(1.0), Decimal::of(2.0));
         let damping = &eps * &lambda;
         let decay = &damping / &two;
-        let ringing = Real((&one - &(&decay * &decay)).0.sqrt(BITS, ROUND));
-        let sine = &eps * &Real::of(p.forcing_per_clearance);
+        let ringing = Decimal((&one - &(&decay * &decay)).0.sqrt(BITS, ROUND));
+        let sine = &eps * &Decimal::of(p.forcing_per_clearance);
         let cosine = &(&damping * &omega) * &sine;
         let reactance = &one - &(&omega * &omega);
         let loss = &damping * &omega;
@@ -89,16 +89,16 @@ impl Reference {
         ];
         Self {
             eps,
-            restitution: Real::of(p.restitution),
+            restitution: Decimal::of(p.restitution),
             omega,
             decay,
             ringing,
             steady,
-            line: [0.0; 2].map(Real::of),
+            line: [0.0; 2].map(Decimal::of),
         }
     }
 
-    fn forced(&self, tau: &Real) -> [Real; 2] {
+    fn forced(&self, tau: &Decimal) -> [Decimal; 2] {
         let phase = &self.omega * tau;
         let (sin, cos) = sincos(&phase);
         let [p, q] = &self.steady;
@@ -107,7 +107,7 @@ impl Reference {
         [x, &(&self.omega * &(&(p * &cos) - &(q * &sin))) + rate]
     }
 
-    fn flight(&self, start: Real, state: &[Real; 4]) -> Flight<'_> {
+    fn flight(&self, start: Decimal, state: &[Decimal; 4]) -> Flight<'_> {
         let [x, v] = self.forced(&start);
         Flight {
             reference: self,
@@ -122,7 +122,7 @@ impl Reference {
 
 impl Flight<'_> {
     /// `x`, `x'`, `y`, `y'` after a time `s`.
-    fn at(&self, s: &Real) -> [Real; 4] {
+    fn at(&self, s: &Decimal) -> [Decimal; 4] {
         let r = self.reference;
         let envelope = exp(&-&(&r.decay * s));
         let angle = &r.ringing * s;
@@ -140,15 +140,15 @@ impl Flight<'_> {
 
     /// First time at which `abs(x - y)` reaches 1, and the wall, by steps of `step`, and of the
     /// 64th part of that near a wall, where a whole one could pass over a graze; none after the latest.
-    fn first_impact(&self, step: f64, latest: f64) -> Option<(Real, f64)> {
+    fn first_impact(&self, step: f64, latest: f64) -> Option<(Decimal, f64)> {
         let mut s = step.min(latest);
         loop {
-            let [x, _, y, _] = self.at(&Real::of(s));
+            let [x, _, y, _] = self.at(&Decimal::of(s));
             let gap = &x - &y;
             let side = if gap.is_negative() { -1.0 } else { 1.0 };
-            let excess = &(&Real::of(side) * &gap) - &Real::of(1.0);
+            let excess = &(&Decimal::of(side) * &gap) - &Decimal::of(1.0);
             if !excess.is_negative() {
-                return Some((self.impact_near(Real::of(s), side, 9), side));
+                return Some((self.impact_near(Decimal::of(s), side, 9), side));
             }
             if s >= latest {
                 return None;
@@ -158,11 +158,11 @@ impl Flight<'_> {
     }
 
     /// The time at which that wall is met, by Newton: each correction doubles the digits.
-    fn impact_near(&self, guess: Real, side: f64, corrections: u32) -> Real {
+    fn impact_near(&self, guess: Decimal, side: f64, corrections: u32) -> Decimal {
         let mut root = guess;
         for _ in 0..corrections {
             let [x, v, y, u] = self.at(&root);
-            let correction = &(&(&x - &y) - &Real::of(side)) / &(&v - &u);
+            let correction = &(&(&x - &y) - &Decimal::of(side)) / &(&v - &u);
             root = &root - &correction;
         }
         root
@@ -173,8 +173,8 @@ impl Flight<'_> {
 /// was one: `x`, `x'`, `y`, `y'`.
 #[derive(Clone, Debug)]
 pub struct Moment {
-    pub time: Real,
-    pub state: [Real; 4],
+    pub time: Decimal,
+    pub state: [Decimal; 4],
     /// The wall, +1 or -1; 0 at the start of a motion.
     pub side: f64,
     /// Relative speed with which the wall was met.
@@ -184,7 +184,7 @@ pub struct Moment {
 impl Moment {
     /// The start of a motion at excitation phase 0.
     pub fn start(state: [f64; 4]) -> Self {
-        Self { time: Real::of(0.0), state: state.map(Real::of), side: 0.0, approach: 0.0 }
+        Self { time: Decimal::of(0.0), state: state.map(Decimal::of), side: 0.0, approach: 0.0 }
     }
 }
 
@@ -201,10 +201,13 @@ impl Reference {
         let mut impacts = Vec::new();
         loop {
             let flight = self.flight(from.time.clone(), &from.state);
-            let left = &Real::of(end) - &from.time;
+            let left = &Decimal::of(end) - &from.time;
             let Some((after, side)) = flight.first_impact(step, left.to_f64()) else {
                 let state = flight.at(&left);
-                return (impacts, Moment { time: Real::of(end), state, side: 0.0, approach: 0.0 });
+                return (
+                    impacts,
+                    Moment { time: Decimal::of(end), state, side: 0.0, approach: 0.0 },
+                );
             };
             from = self.struck(&flight, after, side);
             impacts.push(from.clone());
@@ -213,24 +216,24 @@ impl Reference {
 
     /// The impact of a motion next to one that meets the wall `side` about `after` later, within
     /// `1e-20` of it.
-    pub fn next_near(&self, from: &Moment, after: &Real, side: f64) -> Moment {
+    pub fn next_near(&self, from: &Moment, after: &Decimal, side: f64) -> Moment {
         let flight = self.flight(from.time.clone(), &from.state);
         let after = flight.impact_near(after.clone(), side, 3);
         self.struck(&flight, after, side)
     }
 
     /// Equation (2) at the end of a flight.
-    fn struck(&self, flight: &Flight, after: Real, side: f64) -> Moment {
+    fn struck(&self, flight: &Flight, after: Decimal, side: f64) -> Moment {
         let [x, v, _, u] = flight.at(&after);
         let approach = &v - &u;
-        let exchanged =
-            &(&(&Real::of(1.0) + &self.restitution) * &approach) / &(&Real::of(1.0) + &self.eps);
+        let exchanged = &(&(&Decimal::of(1.0) + &self.restitution) * &approach)
+            / &(&Decimal::of(1.0) + &self.eps);
         Moment {
             time: &flight.start + &after,
             state: [
                 x.clone(),
                 &v - &(&self.eps * &exchanged),
-                &x - &Real::of(side),
+                &x - &Decimal::of(side),
                 &u + &exchanged,
             ],
             side,

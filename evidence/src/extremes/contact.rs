@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::ExtremesError;
 use super::list::{IMPACT_LIMIT, Varied, table_1};
-use super::measure::{LONGEST_SEQUENCE, Release, Seen, Witness};
+use super::measure::{ContactEnd, LONGEST_SEQUENCE, Seen, Witness};
 use crate::reference::{Event, Reference};
 use vinesink::simulation::{ContactTolerance, Measurement, Simulation, StartError};
 use vinesink::system::{State, System};
@@ -83,11 +83,11 @@ pub fn contact_costs(system: &System, periods: u64) -> Result<Vec<ContactCost>, 
         simulation.run(periods, IMPACT_LIMIT, &mut (&mut measurement, &mut witness));
         let statistics = measurement.statistics();
         let seen = witness.seen.iter().filter_map(|event| match event {
-            Seen::Release(release) => Some(release),
+            Seen::ContactEnd(release) => Some(release),
             _ => None,
         });
-        let pairs: Vec<(&Release, &Release)> = seen.zip(&exact).collect();
-        let largest = |difference: fn(&Release, &Release) -> f64| {
+        let pairs: Vec<(&ContactEnd, &ContactEnd)> = seen.zip(&exact).collect();
+        let largest = |difference: fn(&ContactEnd, &ContactEnd) -> f64| {
             pairs.iter().map(|(a, b)| difference(a, b).abs()).fold(0.0, f64::max)
         };
         let done = simulation.periods().max(1) as f64;
@@ -107,13 +107,13 @@ pub fn contact_costs(system: &System, periods: u64) -> Result<Vec<ContactCost>, 
 }
 
 /// The first releases by the reference.
-fn exact_releases(mut reference: Reference) -> Vec<Release> {
+fn exact_releases(mut reference: Reference) -> Vec<ContactEnd> {
     let (mut found, mut lost, mut time) = (Vec::new(), 0.0, 0.0);
     for _ in 0..LONGEST_SEQUENCE {
         match reference.next(time + 100.0) {
             Some(Event::Impact { tau, loss, .. }) => (lost, time) = (lost + loss, tau),
             Some(Event::Release { tau, x }) => {
-                found.push(Release { tau, x, loss: lost });
+                found.push(ContactEnd { tau, x, loss: lost });
                 time = tau;
             }
             // Without friction there is nothing else.

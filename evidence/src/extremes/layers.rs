@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::list::Varied;
-use super::{ExtremesError, Verdict};
+use super::{ExtremesError, RunVerdict};
 use vinesink::analysis::{Analysis, FreeDecay};
 use vinesink::band::Band;
 use vinesink::band::theory::z3_share;
@@ -37,7 +37,7 @@ const DECAY_FROM: f64 = 0.5;
 /// A layer of the program that is no simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Layer {
+pub enum CheckedLayer {
     /// Fixed points of the slow flow with trace and determinant, boundaries, P1.
     Theory,
     /// Shares of a band of frequencies, and of one of amplitudes, in area Z3.
@@ -58,7 +58,7 @@ pub enum Layer {
     Record,
 }
 
-impl Layer {
+impl CheckedLayer {
     /// All of them, in the order of the page.
     pub const ALL: [Self; 9] = [
         Self::Theory,
@@ -77,7 +77,7 @@ impl Layer {
 #[derive(Debug, Clone, Deserialize)]
 pub struct Row {
     /// The layer.
-    pub layer: Layer,
+    pub layer: CheckedLayer,
     /// Numbers that are not those of Table 1.
     pub varied: Vec<(Varied, f64)>,
     /// `eps`, `lambda`, `r`, `Omega`, `gamma`.
@@ -95,7 +95,7 @@ pub struct Row {
 #[derive(Debug, Clone, Serialize)]
 pub struct LayerOutcome {
     /// The layer.
-    pub layer: Layer,
+    pub layer: CheckedLayer,
     /// Numbers that are not those of Table 1.
     pub varied: Vec<(Varied, f64)>,
     /// Values compared.
@@ -111,11 +111,11 @@ pub struct LayerOutcome {
     /// Values that are wrong or missing, and those that should not be there.
     pub wrong: Vec<String>,
     /// What it means.
-    pub verdict: Verdict,
+    pub verdict: RunVerdict,
 }
 
 /// What the program says: values, and why they should not be trusted.
-type Answer = (BTreeMap<String, f64>, Vec<String>);
+type LayerAnswer = (BTreeMap<String, f64>, Vec<String>);
 
 /// All rows of the table.
 ///
@@ -162,12 +162,12 @@ impl Row {
             rounding: 0.0,
             operations,
             wrong: Vec::new(),
-            verdict: Verdict::Holds,
+            verdict: RunVerdict::Holds,
         };
         let (found, doubts) = match answer {
             Ok(answer) => answer,
             Err(refusal) => {
-                outcome.verdict = Verdict::Refused(refusal);
+                outcome.verdict = RunVerdict::Refused(refusal);
                 return Ok(outcome);
             }
         };
@@ -198,16 +198,16 @@ impl Row {
             outcome.wrong.push(format!("it takes {operations} operations"));
         }
         outcome.verdict = match (doubts.is_empty(), outcome.wrong.is_empty()) {
-            (false, _) => Verdict::Flagged(doubts),
-            (true, true) => Verdict::Holds,
-            (true, false) => Verdict::Wrong,
+            (false, _) => RunVerdict::Flagged(doubts),
+            (true, true) => RunVerdict::Holds,
+            (true, false) => RunVerdict::Wrong,
         };
         Ok(outcome)
     }
 }
 
-impl Layer {
-    fn answer(self, system: &System) -> Result<Answer, String> {
+impl CheckedLayer {
+    fn answer(self, system: &System) -> Result<LayerAnswer, String> {
         match self {
             Self::Theory => theory(system),
             Self::Band => Ok(band(system)),
@@ -229,7 +229,7 @@ fn doubt(what: &str, residual: f64) -> Option<String> {
         .then(|| format!("the equations of {what} are left with {residual:.1e} of their terms"))
 }
 
-fn theory(system: &System) -> Result<Answer, String> {
+fn theory(system: &System) -> Result<LayerAnswer, String> {
     let analysis = Analysis::of(system).map_err(|error| error.to_string())?;
     let (mut found, mut doubts) = (BTreeMap::new(), Vec::new());
     for (k, point) in (1..).zip(&analysis.fixed_points) {
@@ -262,7 +262,7 @@ const DETUNING: f64 = 3.0;
 const LOWEST: f64 = 1e-3;
 const AMPLITUDES: [f64; 2] = [0.2, 3.0];
 
-fn band(system: &System) -> Answer {
+fn band(system: &System) -> LayerAnswer {
     let width = DETUNING * system.mass_ratio();
     let frequencies = [-width, width].map(|by| (1.0 + by).max(LOWEST));
     let of = |over, range| z3_share(&Band { base: *system, over, range, spectrum: Vec::new() });
@@ -273,7 +273,7 @@ fn band(system: &System) -> Answer {
     (values.map(|(name, value)| (name.to_owned(), value)).into(), Vec::new())
 }
 
-fn decay(system: &System) -> Answer {
+fn decay(system: &System) -> LayerAnswer {
     let decay = FreeDecay::of(system);
     let end = decay.residual_amplitude();
     let mut found = BTreeMap::from([("residual".to_owned(), end)]);
@@ -283,7 +283,7 @@ fn decay(system: &System) -> Answer {
     (found, Vec::new())
 }
 
-fn orbits(system: &System) -> Result<Answer, String> {
+fn orbits(system: &System) -> Result<LayerAnswer, String> {
     let orbits = symmetric_orbits(system).map_err(|error| error.to_string())?;
     let (mut found, mut doubts) = (BTreeMap::new(), Vec::new());
     for (k, one) in (1..).zip(&orbits) {
@@ -298,7 +298,7 @@ fn orbits(system: &System) -> Result<Answer, String> {
     Ok((found, doubts))
 }
 
-fn limits(system: &System) -> Result<Answer, String> {
+fn limits(system: &System) -> Result<LayerAnswer, String> {
     let family = SymmetricFamily::of(system).map_err(|error| error.to_string())?;
     let mut found = BTreeMap::new();
     let mut counts: BTreeMap<&str, u32> = BTreeMap::new();
@@ -325,7 +325,7 @@ fn limits(system: &System) -> Result<Answer, String> {
     Ok((found, Vec::new()))
 }
 
-fn damper(system: &System) -> Answer {
+fn damper(system: &System) -> LayerAnswer {
     let band = Band { base: *system, over: BandOver::Frequency, range: BAND, spectrum: Vec::new() };
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let values = [("bare", bare_along(&band).1), ("damped", damper.along(&band).amplitude)];
@@ -339,7 +339,7 @@ const IMPACTS: usize = 4;
 const PLASTIC: f64 = 0.01;
 const WITHIN: f64 = 600.0;
 
-fn release(system: &System) -> Result<Answer, String> {
+fn release(system: &System) -> Result<LayerAnswer, String> {
     let most = if system.restitution() < PLASTIC { 1 } else { IMPACTS };
     let unforced = System::new(Parameters {
         forcing_per_clearance: 0.0,
@@ -366,7 +366,7 @@ fn release(system: &System) -> Result<Answer, String> {
 const SWEEP: SineSweep =
     SineSweep { from: 0.7, to: 1.3, rate: SweepRate::Linear(0.0038), turn: TAU };
 
-fn sweep(system: &System) -> Result<Answer, String> {
+fn sweep(system: &System) -> Result<LayerAnswer, String> {
     // A cavity that nobody reaches the end of.
     let wide = 10.0 * swept(system, None, &Scales::REDUCED, &SWEEP).peak()[1].max(1.0);
     let in_wide = system.with_clearance_scaled(wide).map_err(|error| error.to_string())?;
@@ -381,7 +381,7 @@ fn sweep(system: &System) -> Result<Answer, String> {
 const LINES: [[f64; 2]; 6] =
     [[0.0, 0.0], [1.0, 0.2], [3.0, -0.3], [4.0, 0.1], [9.0, 0.1], [12.0, 0.0]];
 
-fn record(system: &System) -> Result<Answer, String> {
+fn record(system: &System) -> Result<LayerAnswer, String> {
     let record = Record { quantity: RecordQuantity::Force, samples: LINES.into() };
     let pieces = record.pieces(&Scales::REDUCED, Record::LONGEST);
     let flown = follow(system, &pieces, 0.0).map_err(|error| error.to_string())?;

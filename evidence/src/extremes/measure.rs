@@ -23,7 +23,7 @@ pub const FOLLOWED: usize = 30;
 
 /// What a trajectory came to.
 #[derive(Debug, Clone, Serialize)]
-pub struct Measured {
+pub struct MeasuredRun {
     /// Whether it came to its end.
     pub whole: bool,
     /// Whole periods done.
@@ -66,14 +66,14 @@ pub struct Comparison {
 pub(super) enum Seen {
     Impact { tau: f64, side: f64 },
     Stick,
-    Release(Release),
+    ContactEnd(ContactEnd),
 }
 
 impl Seen {
     /// When it happened; contact is part of the impact before.
     fn tau(&self) -> Option<f64> {
         match self {
-            Self::Impact { tau, .. } | Self::Release(Release { tau, .. }) => Some(*tau),
+            Self::Impact { tau, .. } | Self::ContactEnd(ContactEnd { tau, .. }) => Some(*tau),
             Self::Stick => None,
         }
     }
@@ -81,7 +81,7 @@ impl Seen {
 
 /// The end of a sustained contact, and what led to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Release {
+pub(super) struct ContactEnd {
     pub tau: f64,
     /// Displacement of the oscillator over the clearance.
     pub x: f64,
@@ -118,7 +118,7 @@ impl Observer for Witness {
         if self.carried && !carried {
             let omega = segment.motion.oscillator().frequency;
             let tau = (segment.turns as f64 * TAU + segment.phase) / omega;
-            self.keep(Seen::Release(Release { tau, x: segment.at(0.0).x, loss: self.loss }));
+            self.keep(Seen::ContactEnd(ContactEnd { tau, x: segment.at(0.0).x, loss: self.loss }));
         }
         self.carried = carried;
         for k in 0..=LOOKS {
@@ -145,7 +145,7 @@ impl Entry {
     ///
     /// # Errors
     /// [`StartError`] where the start is impossible.
-    pub fn measure(&self) -> Result<Measured, StartError> {
+    pub fn measure(&self) -> Result<MeasuredRun, StartError> {
         let start = self.start.state();
         let mut simulation = Simulation::new(&self.system, start, 0.0)?;
         let mut measurement = Measurement::begin(&self.system, start);
@@ -155,7 +155,7 @@ impl Entry {
         let statistics = measurement.statistics();
         let peak = statistics.peak();
         let compared = !witness.seen.is_empty();
-        Ok(Measured {
+        Ok(MeasuredRun {
             whole: stop == Stop::EndTime,
             periods: simulation.periods(),
             impacts: simulation.impacts(),
@@ -234,7 +234,7 @@ fn follow(mut reference: Reference, seen: &[Seen]) -> (bool, Vec<f64>) {
                     return (false, times);
                 }
             }
-            Seen::Release(Release { tau, .. }) => match next(2.0 * tau + 10.0) {
+            Seen::ContactEnd(ContactEnd { tau, .. }) => match next(2.0 * tau + 10.0) {
                 Some(Event::Release { tau, .. }) => times.push(tau),
                 _ => return (false, times),
             },

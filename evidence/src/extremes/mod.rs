@@ -9,9 +9,9 @@ pub mod measure;
 pub mod units;
 
 pub use contact::{ContactTable, contact_costs};
-pub use layers::{Layer, LayerOutcome};
+pub use layers::{CheckedLayer, LayerOutcome};
 pub use list::{Entry, Start, Varied, entries};
-pub use measure::{Comparison, Measured};
+pub use measure::{Comparison, MeasuredRun};
 pub use units::{UnitCheck, unit_checks};
 
 use serde::Serialize;
@@ -49,7 +49,7 @@ pub enum ExtremesError {
 /// What became of a run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "is", content = "why", rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum RunVerdict {
     /// It is trusted, and agrees with the reference as far as rounding lets anyone see.
     Holds,
     /// The simulation says itself that it is not to be trusted, and why.
@@ -62,31 +62,31 @@ pub enum Verdict {
 
 /// An entry of the list, measured.
 #[derive(Debug, Clone, Serialize)]
-pub struct Outcome {
+pub struct MeasuredEntry {
     /// The entry.
     pub entry: Entry,
     /// What was measured; `None` where the run was refused.
-    pub measured: Option<Measured>,
+    pub measured: Option<MeasuredRun>,
     /// What it means.
-    pub verdict: Verdict,
+    pub verdict: RunVerdict,
 }
 
 impl Entry {
     /// Runs it.
-    pub fn outcome(self) -> Outcome {
+    pub fn outcome(self) -> MeasuredEntry {
         let (measured, verdict) = match self.measure() {
             Ok(measured) => {
-                let verdict = Verdict::of(&measured);
+                let verdict = RunVerdict::of(&measured);
                 (Some(measured), verdict)
             }
-            Err(refusal) => (None, Verdict::Refused(refusal.to_string())),
+            Err(refusal) => (None, RunVerdict::Refused(refusal.to_string())),
         };
-        Outcome { entry: self, measured, verdict }
+        MeasuredEntry { entry: self, measured, verdict }
     }
 }
 
-impl Verdict {
-    fn of(measured: &Measured) -> Self {
+impl RunVerdict {
+    fn of(measured: &MeasuredRun) -> Self {
         if !measured.doubts.is_empty() {
             return Self::Flagged(measured.doubts.iter().map(|doubt| doubt.words()).collect());
         }
@@ -100,7 +100,7 @@ impl Verdict {
 impl Comparison {
     /// Whether the run is as close to the reference as rounding lets it be: once an event, or once a
     /// period where periods are more.
-    fn agrees(&self, measured: &Measured) -> bool {
+    fn agrees(&self, measured: &MeasuredRun) -> bool {
         let periods = measured.periods as f64 * self.part;
         let each = (periods / self.events.max(1) as f64).max(1.0);
         let allowed = ROUNDINGS * each * (self.one_rounding + self.clock);
@@ -109,9 +109,9 @@ impl Comparison {
 }
 
 /// Whether nothing that is trusted is wrong.
-pub fn holds(outcomes: &[Outcome], layers: &[LayerOutcome], units: &[UnitCheck]) -> bool {
-    outcomes.iter().all(|outcome| outcome.verdict != Verdict::Wrong)
-        && layers.iter().all(|outcome| outcome.verdict != Verdict::Wrong)
+pub fn holds(outcomes: &[MeasuredEntry], layers: &[LayerOutcome], units: &[UnitCheck]) -> bool {
+    outcomes.iter().all(|outcome| outcome.verdict != RunVerdict::Wrong)
+        && layers.iter().all(|outcome| outcome.verdict != RunVerdict::Wrong)
         && units.iter().all(|check| check.holds)
 }
 
@@ -120,14 +120,14 @@ pub fn holds(outcomes: &[Outcome], layers: &[LayerOutcome], units: &[UnitCheck])
 /// # Errors
 /// [`RenderError::Template`] if template and page do not fit.
 pub fn page(
-    outcomes: &[Outcome],
+    outcomes: &[MeasuredEntry],
     layers: &[LayerOutcome],
     contact: &[ContactTable],
     units: &[UnitCheck],
 ) -> Result<String, RenderError> {
     let context = json!({
         "outcomes": outcomes,
-        "layers": Layer::ALL.map(|layer| {
+        "layers": CheckedLayer::ALL.map(|layer| {
             let rows: Vec<_> = layers.iter().filter(|one| one.layer == layer).collect();
             json!({ "layer": layer, "rows": rows })
         }),
@@ -162,7 +162,7 @@ mod tests {
                     || entry.start == Start::Outside)
         };
         let chosen = entries().expect("valid").into_iter().filter(wanted);
-        let outcomes: Vec<Outcome> = chosen.map(Entry::outcome).collect();
+        let outcomes: Vec<MeasuredEntry> = chosen.map(Entry::outcome).collect();
         let contact = ContactTable { varied: vec![(Varied::Clearance, 0.3)], costs: Vec::new() };
         let rows = layers::rows().expect("a table");
         let layers: Vec<LayerOutcome> =

@@ -47,9 +47,9 @@ pub struct UnitCheck {
 /// # Errors
 /// [`ExtremesError`] if the list itself were wrong.
 pub fn unit_checks() -> Result<Vec<UnitCheck>, ExtremesError> {
-    let samples: Vec<Sample> = LENGTHS
+    let samples: Vec<UnitRun> = LENGTHS
         .iter()
-        .map(|(b, amplitude, _)| Sample::of(b, amplitude))
+        .map(|(b, amplitude, _)| UnitRun::of(b, amplitude))
         .collect::<Result<_, _>>()?;
     let common = &samples[COMMON];
     let largest = |a: &[f64], b: &[f64], difference: fn(f64, f64) -> f64| {
@@ -59,7 +59,7 @@ pub fn unit_checks() -> Result<Vec<UnitCheck>, ExtremesError> {
     // The motion is a stable one: it does not amplify what the numbers differ by, but its clock rounds
     // as well.
     let clock = rounding * common.times.last().copied().unwrap_or(0.0);
-    let check = |((clearance, _, size), sample): (&(&'static str, _, f64), &Sample)| {
+    let check = |((clearance, _, size), sample): (&(&'static str, _, f64), &UnitRun)| {
         let difference = largest(&sample.numbers, &common.numbers, |a, b| a / b - 1.0);
         let times = largest(&sample.times, &common.times, |a, b| a - b);
         let units = size / LENGTHS[COMMON].2;
@@ -78,7 +78,7 @@ pub fn unit_checks() -> Result<Vec<UnitCheck>, ExtremesError> {
 }
 
 /// The design in one unit, simulated.
-struct Sample {
+struct UnitRun {
     /// Its dimensionless numbers.
     numbers: [f64; 5],
     /// Of impacts.
@@ -87,7 +87,7 @@ struct Sample {
     largest: f64,
 }
 
-impl Sample {
+impl UnitRun {
     fn of(clearance: &str, amplitude: &str) -> Result<Self, ExtremesError> {
         let text = format!(
             "title = \"one design\"\nsource = \"Table 1\"\n\

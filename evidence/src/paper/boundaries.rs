@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, STEADY, Section, TRANSFER};
+use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, PaperFigure, STEADY, TRANSFER};
 use vinesink::analysis::{ManifoldBranch, motion};
 use vinesink::motions::Motion;
 use vinesink::orbits::Bifurcation;
@@ -16,7 +16,7 @@ use vinesink::validation::tolerance::asymptotic_error;
 /// Hopf boundary.
 const BEFORE_HOPF: [f64; 12] = [0.4, 0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975];
 
-pub(super) fn figure_3(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_3(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     let member = cases.case(STEADY[1])?;
     let analysis = &member.study.analysis;
     let (fold, breaking) = (analysis.manifold.fold, analysis.manifold.symmetry_breaking);
@@ -29,7 +29,7 @@ pub(super) fn figure_3(cases: &CaseSet) -> Result<Section, PaperError> {
     let allowed = asymptotic_error(&analysis.system);
     let between = fold.absorber_amplitude..=breaking.absorber_amplitude;
     let point = |b: f64, c: f64| json!({ "B": b, "C": c });
-    Ok(Section::new(
+    Ok(PaperFigure::new(
         [
             (
                 "one_stable_branch",
@@ -69,7 +69,7 @@ pub(super) fn steady(cases: &CaseSet, name: &'static str) -> Result<Value, Paper
     }))
 }
 
-pub(super) fn figure_5(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_5(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     let (beats, hysteresis) = (cases.case(TRANSFER)?, cases.case(HYSTERESIS)?);
     let ways_out = |member: &CaseReport| -> Result<[f64; 2], PaperError> {
         Ok([
@@ -81,7 +81,7 @@ pub(super) fn figure_5(cases: &CaseSet) -> Result<Section, PaperError> {
         (ways_out(beats)?, ways_out(hysteresis)?);
     let regimes: Vec<Regime> = hysteresis.study.motions.iter().map(Motion::regime).collect();
     let unsteady = |at: &Regime| matches!(at, Regime::StronglyModulated | Regime::BelowTwo);
-    Ok(Section::new(
+    Ok(PaperFigure::new(
         [
             ("hopf_first", beats.collides_on(ManifoldBranch::Left) && hopf < collision),
             ("modulated", beats.regime() == Some(Regime::StronglyModulated)),
@@ -102,7 +102,7 @@ pub(super) fn figure_5(cases: &CaseSet) -> Result<Section, PaperError> {
     ))
 }
 
-pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_6(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     let (member, hysteresis) = (cases.case(TRANSFER)?, cases.case(HYSTERESIS)?);
     let analysis = &member.study.analysis;
     let meeting = analysis.boundaries.codimension_two;
@@ -115,7 +115,7 @@ pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
     let (least, last) = member.needs(least.zip(steady.last()), "steady 1:1 before Hopf")?;
     let place = |at: &WalkPoint| json!({ "clearance": member.length(at.clearance), "peak": member.length(at.peak) });
     let forcing = analysis.system.forcing_per_clearance();
-    Ok(Section::new(
+    Ok(PaperFigure::new(
         [
             (
                 "branches",
@@ -138,12 +138,12 @@ pub(super) fn figure_6(cases: &CaseSet) -> Result<Section, PaperError> {
     ))
 }
 
-pub(super) fn figure_7(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_7(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     let member = cases.case(TRANSFER)?;
     let [far, touching, inside, below] = shares(&member.study.analysis.system);
     let told = [touching, far, inside, below]
         .map(|(clearance, share)| json!({ "clearance": member.length(clearance), "share": share }));
-    Ok(Section::new(
+    Ok(PaperFigure::new(
         [
             ("widest", touching.1 > far.1.max(inside.1).max(below.1)),
             ("none_whole", far.1 < 1.0 && below.1 == 0.0),

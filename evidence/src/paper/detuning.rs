@@ -3,9 +3,9 @@
 
 use serde_json::{Value, json};
 
-use super::map::{self, Map};
+use super::map::{self, HoldsMap};
 use super::regimes::FIGURE_11;
-use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, Section, dynamics};
+use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, PaperFigure, dynamics};
 use vinesink::analysis::Analysis;
 use vinesink::case::Case;
 use vinesink::executor::{self, Executor, Serial};
@@ -108,14 +108,14 @@ pub(super) fn section(
     let others = [0.5, 0.7].map(|restitution| Set { restitution, ..table_1 });
     let others = others.iter().map(|set| set.limits_told(case)).collect::<Result<Vec<_>, _>>()?;
     let marks = [vec![("Table 1", table_1), ("set A", tried[0])], vec![("set B", tried[1])]];
-    let maps = marks.map(|marks| Map::of(case, marks, &clearances, executor));
+    let maps = marks.map(|marks| HoldsMap::of(case, marks, &clearances, executor));
     let maps = maps.into_iter().collect::<Result<Vec<_>, _>>()?;
     let told = json!({
         "clearances": clearances,
         "sets": sets,
         "others": others,
         "bounds": map::bounds(&clearances),
-        "maps": maps.iter().map(Map::told).collect::<Vec<_>>(),
+        "maps": maps.iter().map(HoldsMap::told).collect::<Vec<_>>(),
         "image": cases.case(SETS[1])?.image("transfer", 860)?,
     });
     Ok((told, vec![map::figure(&maps, case, &clearances)?]))
@@ -141,7 +141,7 @@ fn told(
     case: &Case,
     clearances: &[f64],
     motions: &[&Motions],
-    transfer: &Section,
+    transfer: &PaperFigure,
 ) -> Result<Value, PaperError> {
     let (mut checks, mut cells) = (Vec::new(), Vec::new());
     let effort = case.effort();
@@ -171,7 +171,7 @@ fn told(
         }));
     }
     let modulated = checks.pop().is_some_and(|(_, holds)| holds);
-    let figure_11 = Section::new(checks, Value::Null);
+    let figure_11 = PaperFigure::new(checks, Value::Null);
     let (set, bare) = (Set::of(case), case.system().linear_response());
     Ok(json!({
         "bare": bare.map_or(f64::INFINITY, |linear| case.units().length(linear.amplitude())),

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, Section, TRANSFER};
+use super::{CaseReport, CaseSet, HYSTERESIS, PaperError, PaperFigure, TRANSFER};
 use vinesink::analysis::Manifold;
 use vinesink::regimes::Regime;
 use vinesink::study::plots::restitutions::Strongest;
@@ -13,11 +13,11 @@ use vinesink::study::plots::{Modulation, Restitutions, Transfer};
 /// impacts of a few percent are what the paper's enlargement shows.
 const CLOSE: f64 = 0.1;
 
-pub(super) fn figure_8(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_8(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     let member = cases.case(TRANSFER)?;
     let away = Modulation::of(&member.study)?.and_then(|found| found.away);
     let away = member.needs(away, "capture on the stable branch")?;
-    Ok(Section::new(
+    Ok(PaperFigure::new(
         [
             ("modulated", member.regime() == Some(Regime::StronglyModulated)),
             ("follows", away < CLOSE),
@@ -26,7 +26,7 @@ pub(super) fn figure_8(cases: &CaseSet) -> Result<Section, PaperError> {
     ))
 }
 
-pub(super) fn figure_9(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_9(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     let of = |name: &'static str| -> Result<Strongest, PaperError> {
         let member = cases.case(name)?;
         let found = Restitutions::of(&member.study).map(|found| found.strongest);
@@ -38,7 +38,7 @@ pub(super) fn figure_9(cases: &CaseSet) -> Result<Section, PaperError> {
     let dull = fold(0.2);
     let intermediate = |pair: [f64; 2]| pair.into_iter().all(|r| r > 0.0 && r < 1.0);
     let (harmonic, damping) = ([high.harmonic, low.harmonic], [high.damping, low.damping]);
-    Ok(Section::new(
+    Ok(PaperFigure::new(
         [
             ("lifts_the_fold", dull > fold(0.6)),
             ("harmonic", intermediate(harmonic)),
@@ -49,12 +49,15 @@ pub(super) fn figure_9(cases: &CaseSet) -> Result<Section, PaperError> {
     ))
 }
 
-pub(super) fn figure_12(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_12(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     transfer(cases.case(TRANSFER)?, cases.case(HYSTERESIS)?)
 }
 
 /// Fig. 12 as a case shows it, beside what one with the paper's own frequency and clearance is.
-pub(super) fn transfer(member: &CaseReport, measured: &CaseReport) -> Result<Section, PaperError> {
+pub(super) fn transfer(
+    member: &CaseReport,
+    measured: &CaseReport,
+) -> Result<PaperFigure, PaperError> {
     let transfer = member.needs(Transfer::of(&member.case, &member.study)?, "stretches")?;
     let ([weak, falls, sparse], searched) = (transfer.parts, Transfer::PERIODS);
     let units = member.case.units();
@@ -69,7 +72,7 @@ pub(super) fn transfer(member: &CaseReport, measured: &CaseReport) -> Result<Sec
         }))
     };
     let stronger = falls.zip(sparse).is_some_and(|(falls, sparse)| falls.impulse > sparse.impulse);
-    Ok(Section::new(
+    Ok(PaperFigure::new(
         [
             ("papers_own", measured.regime() == Some(Regime::StronglyModulated)),
             ("captures", main.regime() == Regime::StronglyModulated),

@@ -35,7 +35,7 @@ pub(super) fn bounds(clearances: &[f64]) -> [f64; 2] {
 }
 
 /// How much holds where, at one restitution.
-pub(super) struct Map {
+pub(super) struct HoldsMap {
     /// Sets of parameters to mark; the first has the map's restitution.
     marks: Vec<(&'static str, Set)>,
     /// Row by row, that of the smallest `F` first.
@@ -48,7 +48,7 @@ pub(super) struct Map {
     bounded: bool,
 }
 
-impl Map {
+impl HoldsMap {
     pub(super) fn of(
         case: &Case,
         marks: Vec<(&'static str, Set)>,
@@ -130,8 +130,12 @@ fn every_start(system: &System, regime: Regime) -> Result<bool, PaperError> {
 }
 
 /// The maps side by side, with the boundaries as lines.
-pub(super) fn figure(maps: &[Map], case: &Case, clearances: &[f64]) -> Result<Figure, PaperError> {
-    let facts = json!({ "maps": maps.iter().map(Map::told).collect::<Vec<_>>() });
+pub(super) fn figure(
+    maps: &[HoldsMap],
+    case: &Case,
+    clearances: &[f64],
+) -> Result<Figure, PaperError> {
+    let facts = json!({ "maps": maps.iter().map(HoldsMap::told).collect::<Vec<_>>() });
     let mut figure = Figure::new("nearer-resonance", "")
         .with_size(860, 480)
         .with_layout(Layout::columns(&vec![1.0; maps.len()]))
@@ -143,7 +147,7 @@ pub(super) fn figure(maps: &[Map], case: &Case, clearances: &[f64]) -> Result<Fi
     Ok(figure)
 }
 
-fn panel(map: &Map, case: &Case, clearances: &[f64]) -> Result<Panel, PaperError> {
+fn panel(map: &HoldsMap, case: &Case, clearances: &[f64]) -> Result<Panel, PaperError> {
     let amplitudes: Vec<f64> = axis(AMPLITUDES, true).map(|metres| 1e3 * metres).collect();
     let row = &map.places[..FREQUENCIES.2];
     let frequencies: Vec<f64> = row.iter().map(|set| set.natural_frequency).collect();

@@ -185,7 +185,7 @@ impl<'a> CaseSet<'a> {
 /// What became of a figure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Outcome {
+pub enum FigureOutcome {
     /// Every check holds.
     Reproduced,
     /// Some do.
@@ -196,8 +196,8 @@ pub enum Outcome {
 
 /// One figure of the paper.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Section {
-    verdict: Outcome,
+pub struct PaperFigure {
+    verdict: FigureOutcome,
     /// Statements of the paper, and whether the program finds them so.
     checks: BTreeMap<&'static str, bool>,
     /// The numbers that decide them; lengths in metres.
@@ -205,13 +205,13 @@ pub struct Section {
     images: Vec<Value>,
 }
 
-impl Section {
+impl PaperFigure {
     fn new(checks: impl IntoIterator<Item = (&'static str, bool)>, facts: Value) -> Self {
         let checks: BTreeMap<&'static str, bool> = checks.into_iter().collect();
         let verdict = match checks.values().filter(|holds| **holds).count() {
-            held if held == checks.len() => Outcome::Reproduced,
-            0 => Outcome::Differs,
-            _ => Outcome::WithDifference,
+            held if held == checks.len() => FigureOutcome::Reproduced,
+            0 => FigureOutcome::Differs,
+            _ => FigureOutcome::WithDifference,
         };
         Self { verdict, checks, facts, images: Vec::new() }
     }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{CaseSet, PaperError, Section, TRANSFER};
+use super::{CaseSet, PaperError, PaperFigure, TRANSFER};
 use vinesink::regimes::Regime;
 
 /// The cases of Fig. 4 with the regime that the paper shows.
@@ -25,12 +25,12 @@ pub(super) const FIGURE_11: [(&str, &str, Regime); 6] = [
 ];
 
 /// The panels of a figure: whether each regime is the paper's, and what was found.
-type Panels = (Vec<(&'static str, bool)>, Vec<Value>);
+type RegimePanels = (Vec<(&'static str, bool)>, Vec<Value>);
 
 fn compared(
     cases: &CaseSet,
     panels: &[(&'static str, &'static str, Regime)],
-) -> Result<Panels, PaperError> {
+) -> Result<RegimePanels, PaperError> {
     let (mut checks, mut told) = (Vec::new(), Vec::new());
     for (letter, name, expected) in panels {
         let member = cases.case(name)?;
@@ -48,7 +48,7 @@ fn compared(
     Ok((checks, told))
 }
 
-pub(super) fn figure_4(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_4(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     let (mut checks, panels) = compared(cases, &FIGURE_4)?;
     let [impacts, levels] = ["impacts_per_period", "rms"]
         .map(|key| panels.iter().filter_map(|one| one[key].as_f64()).collect::<Vec<f64>>());
@@ -66,16 +66,16 @@ pub(super) fn figure_4(cases: &CaseSet) -> Result<Section, PaperError> {
     let facts = json!({
         "panels": panels, "breaking": breaking, "doubling": doubling, "grazing": grazing,
     });
-    Ok(Section::new(checks, facts))
+    Ok(PaperFigure::new(checks, facts))
 }
 
-pub(super) fn figure_11(cases: &CaseSet) -> Result<Section, PaperError> {
+pub(super) fn figure_11(cases: &CaseSet) -> Result<PaperFigure, PaperError> {
     let (mut checks, panels) = compared(cases, &FIGURE_11)?;
     let (smallest, _) = cases.case("li2016-8hz-b0p3mm")?.main()?;
     let three = cases.case("li2016-8hz-b2p5mm")?.impacts_per_period()?;
     checks.push(("irregular", smallest.repeats_after().is_none()));
     checks.push(("three", (three - 3.0).abs() < 0.05));
-    Ok(Section::new(checks, json!({ "panels": panels, "forcing": forcing(cases)? })))
+    Ok(PaperFigure::new(checks, json!({ "panels": panels, "forcing": forcing(cases)? })))
 }
 
 /// Why no forcing amplitude makes the experiment's order of regimes: the clearance of every boundary

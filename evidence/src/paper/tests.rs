@@ -5,11 +5,12 @@ use vinesink::executor::Serial;
 
 #[test]
 fn the_verdict_follows_from_the_checks() {
-    let outcome =
-        |holds: &[(&'static str, bool)]| Section::new(holds.iter().copied(), Value::Null).verdict;
-    assert_eq!(outcome(&[("a", true), ("b", true)]), Outcome::Reproduced);
-    assert_eq!(outcome(&[("a", true), ("b", false)]), Outcome::WithDifference);
-    assert_eq!(outcome(&[("a", false), ("b", false)]), Outcome::Differs);
+    let outcome = |holds: &[(&'static str, bool)]| {
+        PaperFigure::new(holds.iter().copied(), Value::Null).verdict
+    };
+    assert_eq!(outcome(&[("a", true), ("b", true)]), FigureOutcome::Reproduced);
+    assert_eq!(outcome(&[("a", true), ("b", false)]), FigureOutcome::WithDifference);
+    assert_eq!(outcome(&[("a", false), ("b", false)]), FigureOutcome::Differs);
 }
 
 /// Every field that the template reads, with made-up numbers.
@@ -28,7 +29,7 @@ fn the_template_fits_what_the_figures_tell() {
     let mut add = |number, names: &'static str, facts| {
         let checks = names.split(' ').map(|name| (name, name != "least_at_the_end"));
         let images = vec![image.clone()];
-        figures.insert(number, Section { images, ..Section::new(checks, facts) });
+        figures.insert(number, PaperFigure { images, ..PaperFigure::new(checks, facts) });
     };
     let facts = json!({
         "fold": { "B": 1.05, "C": 0.2 }, "breaking": { "B": 1.6812, "C": 0.4 }, "away": 0.01,
@@ -96,13 +97,13 @@ fn a_case_that_is_not_there_is_named() {
 }
 
 /// The section on sets of parameters, with set B in all panels but one start.
-fn nearer(figures: &BTreeMap<&str, Section>, image: &Value) -> Value {
+fn nearer(figures: &BTreeMap<&str, PaperFigure>, image: &Value) -> Value {
     let limits = json!({ "restitution": 0.6, "breaking": 5e-3, "end": 8e-3, "fold": 0.024, "ratios": [1.6, 3.0] });
     let cell = json!({
         "found": "strongly-modulated", "impacts_per_period": 1.5, "captured": 0.3, "peak": 0.2,
         "starts": [31, 32],
     });
-    let figure_11 = Section::new([("irregular", true), ("three", true)], Value::Null);
+    let figure_11 = PaperFigure::new([("irregular", true), ("three", true)], Value::Null);
     let set = json!({
         "natural_frequency": 8.05, "amplitude": 7e-5, "bare": 4e-3, "detuning": -0.8, "limits": limits,
         "regimes": true, "cells": vec![cell; 7], "figure_11": figure_11, "figure_12": figures["12"],

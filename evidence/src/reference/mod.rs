@@ -14,9 +14,9 @@ mod oscillator;
 pub mod real;
 mod search;
 
-use flight::Flight;
-use oscillator::{Oscillator, Point, Vector};
-use real::Real;
+use flight::ReferenceFlight;
+use oscillator::{ReferenceOscillator, TimePoint, Vector};
+use real::Decimal;
 use search::{polished, scan};
 
 use vinesink::system::{Cavity, State, System};
@@ -73,19 +73,19 @@ pub enum Event {
 
 /// A trajectory in multiple precision.
 pub struct Reference {
-    eps: Real,
+    eps: Decimal,
     /// At the walls `x - y = +b` and `x - y = -b`.
-    restitutions: [Real; 2],
-    gravity: Real,
-    friction: Real,
-    alone: Oscillator,
-    carrying: Oscillator,
-    time: Real,
+    restitutions: [Decimal; 2],
+    gravity: Decimal,
+    friction: Decimal,
+    alone: ReferenceOscillator,
+    carrying: ReferenceOscillator,
+    time: Decimal,
     /// The oscillator with its excitation.
     z: Vector,
-    y: Real,
-    y_velocity: Real,
-    mode: Mode,
+    y: Decimal,
+    y_velocity: Decimal,
+    mode: ReferenceMode,
     rounding: f64,
     /// Events that may be disturbed.
     events: u32,
@@ -93,13 +93,13 @@ pub struct Reference {
 
 /// What the absorber does.
 #[derive(Clone)]
-enum Mode {
+enum ReferenceMode {
     /// Nothing but gravity acts on it.
     Flies,
     /// Friction acts on it; the sign of `x' - y'`.
     Slides(f64),
     /// It moves with the oscillator, `gap` behind it, at a wall or held by friction alone.
-    Rests { wall: Option<f64>, gap: Real },
+    Rests { wall: Option<f64>, gap: Decimal },
 }
 
 impl Reference {
@@ -110,30 +110,30 @@ impl Reference {
     /// and has no symmetry: how far this moves later impacts is what rounding once an event may cost,
     /// whoever computes. So does the absorber where friction stops it, and both where friction gives way.
     pub fn new(system: &System, start: State, rounding: f64) -> Self {
-        let eps = Real::of(system.mass_ratio());
-        let alone = Oscillator::new(system, &Real::of(0.0));
-        let carrying = Oscillator::new(system, &eps);
-        let [x, v, y, u] = [start.x, start.x_velocity, start.y, start.y_velocity].map(Real::of);
+        let eps = Decimal::of(system.mass_ratio());
+        let alone = ReferenceOscillator::new(system, &Decimal::of(0.0));
+        let carrying = ReferenceOscillator::new(system, &eps);
+        let [x, v, y, u] = [start.x, start.x_velocity, start.y, start.y_velocity].map(Decimal::of);
         let gap = &x - &y;
         let side = if gap.is_negative() { -1.0 } else { 1.0 };
-        let touches = (&gap.abs() - &Real::of(1.0)).is_zero() && (&v - &u).is_zero();
-        let moved = Real::of(rounding);
+        let touches = (&gap.abs() - &Decimal::of(1.0)).is_zero() && (&v - &u).is_zero();
+        let moved = Decimal::of(rounding);
         // What touches is moved together.
         let y = if touches { &y + &moved } else { y };
         let slip = &v - &u;
         let Cavity { gravity_along, friction_acceleration, .. } = system.cavity();
         let mut reference = Self {
             eps,
-            restitutions: system.restitutions().map(Real::of),
-            gravity: Real::of(gravity_along),
-            friction: Real::of(friction_acceleration),
+            restitutions: system.restitutions().map(Decimal::of),
+            gravity: Decimal::of(gravity_along),
+            friction: Decimal::of(friction_acceleration),
             alone,
             carrying,
-            time: Real::of(0.0),
-            z: [&x + &moved, v, Real::of(0.0), Real::of(1.0)],
+            time: Decimal::of(0.0),
+            z: [&x + &moved, v, Decimal::of(0.0), Decimal::of(1.0)],
             y,
             y_velocity: u,
-            mode: Mode::Flies,
+            mode: ReferenceMode::Flies,
             rounding,
             events: 0,
         };
@@ -148,32 +148,32 @@ impl Reference {
     /// it stood.
     pub fn next(&mut self, latest: f64) -> Option<Event> {
         match self.mode.clone() {
-            Mode::Flies => self.fly(latest),
-            Mode::Slides(direction) => self.slide(direction, latest),
-            Mode::Rests { wall, gap } => self.release(wall, &gap, latest),
+            ReferenceMode::Flies => self.fly(latest),
+            ReferenceMode::Slides(direction) => self.slide(direction, latest),
+            ReferenceMode::Rests { wall, gap } => self.release(wall, &gap, latest),
         }
     }
 
     /// Where the trajectory stands, right after its last event: fast time, displacement and velocity of the
     /// oscillator, and of the absorber.
-    pub fn moment(&self) -> [Real; 5] {
+    pub fn moment(&self) -> [Decimal; 5] {
         let [x, v, ..] = &self.z;
-        [&self.time, x, v, &self.y, &self.y_velocity].map(Real::clone)
+        [&self.time, x, v, &self.y, &self.y_velocity].map(Decimal::clone)
     }
 
     /// Whether the absorber moves with the oscillator.
     pub fn rests(&self) -> bool {
-        matches!(self.mode, Mode::Rests { .. })
+        matches!(self.mode, ReferenceMode::Rests { .. })
     }
 
     /// The motion from here while `x' - y'` has that sign; 0 without friction.
-    fn flight(&self, direction: f64) -> Flight {
-        let friction = &Real::of(direction) * &self.friction;
+    fn flight(&self, direction: f64) -> ReferenceFlight {
+        let friction = &Decimal::of(direction) * &self.friction;
         let accelerations = [&self.gravity, &friction, &self.eps];
-        Flight::new(&self.z, [&self.y, &self.y_velocity], accelerations)
+        ReferenceFlight::new(&self.z, [&self.y, &self.y_velocity], accelerations)
     }
 
-    fn arrive(&mut self, flight: &Flight, at: &Point) {
+    fn arrive(&mut self, flight: &ReferenceFlight, at: &TimePoint) {
         self.time = &self.time + &at.s;
         self.z = flight.z(at);
         [self.y, self.y_velocity] = flight.absorber(at);
@@ -181,9 +181,9 @@ impl Reference {
 
     fn fly(&mut self, latest: f64) -> Option<Event> {
         let (alone, flight) = (&self.alone, self.flight(0.0));
-        let one = Real::of(1.0);
+        let one = Decimal::of(1.0);
         // How far outside the absorber is, and its rate.
-        let excess = |point: &Point| {
+        let excess = |point: &TimePoint| {
             let [gap, opening] = flight.gap(point);
             let rate = if gap.is_negative() { -&opening } else { opening };
             [&gap.abs() - &one, rate]
@@ -204,7 +204,7 @@ impl Reference {
 
     /// Equation (2), and whether the absorber stays on the wall.
     fn struck(&mut self, side: f64) -> Event {
-        let (one, sign) = (Real::of(1.0), Real::of(side));
+        let (one, sign) = (Decimal::of(1.0), Decimal::of(side));
         let disturbed = self.is_disturbed();
         let [x, v, sin, cos] = self.z.clone();
         let approach = &v - &self.y_velocity;
@@ -213,17 +213,18 @@ impl Reference {
         let exchanged = &(&(&one + r) * &approach) / &total;
         let after = [&v - &(&self.eps * &exchanged), &self.y_velocity + &exchanged];
         let kept = &one - &(r * r);
-        let loss = &(&(&self.eps * &kept) * &(&approach * &approach)) / &(&Real::of(2.0) * &total);
+        let loss =
+            &(&(&self.eps * &kept) * &(&approach * &approach)) / &(&Decimal::of(2.0) * &total);
         let opening = &(&approach * r) * &sign;
         self.z = [x.clone(), after[0].clone(), sin, cos];
         let closing = self.stopping(side);
         // The gap opens by u^2 / (2 a).
-        let limit = &closing * &Real::of(2.0 * EXCURSION);
+        let limit = &closing * &Decimal::of(2.0 * EXCURSION);
         let sticks = closing.is_positive() && !limit.is_below(&(&opening * &opening));
         // An excursion that rounding would fill is left to its parabola.
-        let room = &(&Real::of(2.0 * ROOM * self.rounding) * &closing) - &(&opening * &opening);
+        let room = &(&Decimal::of(2.0 * ROOM * self.rounding) * &closing) - &(&opening * &opening);
         let rounding = if disturbed && room.is_negative() { self.rounding } else { 0.0 };
-        self.y = &x - &(&sign * &(&one - &Real::of(rounding)));
+        self.y = &x - &(&sign * &(&one - &Decimal::of(rounding)));
         let [x_velocity, y_velocity] = if sticks || r.is_zero() {
             let common = &(&after[0] + &(&self.eps * &after[1])) / &total;
             [common.clone(), common]
@@ -235,7 +236,7 @@ impl Reference {
         self.z[1] = x_velocity;
         self.y_velocity = y_velocity;
         self.mode = match sticks {
-            true => Mode::Rests { wall: Some(side), gap: sign },
+            true => ReferenceMode::Rests { wall: Some(side), gap: sign },
             false => self.moving(&-&sign),
         };
         event
@@ -248,20 +249,20 @@ impl Reference {
     }
 
     /// The duration of a flight so short that it is a parabola, `2 u / a`, to nine digits.
-    fn short_flight(&self) -> Option<Real> {
+    fn short_flight(&self) -> Option<Decimal> {
         let gap = &self.z[0] - &self.y;
-        let touching = &gap.abs() - &Real::of(1.0);
-        if !touching.abs().is_below(&Real::of(1e-60)) {
+        let touching = &gap.abs() - &Decimal::of(1.0);
+        if !touching.abs().is_below(&Decimal::of(1e-60)) {
             return None;
         }
         let side = if gap.is_negative() { -1.0 } else { 1.0 };
-        let opening = -&(&Real::of(side) * &(&self.z[1] - &self.y_velocity));
+        let opening = -&(&Decimal::of(side) * &(&self.z[1] - &self.y_velocity));
         let closing = self.stopping(side);
         if !(opening.is_positive() && closing.is_positive()) {
             return None;
         }
-        let duration = &(&Real::of(2.0) * &opening) / &closing;
-        let short = Real::of(SHORTEST * self.alone.scan_step());
+        let duration = &(&Decimal::of(2.0) * &opening) / &closing;
+        let short = Decimal::of(SHORTEST * self.alone.scan_step());
         duration.is_below(&short).then_some(duration)
     }
 }

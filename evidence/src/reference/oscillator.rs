@@ -2,7 +2,7 @@
 //! system whose Taylor series is summed in multiple precision. No closed form is solved for, so that
 //! damping of any size and resonance without damping need no case of their own.
 
-use super::real::{BITS, Real};
+use super::real::{BITS, Decimal};
 use vinesink::system::{Excitation, System};
 
 /// Halvings of the scan's step for which the way is known in advance.
@@ -13,51 +13,51 @@ const SCAN: f64 = 64.0;
 const TERMS: u32 = 48;
 
 /// Displacement, velocity, sine and cosine of the excitation's phase.
-pub(super) type Vector = [Real; 4];
+pub(super) type Vector = [Decimal; 4];
 
 /// An oscillator with its excitation, per unit of its own mass.
-pub(super) struct Oscillator {
-    damping: Real,
-    stiffness: Real,
-    omega: Real,
+pub(super) struct ReferenceOscillator {
+    damping: Decimal,
+    stiffness: Decimal,
+    omega: Decimal,
     /// Of sine and cosine of the phase.
-    force: [Real; 2],
+    force: [Decimal; 2],
     /// By halvings of the scan's step: its length, and what becomes of each unit vector.
-    steps: Vec<(Real, [Vector; 4])>,
+    steps: Vec<(Decimal, [Vector; 4])>,
 }
 
 /// Where a motion is, a time `s` after it began.
 #[derive(Clone)]
-pub(super) struct Point {
-    pub s: Real,
+pub(super) struct TimePoint {
+    pub s: Decimal,
     pub z: Vector,
 }
 
-impl Oscillator {
+impl ReferenceOscillator {
     /// The oscillator of a system that carries `added` mass, relative to its own.
-    pub(super) fn new(system: &System, added: &Real) -> Self {
+    pub(super) fn new(system: &System, added: &Decimal) -> Self {
         let p = system.parameters();
-        let one = Real::of(1.0);
+        let one = Decimal::of(1.0);
         let mass = &one + added;
-        let omega = Real::of(p.frequency_ratio);
-        let damping = &Real::of(p.mass_ratio) * &Real::of(p.damping);
-        let sine = &Real::of(p.mass_ratio) * &Real::of(p.forcing_per_clearance);
+        let omega = Decimal::of(p.frequency_ratio);
+        let damping = &Decimal::of(p.mass_ratio) * &Decimal::of(p.damping);
+        let sine = &Decimal::of(p.mass_ratio) * &Decimal::of(p.forcing_per_clearance);
         let cosine = match p.excitation {
             Excitation::BaseDisplacement => &(&damping * &omega) * &sine,
-            Excitation::Force => Real::of(0.0),
+            Excitation::Force => Decimal::of(0.0),
         };
         let force = [&sine / &mass, &cosine / &mass];
         let (damping, stiffness) = (&damping / &mass, &one / &mass);
         let fastest = 1.0_f64.max(p.frequency_ratio).max(damping.to_f64());
         let mut oscillator = Self { damping, stiffness, omega, force, steps: Vec::new() };
-        let mut length = Real::of(std::f64::consts::TAU / (SCAN * fastest));
+        let mut length = Decimal::of(std::f64::consts::TAU / (SCAN * fastest));
         for _ in 0..=LEVELS {
             let units = [0, 1, 2, 3].map(|k| {
-                let unit = [0, 1, 2, 3].map(|j| Real::of(f64::from(u8::from(j == k))));
+                let unit = [0, 1, 2, 3].map(|j| Decimal::of(f64::from(u8::from(j == k))));
                 oscillator.series(&unit, &length)
             });
             oscillator.steps.push((length.clone(), units));
-            length = &length / &Real::of(2.0);
+            length = &length / &Decimal::of(2.0);
         }
         oscillator
     }
@@ -71,10 +71,10 @@ impl Oscillator {
     }
 
     /// The sum of `(A s)^k z/k!`.
-    fn series(&self, z: &Vector, s: &Real) -> Vector {
+    fn series(&self, z: &Vector, s: &Decimal) -> Vector {
         let (mut sum, mut term) = (z.clone(), z.clone());
         for k in 1..=TERMS {
-            let part = s / &Real::of(f64::from(k));
+            let part = s / &Decimal::of(f64::from(k));
             term = self.rate(&term).map(|rate| &rate * &part);
             sum = std::array::from_fn(|j| &sum[j] + &term[j]);
             if is_nothing(&term, &sum) {
@@ -90,25 +90,25 @@ impl Oscillator {
     }
 
     /// One step further: the scan's step halved `level` times.
-    pub(super) fn step(&self, from: &Point, level: usize) -> Point {
+    pub(super) fn step(&self, from: &TimePoint, level: usize) -> TimePoint {
         let (length, units) = &self.steps[level];
         let z = std::array::from_fn(|j| {
             let parts = [0, 1, 2, 3].map(|k| &units[k][j] * &from.z[k]);
             &(&parts[0] + &parts[1]) + &(&parts[2] + &parts[3])
         });
-        Point { s: &from.s + length, z }
+        TimePoint { s: &from.s + length, z }
     }
 
     /// Any time later, or earlier, that is within a step.
-    pub(super) fn later(&self, from: &Point, s: &Real) -> Point {
-        Point { s: &from.s + s, z: self.series(&from.z, s) }
+    pub(super) fn later(&self, from: &TimePoint, s: &Decimal) -> TimePoint {
+        TimePoint { s: &from.s + s, z: self.series(&from.z, s) }
     }
 }
 
 /// Whether a term, and so those after it, is too small by far to change a sum.
 fn is_nothing(term: &Vector, sum: &Vector) -> bool {
-    let least = sum.iter().filter_map(Real::exponent).min();
-    let most = term.iter().filter_map(Real::exponent).max();
+    let least = sum.iter().filter_map(Decimal::exponent).min();
+    let most = term.iter().filter_map(Decimal::exponent).max();
     // As many bits again for what a large force makes of the next terms.
     most.is_none_or(|most| least.is_some_and(|least| most < least - 2 * BITS as i32))
 }

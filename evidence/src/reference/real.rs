@@ -13,9 +13,9 @@ pub const ROUND: RoundingMode = RoundingMode::ToEven;
 
 /// A number of 77 decimal digits.
 #[derive(Clone, Debug)]
-pub struct Real(pub BigFloat);
+pub struct Decimal(pub BigFloat);
 
-impl Real {
+impl Decimal {
     /// The number that a floating-point number stands for, exactly.
     pub fn of(number: f64) -> Self {
         Self(BigFloat::from_f64(number, BITS))
@@ -64,10 +64,10 @@ impl Real {
 
 macro_rules! operator {
     ($name:ident, $method:ident) => {
-        impl $name for &Real {
-            type Output = Real;
-            fn $method(self, other: &Real) -> Real {
-                Real(self.0.$method(&other.0, BITS, ROUND))
+        impl $name for &Decimal {
+            type Output = Decimal;
+            fn $method(self, other: &Decimal) -> Decimal {
+                Decimal(self.0.$method(&other.0, BITS, ROUND))
             }
         }
     };
@@ -77,10 +77,10 @@ operator!(Sub, sub);
 operator!(Mul, mul);
 operator!(Div, div);
 
-impl Neg for &Real {
-    type Output = Real;
-    fn neg(self) -> Real {
-        Real(BigFloat::neg(&self.0))
+impl Neg for &Decimal {
+    type Output = Decimal;
+    fn neg(self) -> Decimal {
+        Decimal(BigFloat::neg(&self.0))
     }
 }
 
@@ -91,12 +91,12 @@ mod tests {
     #[test]
     fn numbers_survive_the_way_there_and_back() {
         for number in [0.0, 1.0, -1.0, 0.1, -3.7e-200, 8.9e300, 1.0 + f64::EPSILON] {
-            assert_eq!(Real::of(number).to_f64(), number);
+            assert_eq!(Decimal::of(number).to_f64(), number);
         }
         // A third is the nearest floating-point number to 1/3 and more.
-        let third = &Real::of(1.0) / &Real::of(3.0);
+        let third = &Decimal::of(1.0) / &Decimal::of(3.0);
         assert_eq!(third.to_f64(), 1.0 / 3.0);
-        let rest = &(&third * &Real::of(3.0)) - &Real::of(1.0);
+        let rest = &(&third * &Decimal::of(3.0)) - &Decimal::of(1.0);
         assert!(rest.to_f64().abs() < 1e-76, "{}", rest.to_f64());
     }
 }

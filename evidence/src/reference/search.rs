@@ -1,7 +1,7 @@
 //! How the reference finds an event: a fine scan, halving, Newton's method.
 
-use super::oscillator::{LEVELS, Oscillator, Point};
-use super::real::Real;
+use super::oscillator::{LEVELS, ReferenceOscillator, TimePoint};
+use super::real::Decimal;
 
 /// Corrections by Newton's method; each doubles the twelve digits that halving leaves.
 const CORRECTIONS: u32 = 12;
@@ -17,11 +17,11 @@ const HALVES: u32 = 200;
 /// way each time. Between two points a maximum is looked at as well: a touch may be far shorter than a
 /// step.
 pub(super) fn scan(
-    oscillator: &Oscillator,
-    start: Point,
+    oscillator: &ReferenceOscillator,
+    start: TimePoint,
     span: f64,
-    watched: &impl Fn(&Point) -> [Real; 2],
-) -> Option<Point> {
+    watched: &impl Fn(&TimePoint) -> [Decimal; 2],
+) -> Option<TimePoint> {
     let step = oscillator.scan_step();
     let mut rises = watched(&start)[1].is_positive();
     let mut here = start;
@@ -62,11 +62,11 @@ pub(super) fn scan(
 /// Halves a step towards the maximum in it; where the value exceeds 0 on the way, the point before and
 /// the halvings of the step from there.
 fn at_maximum(
-    oscillator: &Oscillator,
-    from: &Point,
+    oscillator: &ReferenceOscillator,
+    from: &TimePoint,
     level: usize,
-    watched: &impl Fn(&Point) -> [Real; 2],
-) -> Option<(Point, usize)> {
+    watched: &impl Fn(&TimePoint) -> [Decimal; 2],
+) -> Option<(TimePoint, usize)> {
     let mut here = from.clone();
     for finer in level + 1..=LEVELS {
         let there = oscillator.step(&here, finer);
@@ -83,10 +83,10 @@ fn at_maximum(
 
 /// The zero of what is `watched` next to a point, by Newton's method.
 pub(super) fn polished(
-    oscillator: &Oscillator,
-    near: Point,
-    watched: &impl Fn(&Point) -> [Real; 2],
-) -> Point {
+    oscillator: &ReferenceOscillator,
+    near: TimePoint,
+    watched: &impl Fn(&TimePoint) -> [Decimal; 2],
+) -> TimePoint {
     let mut at = near.clone();
     for _ in 0..CORRECTIONS {
         let [value, rate] = watched(&at);
@@ -105,11 +105,11 @@ pub(super) fn polished(
 /// The zero of what is `watched` before a point `beyond` it, where value and rate start from rest and grow: from
 /// that side Newton's method cannot leave the slope.
 pub(super) fn descended(
-    oscillator: &Oscillator,
-    start: &Point,
-    beyond: Point,
-    watched: &impl Fn(&Point) -> [Real; 2],
-) -> Point {
+    oscillator: &ReferenceOscillator,
+    start: &TimePoint,
+    beyond: TimePoint,
+    watched: &impl Fn(&TimePoint) -> [Decimal; 2],
+) -> TimePoint {
     let mut at = beyond;
     for _ in 0..HALVES {
         let [value, rate] = watched(&at);
