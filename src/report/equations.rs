@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::case::Case;
 use crate::equations;
 use crate::orbits;
-use crate::orbits::flight::Propagator;
+use crate::orbits::flight::OrbitFlight;
 use crate::study::CaseStudy;
 use crate::symbolic::{Equation, Expr, Group, Symbol, Values, format_number};
 
@@ -65,7 +65,7 @@ fn case_values(case: &Case, study: &CaseStudy) -> Values {
 fn orbit_values(case: &Case, study: &CaseStudy) -> Values {
     let system = &study.analysis.system;
     let values = case_values(case, study);
-    let Ok(flight) = Propagator::of(system) else { return values };
+    let Ok(flight) = OrbitFlight::of(system) else { return values };
     let orbits = &study.exact.orbits;
     let [impulse, rate_plus_one] = flight.half_period_response();
     let values = values.with(Symbol::g, impulse).with(Symbol::h, rate_plus_one);

@@ -5,7 +5,7 @@ use super::{Runs, WithError};
 use crate::case::Case;
 use crate::excitation::{Piece, Record};
 use crate::executor::{Executor, map};
-use crate::flights::{DrivenError, Places, Reading, Response, even, follow, survey};
+use crate::flights::{DrivenError, PlaceReading, Places, Response, even, follow, survey};
 use crate::linear::{TunedMassDamper, driven};
 use crate::measure::Measure;
 use crate::numerics::scatter::twice_standard_error;
@@ -177,7 +177,7 @@ pub(super) fn flown(
     places: Places<'_>,
     inactive: bool,
 ) -> Result<Runs<Response>, DrivenError> {
-    let measures: [Reading<'_, Response>; 3] =
+    let measures: [PlaceReading<'_, Response>; 3] =
         [&|found| found.peak, &|found| found.rms, &|found| found.impact_speed];
     let all = survey(places, &measures, |w| follow(system, pieces, w))?;
     Ok(Runs { all, even: places.even, count_inactive: inactive })

@@ -5,7 +5,7 @@ use crate::common::table_1;
 use proptest::prelude::*;
 use vinesink::equations::{self, fixed_points};
 use vinesink::orbits::equations as formulas;
-use vinesink::orbits::flight::Propagator;
+use vinesink::orbits::flight::OrbitFlight;
 use vinesink::orbits::{ImpactMap, SymmetricCurve, SymmetricOrbit, Wall, symmetric_orbits};
 use vinesink::report::mathml::to_mathml;
 use vinesink::symbolic::{Equation, Expr, Formula, Symbol, Values};
@@ -41,7 +41,7 @@ fn system(eps: f64, damping: f64, restitution: f64, frequency_ratio: f64, forcin
 
 /// All that the orbits of a system share, in clearances.
 fn given(system: &System) -> Values {
-    let [g, h] = Propagator::of(system).expect("steady").half_period_response();
+    let [g, h] = OrbitFlight::of(system).expect("steady").half_period_response();
     equations::values_of(system)
         .with(Symbol::b, 1.0)
         .with(Symbol::G, system.forcing_per_clearance())
@@ -101,7 +101,7 @@ proptest! {
     /// leaves inverts it: `(Phi + I) q = (0, 1)`.
     #[test]
     fn the_repeated_impulse_inverts_the_propagator(system in systems()) {
-        let flight = Propagator::of(&system).expect("steady");
+        let flight = OrbitFlight::of(&system).expect("steady");
         let free = flight.free(0.5 * system.period());
         let [g, h] = flight.half_period_response();
         assert_near(g, free[(0, 1)], 1e-14, "g");
@@ -120,7 +120,7 @@ proptest! {
     fn the_printed_curve_is_the_one_of_the_orbits(system in systems()) {
         let values = curve_of(&system);
         let curve = SymmetricCurve::of(&system).expect("steady");
-        let flight = Propagator::of(&system).expect("steady");
+        let flight = OrbitFlight::of(&system).expect("steady");
         let (q, steady) = (flight.repeated_impulse(), flight.steady());
         let pairs = [
             (Symbol::A, curve.displacement),

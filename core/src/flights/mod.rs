@@ -15,7 +15,7 @@ mod theory;
 
 pub use driven::{DrivenError, follow, follow_from};
 pub use inactive::{Inactive, inactive};
-pub use places::{Places, Reading, even, share_above, survey, with_closer, worst_of_places};
+pub use places::{PlaceReading, Places, even, share_above, survey, with_closer, worst_of_places};
 pub use ringdown::Ringdown;
 pub use theory::Predicted;
 

@@ -9,7 +9,7 @@
 use crate::executor::{Executor, map};
 
 /// Something that is read of an outcome, whose largest value counts; NaN where the outcome does not count.
-pub type Reading<'a, T> = &'a (dyn Fn(&T) -> f64 + Sync);
+pub type PlaceReading<'a, T> = &'a (dyn Fn(&T) -> f64 + Sync);
 
 /// Places that are chosen together.
 const ROUND: usize = 4;
@@ -47,7 +47,7 @@ pub struct Places<'a> {
 /// Outcomes from places, in the order in which they were flown.
 pub fn survey<T: Send + Sync, E: Send + Sync>(
     places: Places<'_>,
-    measures: &[Reading<'_, T>],
+    measures: &[PlaceReading<'_, T>],
     outcome: impl Fn(f64) -> Result<T, E> + Sync,
 ) -> Result<Vec<(f64, T)>, E> {
     let mut found: Vec<(f64, T)> = Vec::new();
@@ -65,7 +65,7 @@ pub fn survey<T: Send + Sync, E: Send + Sync>(
 }
 
 /// Places in the middle of the gaps to look into next.
-fn closer<T>(found: &[(f64, T)], measures: &[Reading<'_, T>], count: usize) -> Vec<f64> {
+fn closer<T>(found: &[(f64, T)], measures: &[PlaceReading<'_, T>], count: usize) -> Vec<f64> {
     let mut by_place: Vec<&(f64, T)> = found.iter().collect();
     by_place.sort_by(|a, b| a.0.total_cmp(&b.0));
     let read: Vec<Vec<f64>> = measures

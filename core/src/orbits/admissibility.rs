@@ -14,7 +14,7 @@
 use serde::Serialize;
 
 use super::cycle::Cycle;
-use super::flight::{Derivatives, Propagator};
+use super::flight::{Derivatives, OrbitFlight};
 use super::impact_map::{ImpactMap, Leg, Wall};
 use crate::numerics::bracket::brent;
 use crate::numerics::crossing::{CrossingBand, Curve, Edge, Sample, Search, first_crossing};
@@ -218,7 +218,7 @@ impl Departure {
 
 struct GapOverFlight<'a> {
     leg: &'a Leg,
-    flight: &'a Propagator,
+    flight: &'a OrbitFlight,
 }
 
 impl GapOverFlight<'_> {

@@ -21,7 +21,7 @@ const FAR_ABOVE: f64 = 2.0;
 /// The oscillator of a system, ready to be propagated. Pairs are displacement and velocity, over the
 /// clearance, in fast time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Propagator {
+pub struct OrbitFlight {
     /// Half the damping coefficient, `d = eps lambda / 2`.
     decay: f64,
     /// `Omega`.
@@ -50,7 +50,7 @@ pub struct Derivatives {
 /// The oscillator from a moment on: its steady motion, and the free motion beside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
-    flight: Propagator,
+    flight: OrbitFlight,
     phase: f64,
     /// Constant force, which shifts the place about which the free motion is.
     push: f64,
@@ -73,7 +73,7 @@ pub struct Arrival {
     pub by_frequency: Vector2<f64>,
 }
 
-impl Propagator {
+impl OrbitFlight {
     /// The oscillator of `system`.
     ///
     /// # Errors
@@ -362,7 +362,7 @@ mod tests {
                 excitation: Excitation::BaseDisplacement,
                 cavity: Cavity::IDEAL,
             });
-            let flight = Propagator::of(&system.expect("valid")).expect("a steady motion");
+            let flight = OrbitFlight::of(&system.expect("valid")).expect("a steady motion");
             let course = flight.course(0.7, Vector2::new(-0.4, 0.9));
             for (k, found) in course.at_steps(0.05, 400).enumerate() {
                 let exact = course.at(0.05 * (k + 1) as f64);

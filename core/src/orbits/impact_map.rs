@@ -13,7 +13,7 @@
 
 use nalgebra::{Matrix4, Vector2, Vector4};
 
-use super::flight::{Arrival, Course, Derivatives, Propagator};
+use super::flight::{Arrival, Course, Derivatives, OrbitFlight};
 use crate::system::{Cavity, State, System};
 
 /// A wall of the cavity: where `x - y = +b` or `x - y = -b`.
@@ -96,7 +96,7 @@ impl AfterImpact {
     }
 
     /// The oscillator from here on.
-    fn course(&self, flight: &Propagator) -> Course {
+    fn course(&self, flight: &OrbitFlight) -> Course {
         flight.course(self.phase, Vector2::new(self.x, self.x_velocity))
     }
 }
@@ -194,7 +194,7 @@ impl Step {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpactMap {
     /// The oscillator between impacts.
-    pub flight: Propagator,
+    pub flight: OrbitFlight,
     mass_ratio: f64,
     restitutions: [f64; 2],
     cavity: Cavity,
@@ -208,7 +208,7 @@ impl ImpactMap {
     /// frequency.
     pub fn of(system: &System) -> Result<Self, super::OrbitError> {
         Ok(Self {
-            flight: Propagator::of(system)?,
+            flight: OrbitFlight::of(system)?,
             mass_ratio: system.mass_ratio(),
             restitutions: system.restitutions(),
             cavity: system.cavity(),

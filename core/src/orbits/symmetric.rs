@@ -20,7 +20,7 @@ use serde::Serialize;
 use super::admissibility::Admissibility;
 use super::cycle::{Closure, Convergence, Cycle};
 use super::equations as formulas;
-use super::flight::Propagator;
+use super::flight::OrbitFlight;
 use super::impact_map::{AfterImpact, ImpactMap, Wall};
 use super::measures::Peaks;
 use super::newton::Linearised;
@@ -121,11 +121,11 @@ impl SymmetricCurve {
     /// [`OrbitError::RealCavity`] for one that is inclined or whose ends differ.
     pub fn of(system: &System) -> Result<Self, OrbitError> {
         let symmetric = system.cavity().is_symmetric();
-        let flight = Propagator::of(system)?;
+        let flight = OrbitFlight::of(system)?;
         if symmetric { Ok(Self::with(system, &flight)) } else { Err(OrbitError::RealCavity) }
     }
 
-    pub(super) fn with(system: &System, flight: &Propagator) -> Self {
+    pub(super) fn with(system: &System, flight: &OrbitFlight) -> Self {
         let (eps, r) = (system.mass_ratio(), system.restitution());
         let omega = system.frequency_ratio();
         let period = formulas::PERIOD.at([omega]);
@@ -181,20 +181,20 @@ impl SymmetricCurve {
 
     /// Acceleration with which the wall of an ideal cavity leaves the absorber behind after an impact, at `beta`: linear
     /// in it, as the motion at impact and the steady motion both are.
-    pub(super) fn departure(&self, flight: &Propagator, beta: f64) -> f64 {
+    pub(super) fn departure(&self, flight: &OrbitFlight, beta: f64) -> f64 {
         let omega = flight.frequency();
         omega * omega - self.departure_slope(flight) * beta
     }
 
     /// `beta` beyond which the wall does not leave the absorber behind after an impact; of
     /// consequence where the impact leaves them no relative velocity.
-    pub(super) fn sticking(&self, flight: &Propagator) -> Option<f64> {
+    pub(super) fn sticking(&self, flight: &OrbitFlight) -> Option<f64> {
         let omega = flight.frequency();
         let beta = omega * omega / self.departure_slope(flight);
         (beta > 0.0 && beta.is_finite()).then_some(beta)
     }
 
-    fn departure_slope(&self, flight: &Propagator) -> f64 {
+    fn departure_slope(&self, flight: &OrbitFlight) -> f64 {
         let omega = flight.frequency();
         let [x, v] = self.deviation(omega);
         omega * omega * self.displacement - flight.damping() * v - x
@@ -210,7 +210,7 @@ impl SymmetricCurve {
     /// `k` and its rate in an ideal cavity a time `s` after the impact on the `+b` wall: the relative displacement of the
     /// orbit with `beta` is `w = cos(Omega s) + beta k(s)`. Both vanish with the impacts' own wall
     /// distance: `k = 0` at either end of the flight.
-    pub(super) fn sway(&self, flight: &Propagator, s: f64) -> [f64; 2] {
+    pub(super) fn sway(&self, flight: &OrbitFlight, s: f64) -> [f64; 2] {
         let omega = flight.frequency();
         let (sin, cos) = libm::sincos(omega * s);
         let free = flight.free(s) * Vector2::from(self.deviation(omega));
@@ -223,7 +223,7 @@ impl SymmetricCurve {
     }
 
     /// The same right after the impact, by its series: sums that do not cancel.
-    fn early_sway(&self, flight: &Propagator, s: f64) -> [f64; 2] {
+    fn early_sway(&self, flight: &OrbitFlight, s: f64) -> [f64; 2] {
         let (omega, damping) = (flight.frequency(), flight.damping());
         let [mut free, mut free_rate] = self.deviation(omega);
         let (mut steady, mut steady_rate) = (-self.displacement, -self.velocity * omega);
@@ -243,7 +243,7 @@ impl SymmetricCurve {
 
     /// `beta` above which the absorber passes a wall between impacts: the smallest at which
     /// `w = cos(Omega s) + beta k(s)` is 1 or -1 at some `s`, so that it turns there.
-    pub(super) fn grazing(&self, flight: &Propagator) -> Option<f64> {
+    pub(super) fn grazing(&self, flight: &OrbitFlight) -> Option<f64> {
         let omega = flight.frequency();
         let ranges = self.ranges(flight);
         let largest = |wall: f64| {
@@ -263,13 +263,13 @@ impl SymmetricCurve {
     }
 
     /// Until when the series holds.
-    fn early(&self, flight: &Propagator) -> f64 {
+    fn early(&self, flight: &OrbitFlight) -> f64 {
         EARLY * self.half_period.min(1.0 / flight.frequency().max(flight.damping()).max(1.0))
     }
 
     /// Where a grazing is looked for after that, in pieces too short for more than two turning points: longer and longer ones
     /// while a fast decay ends, those of the oscillator until it has faded, then those of the excitation.
-    fn ranges(&self, flight: &Propagator) -> Vec<([f64; 2], u32)> {
+    fn ranges(&self, flight: &OrbitFlight) -> Vec<([f64; 2], u32)> {
         let (omega, half_damping) = (flight.frequency(), 0.5 * flight.damping());
         let end = (1.0 - BEFORE_IMPACT) * self.half_period;
         let step = 1.0 / (PIECES_PER_RADIAN * omega.max(1.0));
@@ -293,7 +293,7 @@ impl SymmetricCurve {
     }
 
     /// `1/beta` of a grazing right after the impact, on the wall that the absorber leaves; 0 where there is none.
-    fn early_grazing(&self, flight: &Propagator) -> f64 {
+    fn early_grazing(&self, flight: &OrbitFlight) -> f64 {
         let range = [AT_IMPACT * self.half_period, self.early(flight)];
         let inverse = |s: f64| {
             let ([k, rate], half) = (self.early_sway(flight, s), 0.5 * flight.frequency() * s);
@@ -345,7 +345,7 @@ impl SymmetricCurve {
     }
 
     /// The state after the impact on the `+b` wall on the orbit with `beta`.
-    pub fn after_impact(&self, flight: &Propagator, beta: f64) -> AfterImpact {
+    pub fn after_impact(&self, flight: &OrbitFlight, beta: f64) -> AfterImpact {
         let speed = formulas::SPEED.at([2.0 * self.half_period, beta]);
         let [s, c] = flight.steady();
         let [x, v] = self.steady(beta);
@@ -359,7 +359,7 @@ impl SymmetricCurve {
     }
 
     /// The orbit with `beta`, as half a cycle.
-    pub fn cycle(&self, flight: &Propagator, beta: f64) -> Cycle {
+    pub fn cycle(&self, flight: &OrbitFlight, beta: f64) -> Cycle {
         Cycle {
             closure: Closure::Mirrors { periods: 1 },
             impacts: vec![self.after_impact(flight, beta)],
