@@ -1,4 +1,4 @@
-//! What a figure is: plain data, in the units of its axes.
+//! What a figure is: plain data, and axes that know the unit of their labels.
 
 use super::colors::Tint;
 use super::layers::Layer;
@@ -204,28 +204,44 @@ impl Panel {
     }
 }
 
-/// An axis.
+/// An axis. The data may be in another unit than the label: the renderer multiplies what is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Name, symbol and unit: `clearance b (mm)`.
     pub label: String,
-    /// First and last value; chosen from the data if absent.
+    /// What a number of the data is multiplied by to be in the unit of the label.
+    pub factor: f64,
+    /// First and last value, as the data have them; chosen from the data if absent.
     pub range: Option<(f64, f64)>,
     /// Linear or logarithmic.
     pub scale: Scale,
-    /// The ticks; chosen round if absent.
+    /// The ticks, in the unit of the label; chosen round if absent.
     pub ticks: Option<Vec<Tick>>,
 }
 
 impl Axis {
     /// A linear axis that fits the data.
     pub fn linear(label: impl Into<String>) -> Self {
-        Self { label: label.into(), range: None, scale: Scale::Linear, ticks: None }
+        Self { label: label.into(), factor: 1.0, range: None, scale: Scale::Linear, ticks: None }
     }
 
     /// A logarithmic axis that fits the data.
     pub fn log(label: impl Into<String>) -> Self {
-        Self { scale: Scale::Log, ..Self::linear(label) }
+        Self::linear(label).with_scale(Scale::Log)
+    }
+
+    /// Sets the scale.
+    #[must_use]
+    pub const fn with_scale(mut self, scale: Scale) -> Self {
+        self.scale = scale;
+        self
+    }
+
+    /// Sets what a number of the data is multiplied by to be in the unit of the label.
+    #[must_use]
+    pub const fn with_factor(mut self, factor: f64) -> Self {
+        self.factor = factor;
+        self
     }
 
     /// Fixes the range.

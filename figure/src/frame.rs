@@ -42,14 +42,14 @@ fn grid(frame: &Frame) -> Vec<(i32, i32)> {
     let plot = &frame.plot;
     let mut points: Vec<[f64; 2]> = Vec::new();
     for tick in frame.x_ticks.iter().filter(|tick| tick.label.is_some()) {
-        let (x, from) = (frame.across(tick.value), points.last().map_or(plot.top, |last| last[1]));
+        let (x, from) = (frame.across(tick), points.last().map_or(plot.top, |last| last[1]));
         points.extend([[x, from], [x, plot.top + plot.bottom - from]]);
     }
     if let Some([_, y]) = points.last().copied() {
         points.push([plot.right, y]);
     }
     for tick in frame.y_ticks.iter().filter(|tick| tick.label.is_some()) {
-        let (y, from) = (frame.up(tick.value), points.last().map_or(plot.right, |last| last[0]));
+        let (y, from) = (frame.up(tick), points.last().map_or(plot.right, |last| last[0]));
         points.extend([[from, y], [plot.left + plot.right - from, y]]);
     }
     points.iter().map(|[x, y]| (tenths(*x), tenths(*y))).collect()
@@ -62,12 +62,12 @@ fn edge(frame: &Frame) -> Vec<(i32, i32)> {
     let length = |tick: &Tick| if tick.label.is_some() { LONG } else { SHORT };
     let mut points = vec![[left, top], [right, top], [right, bottom]];
     for tick in frame.x_ticks.iter().rev() {
-        let x = frame.across(tick.value);
+        let x = frame.across(tick);
         points.extend([[x, bottom], [x, bottom + length(tick)], [x, bottom]]);
     }
     points.push([left, bottom]);
     for tick in &frame.y_ticks {
-        let y = frame.up(tick.value);
+        let y = frame.up(tick);
         points.extend([[left, y], [left - length(tick), y], [left, y]]);
     }
     points.push([left, top]);

@@ -1,4 +1,4 @@
-//! What is drawn in a panel: plain data, in the units of its axes.
+//! What is drawn in a panel: plain data, which the renderer multiplies by the factors of the axes.
 
 use super::image::Image;
 use super::palette::{Color, Marker, Role, Style};
@@ -81,6 +81,16 @@ impl Layer {
     /// A straight line across the whole panel.
     pub fn rule(rule: Rule, style: impl Into<Style>) -> Self {
         Self::Rule { rule, style: style.into(), label: None }
+    }
+
+    /// One at an abscissa.
+    pub fn vertical(x: f64, style: impl Into<Style>) -> Self {
+        Self::rule(Rule::Vertical(x), style)
+    }
+
+    /// One at an ordinate.
+    pub fn horizontal(y: f64, style: impl Into<Style>) -> Self {
+        Self::rule(Rule::Horizontal(y), style)
     }
 
     /// Words at a place; they move a little where they would cover something.

@@ -47,19 +47,24 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// From an abscissa to pixels; NaN where it cannot be drawn.
-    pub(super) fn across(&self, x: f64) -> f64 {
-        self.plot.left + self.spans.x.part(x) * self.plot.width()
+    /// From parts of the axes to pixels.
+    pub(super) fn place(&self, [x, y]: Point) -> Point {
+        [self.plot.left + x * self.plot.width(), self.plot.bottom - y * self.plot.height()]
     }
 
-    /// From an ordinate to pixels; NaN where it cannot be drawn.
-    pub(super) fn up(&self, y: f64) -> f64 {
-        self.plot.bottom - self.spans.y.part(y) * self.plot.height()
-    }
-
-    /// From data to pixels.
+    /// From data to pixels; NaN where it cannot be drawn.
     pub(super) fn map(&self, [x, y]: Point) -> Point {
-        [self.across(x), self.up(y)]
+        self.place([self.spans.x.part(x), self.spans.y.part(y)])
+    }
+
+    /// From a tick of the horizontal axis to pixels.
+    pub(super) fn across(&self, tick: &Tick) -> f64 {
+        self.place([self.spans.x.labelled(tick.value), 0.0])[0]
+    }
+
+    /// From a tick of the vertical axis to pixels.
+    pub(super) fn up(&self, tick: &Tick) -> f64 {
+        self.place([0.0, self.spans.y.labelled(tick.value)])[1]
     }
 
     /// What is left of, above, right of and below the plot.
@@ -105,7 +110,7 @@ fn grid(figure: &Figure) -> Result<Layout, FigureError> {
 fn sharing(figure: &Figure, grid: &Layout) -> Vec<usize> {
     let axis = |i: usize| {
         let (cell, x) = (grid.cells[i], &figure.panels[i].x);
-        (cell.column, cell.columns, &x.label, x.scale, x.range)
+        (cell.column, cell.columns, &x.label, x.scale, x.range, x.factor)
     };
     let first = |i| (0..i).find(|&k| axis(k) == axis(i)).unwrap_or(i);
     (0..figure.panels.len()).map(first).collect()
@@ -187,7 +192,7 @@ fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize
     let mut words = Vec::new();
     let mut room = 0.0_f64;
     for tick in frame.y_ticks.iter().filter(|tick| tick.label.is_some()) {
-        let at = [plot.left - TICK, frame.up(tick.value)];
+        let at = [plot.left - TICK, frame.up(tick)];
         words.push(Words::new(tick.words(), at, Anchor::End, SMALL));
         room = room.max(width(tick.words(), SMALL));
     }
@@ -197,7 +202,7 @@ fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize
         words.push(Words { upright: true, ..large(text, [x, cy], Anchor::Middle) });
     }
     for tick in frame.x_ticks.iter().filter(|tick| x_words && tick.label.is_some()) {
-        let at = [frame.across(tick.value), plot.bottom + TICK + SMALL / 2.0 + 0.5];
+        let at = [frame.across(tick), plot.bottom + TICK + SMALL / 2.0 + 0.5];
         words.push(Words::new(tick.words(), at, Anchor::Middle, SMALL));
     }
     let label = wrap(&panel.x.label, LARGE, plot.width() + 40.0);
@@ -235,11 +240,11 @@ fn fitting(axis: &Axis, span: &Span, length: f64, most: f64, ordinate: bool) -> 
     let extent = |tick: &Tick| if ordinate { SMALL } else { width(tick.words(), SMALL) };
     let gap = if ordinate { 4.0 } else { 9.0 };
     let free = |a: &Tick, b: &Tick| {
-        let distance = (span.part(b.value) - span.part(a.value)).abs() * length;
+        let distance = (span.labelled(b.value) - span.labelled(a.value)).abs() * length;
         distance >= f64::midpoint(extent(a), extent(b)) + gap
     };
     if let Some(given) = &axis.ticks {
-        let inside = |tick: &&Tick| (-1e-9..=1.0 + 1e-9).contains(&span.part(tick.value));
+        let inside = |tick: &&Tick| (-1e-9..=1.0 + 1e-9).contains(&span.labelled(tick.value));
         return given.iter().filter(inside).cloned().collect();
     }
     // Not so few that they say nothing, not so many that their words touch.

@@ -16,17 +16,29 @@ const HUGE: f64 = 1e150;
 /// Places further outside a panel than this many times its size are drawn there.
 const FAR_OFF: f64 = 1e9;
 
-/// What an axis shows, proven valid.
+/// What an axis shows, proven valid. Its ends are in the unit of the label.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Span {
     pub first: f64,
     pub last: f64,
     pub scale: Scale,
+    /// That of the axis.
+    pub factor: f64,
 }
 
 impl Span {
-    /// Where a value is, as a part of the axis; NaN where it cannot be drawn.
-    pub(super) fn part(&self, value: f64) -> f64 {
+    /// First and last value of the data.
+    pub(super) fn of_data(&self) -> [f64; 2] {
+        [self.first, self.last].map(|end| end / self.factor)
+    }
+
+    /// Where a number of the data is, as a part of the axis; NaN where it cannot be drawn.
+    pub(super) fn part(&self, number: f64) -> f64 {
+        self.labelled(number * self.factor)
+    }
+
+    /// The same of a value in the unit of the label.
+    pub(super) fn labelled(&self, value: f64) -> f64 {
         if value.is_nan() || value.abs() > HUGE {
             return f64::NAN;
         }
@@ -68,25 +80,27 @@ pub(super) fn spans(figure: &Figure, sharing: &[usize]) -> Result<Vec<Spans>, Fi
 /// What an axis shows, or why it cannot.
 fn resolve(panel: &Panel, index: usize) -> Result<Span, String> {
     let axis = [&panel.x, &panel.y][index];
-    let scale = axis.scale;
+    let (scale, factor) = (axis.scale, axis.factor);
+    let span = |[first, last]: [f64; 2]| Span { first, last, scale, factor };
     if let Some((first, last)) = axis.range {
+        let [first, last] = [first, last].map(|end| end * factor);
         let positive = scale == Scale::Linear || first >= 1.0 / HUGE;
         let wide = (last - first) / first.abs().max(last.abs()) > 1e-12;
         if first < last && last - first < HUGE && positive && wide {
-            return Ok(Span { first, last, scale });
+            return Ok(span([first, last]));
         }
         return Err(format!("axis {:?} cannot run from {first} to {last}", axis.label));
     }
     let mut values = coordinates(panel, index);
+    values.iter_mut().for_each(|(v, _)| *v *= factor);
     // Where nothing is below 0, a margin is not either.
     let floor = scale == Scale::Linear && !values.iter().any(|(v, _)| *v < 0.0);
     values.retain(|(v, _)| v.abs() <= HUGE && (scale == Scale::Linear || *v >= 1.0 / HUGE));
     if scale == Scale::Log {
         values.iter_mut().for_each(|(v, _)| *v = libm::log10(*v));
-        let [first, last] = extent(&values, index, floor).map(|end| libm::pow(10.0, end));
-        return Ok(Span { first, last, scale });
+        return Ok(span(extent(&values, index, floor).map(|end| libm::pow(10.0, end))));
     }
-    Ok(rounded(extent(&values, index, floor), index))
+    Ok(span(rounded(extent(&values, index, floor), index)))
 }
 
 /// What is drawn at, and whether it is shown even if it is an outlier.
@@ -154,9 +168,7 @@ pub fn inliers(sorted: &[f64], outlying: f64, far: f64) -> Option<[f64; 2]> {
 }
 
 /// Moves the ends outwards to round numbers.
-fn rounded([low, high]: [f64; 2], index: usize) -> Span {
+fn rounded([low, high]: [f64; 2], index: usize) -> [f64; 2] {
     let quantum = round_step(high - low, 6.0) / if index == 0 { 5.0 } else { 2.0 };
-    let first = libm::floor(low / quantum + 1e-6) * quantum;
-    let last = libm::ceil(high / quantum - 1e-6) * quantum;
-    Span { first, last, scale: Scale::Linear }
+    [libm::floor(low / quantum + 1e-6) * quantum, libm::ceil(high / quantum - 1e-6) * quantum]
 }

@@ -53,7 +53,7 @@ pub struct Drawing {
 pub struct PlacedPanel {
     /// The rectangle between the axes, pixels.
     pub room: Rect,
-    /// First and last value of each axis, across and up, and whether it is logarithmic.
+    /// First and last value of each axis, across and up, as the data have them, and whether it is logarithmic.
     pub axes: [(f64, f64, bool); 2],
 }
 
@@ -145,7 +145,10 @@ fn compose(figure: &Figure, frames: &[Frame], labels: &[Labels], coarseness: f64
     text::write(&mut svg, &words);
     svg.push_str("</svg>\n");
     let placed = |w: Words| PlacedText { room: w.bounds(), text: w.text };
-    let axis = |span: Span| (span.first, span.last, span.scale == Scale::Log);
+    let axis = |span: Span| {
+        let [first, last] = span.of_data();
+        (first, last, span.scale == Scale::Log)
+    };
     let panels = frames.iter().map(|frame| {
         let axes = [frame.spans.x, frame.spans.y].map(axis);
         PlacedPanel { room: frame.plot, axes }

@@ -40,11 +40,11 @@ fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
     let tolerance = TOLERANCE * coarseness;
     let map = |points: &[Point]| points.iter().map(|p| frame.map(*p)).collect::<Vec<_>>();
     let lines = |points: &[Point]| {
-        let pieces = clip_polyline(&frame.plot, &map(points));
+        let pieces = clip_polyline(&frame.plot, points);
         Shape::Lines(pieces.iter().map(|piece| simplify(piece, tolerance)).collect())
     };
     match layer {
-        Layer::Curve { points, .. } => lines(points),
+        Layer::Curve { points, .. } => lines(&map(points)),
         Layer::Rule { rule, .. } => lines(&ends(*rule, frame)),
         Layer::Band { outline, .. } => {
             // Their edges are faint, or lie below the lines that bound them.
@@ -55,14 +55,14 @@ fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
     }
 }
 
-/// Two points of a rule outside the plot or on its edge, in data coordinates.
+/// Two points of a rule outside the plot or on its edge, in pixels.
 fn ends(rule: Rule, frame: &Frame) -> [Point; 2] {
     let (x, y) = (frame.spans.x, frame.spans.y);
     match rule {
-        Rule::Horizontal(v) => [[x.first, v], [x.last, v]],
-        Rule::Vertical(v) => [[v, y.first], [v, y.last]],
+        Rule::Horizontal(v) => [0.0, 1.0].map(|part| frame.place([part, y.part(v)])),
+        Rule::Vertical(v) => [0.0, 1.0].map(|part| frame.place([x.part(v), part])),
         Rule::Sloped { through, slope } => {
-            [x.first, x.last].map(|v| [v, through[1] + slope * (v - through[0])])
+            x.of_data().map(|v| frame.map([v, through[1] + slope * (v - through[0])]))
         }
     }
 }

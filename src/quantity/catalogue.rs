@@ -118,6 +118,7 @@ catalogue! {
     FRICTION_ACCELERATION = "friction_acceleration", "", "friction in the cavity over m₂bω₀²", Number, Significant(3), Interval;
     BASE_AMPLITUDE = "base_amplitude", "F", "amplitude of the base", Length, Significant(4), Interval;
     FORCE_AMPLITUDE = "force_amplitude", "P", "amplitude of the force", Force, Significant(4), Interval;
+    AMPLITUDE_OVER_OWN = "amplitude_over_own", "", "amplitude over the case's", Number, Significant(3), Interval;
     EXCITATION_FREQUENCY = "excitation_frequency", "f", "excitation frequency", Frequency, Significant(4), Interval;
     FREQUENCY_RATIO = "frequency_ratio", "Ω", "frequency ratio", Number, Significant(4), Interval;
     DETUNING = "detuning", "σ", "detuning", Number, Significant(4), Interval;

@@ -165,19 +165,6 @@ impl Units {
         found.copied().unwrap_or(unit("", 0))
     }
 
-    /// The unit of an axis or a table's column that reaches up to a value.
-    pub fn axis_unit(&self, kind: &Kind, largest: f64) -> Unit {
-        self.unit(kind.dimension, largest)
-    }
-
-    /// An axis label: "clearance b (mm)".
-    pub fn axis_label(&self, kind: &Kind, largest: f64) -> String {
-        let unit = self.axis_unit(kind, largest).symbol;
-        let symbol =
-            if kind.symbol.is_empty() { String::new() } else { format!(" {}", kind.symbol) };
-        format!("{}{symbol} ({})", kind.name, if unit.is_empty() { "1" } else { unit })
-    }
-
     /// A number of some kind with its unit.
     pub fn text(&self, kind: &Kind, value: f64) -> String {
         self.with_digits(kind, value, kind.digits)
@@ -329,7 +316,6 @@ mod tests {
             assert_eq!(units.text(kind, value), text, "{}", kind.id);
         }
         assert_eq!(Units::reduced().text(&of::PEAK, 1.0342), "1.03 units");
-        assert_eq!(units.axis_label(&of::CLEARANCE, 0.02), "clearance b (mm)");
     }
 
     #[test]

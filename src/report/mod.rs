@@ -1,6 +1,7 @@
 //! The report of a case: plain data, decided and formatted here, so that templates only loop and
 //! print. [`render`] turns it into Markdown, HTML and JSON; figures are data too ([`figure`]).
 
+mod chart;
 pub mod console;
 pub mod criteria;
 pub mod document;

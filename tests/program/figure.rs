@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 use vinesink::report::figure::{
-    Axis, Cell, Color, Drawing, Figure, Fill, Label, Layer, Layout, MarkedPoint, Panel, Role, Tick,
-    draw, render,
+    Axis, Cell, Cells, Color, Drawing, Figure, Fill, Image, Label, Layer, Layout, MarkedPoint,
+    Panel, Role, Rule, Scale, Tick, Tint, draw, render,
 };
 
 fn simple(layers: Vec<Layer>) -> Figure {
@@ -266,6 +266,54 @@ fn stacked_panels_share_their_time_axis() {
     let lines = xml::lines(&drawing.svg);
     let end = |i: usize| lines[i].last().unwrap()[0] - lines[i][0][0];
     assert!((2.0 * end(0) - end(1)).abs() < 3.0, "{} {}", end(0), end(1));
+}
+
+/// Everything that can be drawn, in one of several units of the data. Powers of two lose no digit.
+fn in_units(units: [f64; 2], scale: Scale, range: Option<(f64, f64)>) -> Figure {
+    let at = |[x, y]: [f64; 2]| [x / units[0], y / units[1]];
+    let line = |bend: f64| -> Vec<[f64; 2]> {
+        (1..90).map(|k| f64::from(k) / 10.0).map(|x| at([x, 2.0 + bend * x * x])).collect()
+    };
+    let image = Image {
+        x_edges: [1.0, 2.0, 4.0].map(|x| x / units[0]).to_vec(),
+        y_edges: [2.0, 5.0, 6.0].map(|y| y / units[1]).to_vec(),
+        cells: Cells::Kinds(vec![Tint([9, 9, 9])], vec![Some(0), None, None, Some(0)]),
+    };
+    let axis = |k: usize| {
+        let axis = Axis::linear("x (mm)").with_scale(scale).with_factor(units[k]);
+        range.map_or(axis.clone(), |(first, last)| {
+            axis.with_range(first / units[k], last / units[k])
+        })
+    };
+    let near = Label::near("near", at([7.0, 3.0]));
+    let panel = Panel::new(axis(0), axis(1))
+        .with(Layer::Image(image))
+        .with(Layer::between(&line(0.02), &line(0.03), Fill::tint(Color::Orange)))
+        .with(Layer::curve(Role::Stable, line(0.05)).labelled(near))
+        .with(Layer::points(Role::ExactOrbit, line(0.1)).labelled("points"))
+        .with(Layer::vertical(3.0 / units[0], Role::Guide).labelled("at 3"))
+        .with(Layer::horizontal(4.0 / units[1], Role::Guide))
+        .with(Layer::this_case(at([5.0, 5.0]), None));
+    let through = at([1.0, 1.0]);
+    let sloped = Rule::Sloped { through, slope: units[0] / units[1] };
+    let below = panel.clone().with(Layer::rule(sloped, Role::Guide));
+    let figure = Figure::new("units", "Units").with_layout(Layout::rows(&[1.0; 2]));
+    figure.with_panel(panel).with_panel(below)
+}
+
+/// What the axes multiply by might as well have been multiplied before.
+#[test]
+fn data_in_another_unit_make_the_same_drawing() {
+    for scale in [Scale::Linear, Scale::Log] {
+        for range in [None, Some((0.5, 9.5))] {
+            let plain = draw(&in_units([1.0; 2], scale, range)).expect("can be drawn");
+            let other = draw(&in_units([1024.0, 0.125], scale, range)).expect("can be drawn");
+            assert_eq!(plain.svg, other.svg, "{scale:?} {range:?}");
+            let [x, y] = other.panels[0].axes;
+            let ends = [(1024.0 * x.0, 1024.0 * x.1, x.2), (0.125 * y.0, 0.125 * y.1, y.2)];
+            assert_eq!(plain.panels[0].axes, ends);
+        }
+    }
 }
 
 proptest! {

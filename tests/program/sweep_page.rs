@@ -263,7 +263,7 @@ fn an_axis_is_shown_in_the_terms_of_its_design() {
         (&reduced, P::InitialVelocity, 0.5, "initial velocity ẋ (ω₀ units)", None),
     ] {
         let shown = axis(case, parameter, &[value]);
-        assert_eq!(shown.label, label);
+        assert_eq!(shown.drawn().label, label);
         // Rounded a few times on the way to the unit.
         let near = own.zip(shown.own).map(|(a, b): (f64, f64)| (a - b).abs() <= 1e-14 * a.abs());
         assert!(near.unwrap_or(own == shown.own), "{label}: {:?}", shown.own);

@@ -148,7 +148,7 @@ pub(super) fn figure(
 }
 
 fn panel(map: &HoldsMap, case: &Case, clearances: &[f64]) -> Result<Panel, PaperError> {
-    let amplitudes: Vec<f64> = axis(AMPLITUDES, true).map(|metres| 1e3 * metres).collect();
+    let amplitudes: Vec<f64> = axis(AMPLITUDES, true).collect();
     let row = &map.places[..FREQUENCIES.2];
     let frequencies: Vec<f64> = row.iter().map(|set| set.natural_frequency).collect();
     let image = Image {
@@ -162,7 +162,7 @@ fn panel(map: &HoldsMap, case: &Case, clearances: &[f64]) -> Result<Panel, Paper
     let ends = |of: &[f64]| (of[0], of[of.len() - 1]);
     let ((left, right), (low, high)) = (ends(&frequencies), ends(&amplitudes));
     let x = Axis::linear("natural frequency f0 (Hz)").with_range(left, right);
-    let y = Axis::log("shaker amplitude F (mm)").with_range(low, high);
+    let y = Axis::log("shaker amplitude F (mm)").with_factor(1e3).with_range(low, high);
     let mut panel = Panel::new(x, y)
         .with_heading(format!("r = {:.2}", map.marks[0].1.restitution))
         .with(Layer::Image(image));
@@ -177,12 +177,12 @@ fn panel(map: &HoldsMap, case: &Case, clearances: &[f64]) -> Result<Panel, Paper
         for set in row {
             // A limit is proportional to F.
             let amplitude = set.amplitude * clearances[place] / set.limits(case)?[limit];
-            line.push([set.natural_frequency, 1e3 * amplitude]);
+            line.push([set.natural_frequency, amplitude]);
         }
         panel.layers.push(Layer::curve(style, line).labelled(name));
     }
     let point = |(name, set): &(&str, Set)| {
-        MarkedPoint::new(set.natural_frequency, 1e3 * set.amplitude).with_label(*name)
+        MarkedPoint::new(set.natural_frequency, set.amplitude).with_label(*name)
     };
     let marker = Marker::filled(Shape::Diamond).sized(11.0);
     Ok(panel.with(Layer::marked(marker, Color::Black, map.marks.iter().map(point))))

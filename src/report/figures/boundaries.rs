@@ -4,15 +4,15 @@ use serde_json::json;
 
 use crate::orbits::Bifurcation;
 use crate::quantity::catalogue as of;
+use crate::report::chart::{Chart, FITTED};
 use crate::report::figure::{
-    Axis, Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape, Style,
+    Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
 use crate::study::plots::borders::{Bifurcations, Border, Condition};
 use crate::study::plots::{Borders, Map};
 use crate::validation::AsymptoticError;
 
 use super::Scene;
-use super::chart::{Chart, FITTED};
 
 /// The boundaries that are compared with exact ones.
 const COMPARED: [(Bifurcation, Role); 3] = [
@@ -25,15 +25,13 @@ const COMPARED: [(Bifurcation, Role); 3] = [
 pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
     let (heights, log) = heights(scene, &data.borders);
     let kinds = [&of::EXCITATION_FREQUENCY, &of::CLEARANCE];
-    let chart = Chart::new(scene, kinds, [data.window, heights]).with_log([false, log]);
+    let chart = scene.chart(kinds, [data.window, heights]).with_log([false, log]);
     let mut panel = chart.panel();
-    let ends = heights.map(|height| chart.at([0.0, height])[1]);
     let grazing = data.exact.iter().filter_map(|at| Some([at.frequency_ratio, at.grazing()?]));
-    let place =
-        |detuning: f64, gamma: f64| chart.at([scene.ratio(detuning), scene.clearance(gamma)]);
-    panel.layers = data.borders.layers(&place, [ends[1], ends[0]]);
+    let place = |detuning: f64, gamma: f64| [scene.ratio(detuning), scene.clearance(gamma)];
+    panel.layers = data.borders.layers(&place, [heights[1], heights[0]]);
     let mark = |at: [f64; 2], what: &str| scene.mark(&chart, at, what);
-    let third = grazing.map(|at| chart.at(at).into());
+    let third = grazing.map(MarkedPoint::from);
     let limits = data.exact.iter().flat_map(|at| {
         let bounds = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
         bounds.map(|limit| mark([at.frequency_ratio, limit.clearance], limit.kind.words()))
@@ -45,7 +43,7 @@ pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
         .with(small(Shape::Square, third.collect()).labelled("Z2 ends (exact)"))
         .with(small(Shape::Circle, limits.collect()).labelled("exact limits"))
         .with(scene.star(&chart, [scene.system().frequency_ratio(), 1.0]));
-    let below = errors(scene, data, panel.x.clone());
+    let below = errors(scene, data);
     let figure = scene.figure("map", "captions/map", json!({ "compared": below.is_some() }));
     match below {
         None => figure.with_panel(panel),
@@ -80,7 +78,7 @@ fn heights(scene: &Scene, borders: &Borders) -> ([f64; 2], bool) {
 }
 
 /// How far each boundary of the theory lies from the exact one; none where there is nothing to compare.
-fn errors(scene: &Scene, data: &Map, x: Axis) -> Option<Panel> {
+fn errors(scene: &Scene, data: &Map) -> Option<Panel> {
     let known = |errors: &[AsymptoticError], kind| {
         let mut bounds = errors.iter().filter(|error| error.bounds_stability);
         bounds.find_map(|error| error.difference.filter(|_| error.kind == kind))
@@ -95,16 +93,16 @@ fn errors(scene: &Scene, data: &Map, x: Axis) -> Option<Panel> {
         || lines.iter().flat_map(|(_, _, line)| line).map(|at| at[1]).filter(|at| at.is_finite());
     values().next()?;
     let kinds = [&of::EXCITATION_FREQUENCY, &of::THEORY_ERROR];
-    let chart = Chart::new(scene, kinds, [data.window, FITTED]);
-    let mut panel = Panel { x, ..chart.panel() }
-        .with(chart.vertical(scene.system().frequency_ratio(), Role::Guide))
-        .with(chart.horizontal(0.0, Role::Guide));
-    for (kind, role, line) in &lines {
+    let chart = scene.chart(kinds, [data.window, FITTED]);
+    let mut panel = chart
+        .panel()
+        .with(Layer::vertical(scene.system().frequency_ratio(), Role::Guide))
+        .with(Layer::horizontal(0.0, Role::Guide));
+    for (kind, role, line) in lines {
         let name = kind.words_in_slow_flow();
-        let shown = line.iter().filter(|at| at[1].is_finite());
-        let marks = shown.map(|at| chart.at(*at));
-        let marks = Layer::marked(role.marker().sized(4.0), role.color(), marks);
-        panel = panel.with(chart.curve(*role, line).labelled(name)).with(marks);
+        let shown = line.iter().copied().filter(|at| at[1].is_finite());
+        let marks = Layer::marked(role.marker().sized(4.0), role.color(), shown);
+        panel = panel.with(Layer::curve(role, line).labelled(name)).with(marks);
     }
     Some(panel)
 }
@@ -119,7 +117,7 @@ pub(super) fn plane(scene: &Scene, borders: &Borders) -> Figure {
     let top = (1.2 * case[1]).max(3.0 * meeting);
     let y = if log { [0.4 * meeting.min(case[1]), 1.5 * top] } else { [0.0, top] };
     let kinds = [&of::DETUNING, &of::FORCING_PER_CLEARANCE];
-    let chart = Chart::new(scene, kinds, [borders.window(), y]).with_log([false, log]);
+    let chart = scene.chart(kinds, [borders.window(), y]).with_log([false, log]);
     let mut panel = chart.panel();
     panel.layers = borders.layers(&|detuning, gamma| [detuning, gamma], y);
     let facts = json!({
@@ -177,13 +175,13 @@ fn condition_marks(
 /// Which clearance gives a fixed point which amplitude: its top is the collision.
 fn condition_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
     let kinds = [&of::ABSORBER_AMPLITUDE_RATIO, &of::CLEARANCE];
-    let chart = Chart::new(scene, kinds, [Bifurcations::AMPLITUDES, y]);
+    let chart = scene.chart(kinds, [Bifurcations::AMPLITUDES, y]);
     let fold = scene.study.analysis.manifold.fold.absorber_amplitude;
     let mut panel = chart.panel().with_heading("clearance of a fixed point");
-    panel = panel.with(chart.vertical(fold, Role::Guide).labelled("fold"));
+    panel = panel.with(Layer::vertical(fold, Role::Guide).labelled("fold"));
     for (at, style) in data.conditions.iter().zip(STYLES) {
         let name = scene.text(&of::EXCITATION_FREQUENCY, at.ratio);
-        panel = panel.with(Layer::curve(style, chart.line(&at.line)).labelled(name));
+        panel = panel.with(Layer::curve(style, at.line.clone()).labelled(name));
     }
     let [hopf, collisions] = condition_marks(scene, data, &chart, |at| {
         [fold, at.collision.map_or(f64::NAN, |(_, amplitude, _)| amplitude)]
@@ -197,14 +195,12 @@ fn condition_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
 fn border_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
     let kinds = [&of::EXCITATION_FREQUENCY, &of::CLEARANCE];
     let window = data.borders.window().map(|detuning| scene.ratio(detuning));
-    let chart = Chart::new(scene, kinds, [window, y]);
-    let place =
-        |detuning: f64, gamma: f64| chart.at([scene.ratio(detuning), scene.clearance(gamma)]);
+    let chart = scene.chart(kinds, [window, y]);
+    let place = |detuning: f64, gamma: f64| [scene.ratio(detuning), scene.clearance(gamma)];
     let mut panel = chart.panel().with_heading("the boundaries");
-    panel.layers = data.borders.layers(&place, [chart.at(y)[1], 0.0]);
+    panel.layers = data.borders.layers(&place, [y[1], 0.0]);
     for (at, style) in data.conditions.iter().zip(STYLES) {
-        let rule = chart.vertical(at.ratio, Style { width: 1.1, ..style });
-        panel.layers.push(rule);
+        panel.layers.push(Layer::vertical(at.ratio, Style { width: 1.1, ..style }));
     }
     panel.layers.extend(condition_marks(scene, data, &chart, |at| [at.ratio; 2]));
     panel

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::motions::{DiagramPoint, SweepDirection};
 use crate::orbits::Bifurcation;
 use crate::quantity::catalogue as of;
+use crate::report::chart::Chart;
 use crate::report::figure::{
     Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Scale, Shape,
     Style,
@@ -15,7 +16,6 @@ use crate::study::plots::first_drawn;
 use crate::system::Parameter;
 
 use super::Scene;
-use super::chart::Chart;
 
 /// Longest time between impacts that is shown, in periods; a modulated motion has single longer ones.
 const LONGEST: f64 = 1.6;
@@ -70,12 +70,12 @@ pub(super) fn figure(scene: &Scene, diagram: &Diagram, bare: &[[f64; 2]]) -> Fig
     let kinds = [scene.kind(parameter), &of::PEAK];
     let upper = Heights {
         diagram,
-        chart: Chart::new(scene, kinds, [diagram.range, range]).with_log(log),
+        chart: scene.chart(kinds, [diagram.range, range]).with_log(log),
         simulated: peaks,
         exact: |point| vec![point.peak],
     };
-    let mut first = upper.chart.panel().with(upper.chart.vertical(own, Role::Guide));
-    let bare = upper.chart.curve(Role::BareOscillator, bare);
+    let mut first = upper.chart.panel().with(Layer::vertical(own, Role::Guide));
+    let bare = Layer::curve(Role::BareOscillator, bare.to_vec());
     first = first.with(bare.labelled("without absorber"));
     upper.draw(scene, &mut first, true);
     if let Some((found, _)) = first_drawn(scene.study) {
@@ -87,11 +87,11 @@ pub(super) fn figure(scene: &Scene, diagram: &Diagram, bare: &[[f64; 2]]) -> Fig
     let ranges = [diagram.range, [0.0, (1.0 + MARGIN) * longest]];
     let lower = Heights {
         diagram,
-        chart: Chart::new(scene, kinds, ranges).with_log([log[0], false]),
+        chart: scene.chart(kinds, ranges).with_log([log[0], false]),
         simulated: |point| point.intervals.clone(),
         exact: |point| point.intervals.clone(),
     };
-    let mut second = lower.chart.panel().with(lower.chart.vertical(own, Role::Guide));
+    let mut second = lower.chart.panel().with(Layer::vertical(own, Role::Guide));
     lower.draw(scene, &mut second, false);
     let name = match parameter {
         Parameter::Frequency => "diagram-frequency",
@@ -136,7 +136,7 @@ impl Heights<'_> {
         for (way, name, marker, color) in WAYS {
             let points = self.diagram.way(way).into_iter().flat_map(|point| {
                 let all = (self.simulated)(point).into_iter();
-                let all = all.map(|height| self.chart.at([point.value, height]));
+                let all = all.map(|height| [point.value, height]);
                 thinned(all.collect(), &part)
             });
             let layer = Layer::marked(marker, color, points);
@@ -174,7 +174,7 @@ impl Heights<'_> {
         let widest = found.max_by(|a, b| width(a).total_cmp(&width(b)))?;
         let middle = f64::midpoint(widest.values[0], widest.values[1]);
         let peak = widest.peaks[usize::from(way == SweepDirection::Down)];
-        Some(self.chart.at([middle, peak]))
+        Some([middle, peak])
     }
 
     /// All pieces of one stability as one line with gaps.
@@ -185,7 +185,7 @@ impl Heights<'_> {
             let all: Vec<Vec<f64>> = piece.points.iter().map(self.exact).collect();
             for k in 0..all.first().map_or(0, Vec::len) {
                 let points = piece.points.iter().zip(&all);
-                let points = points.map(|(point, all)| self.chart.at([point.value, all[k]]));
+                let points = points.map(|(point, all)| [point.value, all[k]]);
                 // Dashes over dashes would look solid.
                 let Some(points) = outside(points.collect(), &known) else { continue };
                 line.extend(points.iter().copied().chain([[f64::NAN; 2]]));

@@ -8,6 +8,7 @@ use crate::dissipation::SteadyState;
 use crate::motions::Motion;
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
+use crate::report::chart::Chart;
 use crate::report::figure::{
     Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
@@ -15,7 +16,6 @@ use crate::study::plots::dissipation::{AverageSource, Look, Looks};
 use crate::study::plots::{Dissipation, Line};
 
 use super::Scene;
-use super::chart::Chart;
 use super::regimes::mark;
 
 /// Both components of the force beside the frequency response.
@@ -25,11 +25,11 @@ pub(super) fn figure(scene: &Scene, data: &Dissipation) -> Figure {
     let forces = [0, 1].map(|k| {
         let looks = &data.forces[k];
         let kinds = [&of::OSCILLATOR_AMPLITUDE_RATIO, kinds[k]];
-        let chart = Chart::new(scene, kinds, [[0.0, top], range(looks)]);
+        let chart = scene.chart(kinds, [[0.0, top], range(looks)]);
         let mut panel = chart.panel();
         let error = Style::new(Color::Light, 1.0, Dash::Solid);
-        panel = panel.with(chart.curve(error, &data.errors[k]));
-        panel.layers.extend(layers(looks, &chart, k == 0));
+        panel = panel.with(Layer::curve(error, data.errors[k].clone()));
+        panel.layers.extend(layers(looks, k == 0));
         let place = |state: &SteadyState| {
             let branch = &data.averages.curve.branches[state.branch];
             branch.forces(state.amplitude).map(|(forces, _)| [state.amplitude, forces[k]])
@@ -56,16 +56,15 @@ fn response(scene: &Scene, data: &Dissipation) -> Panel {
     let highest = highest.chain(cycle.map(|[_, largest]| largest));
     let top = 1.08 * highest.fold(0.1, f64::max);
     let kinds = [&of::EXCITATION_FREQUENCY, &of::OSCILLATOR_AMPLITUDE_RATIO];
-    let chart = Chart::new(scene, kinds, [data.window, [0.0, top]]);
+    let chart = scene.chart(kinds, [data.window, [0.0, top]]);
     let ratio = scene.system().frequency_ratio();
     let mut panel = chart.panel().with_heading("response: unstable parts dashed");
-    panel = panel.with(chart.vertical(ratio, Role::Guide));
-    panel.layers.extend(layers(&data.response, &chart, false));
+    panel = panel.with(Layer::vertical(ratio, Role::Guide));
+    panel.layers.extend(layers(&data.response, false));
     panel.layers.extend(marks(scene, data, &chart, &|state| Some([ratio, state.amplitude])));
     if let Some(ends) = cycle {
         let style = Style::new(mark(Regime::StronglyModulated).1, 5.0, Dash::Solid);
-        let ends: Line = ends.map(|amplitude| [ratio, amplitude]).into();
-        let bar = chart.curve(style, &ends);
+        let bar = Layer::curve(style, ends.map(|amplitude| [ratio, amplitude]).into());
         panel = panel.with(bar.labelled("modulated cycle"));
     }
     let seen = seen.into_iter().map(|(found, amplitude)| {
@@ -89,7 +88,7 @@ fn range(looks: &Looks) -> [f64; 2] {
 
 /// Lines of what repeats, thick where it is a closed form, and points of what does not; thin and dashed, or hollow,
 /// where it is unstable.
-fn layers(looks: &Looks, chart: &Chart, named: bool) -> Vec<Layer> {
+fn layers(looks: &Looks, named: bool) -> Vec<Layer> {
     let layer = |look: &Look, line: &Line| {
         let (marker, color) = mark(look.regime());
         let dash = if look.stable { Dash::Solid } else { Dash::Dashed };
@@ -99,9 +98,9 @@ fn layers(looks: &Looks, chart: &Chart, named: bool) -> Vec<Layer> {
             _ => 1.8,
         };
         if look.known != AverageSource::Scattered {
-            return chart.curve(Style::new(color, width, dash), line);
+            return Layer::curve(Style::new(color, width, dash), line.clone());
         }
-        let points = line.iter().filter(|at| at[1].is_finite()).map(|at| chart.at(*at));
+        let points = line.iter().copied().filter(|at| at[1].is_finite());
         let marker = Marker { filled: look.stable, ..marker.sized(3.2) };
         Layer::marked(marker, color, points)
     };

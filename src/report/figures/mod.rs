@@ -1,11 +1,10 @@
 //! The figures of a report, made from the [`Plot`]s of a study.
 //!
-//! A figure places data on axes; names, units and prefixes come from the catalogue of quantities, title,
-//! caption and alternative text from `templates/captions/`.
+//! A figure places data on axes by what these show (`report/chart.rs`); title, caption and alternative text come
+//! from `templates/captions/`.
 
 pub(super) mod borders;
 mod boundaries;
-mod chart;
 mod diagram;
 mod dissipation;
 mod motions;
@@ -29,10 +28,10 @@ use crate::study::CaseStudy;
 use crate::study::plots::Plot;
 use crate::system::{Parameter, System};
 
+use super::chart::{Chart, Shown};
 use super::document::motions::found;
 use super::document::{Scale, theory};
-use super::figure::{Figure, Layer, MarkedPoint};
-use chart::Chart;
+use super::figure::{Axis, Figure, Layer, MarkedPoint};
 
 /// All figures of a report, in reading order; their words are still to be filled in by
 /// [`super::template::worded`].
@@ -165,6 +164,16 @@ impl<'a> Scene<'a> {
         self.units.number(kind.dimension, value * unit)
     }
 
+    /// An axis of dimensionless numbers.
+    fn axis(&self, kind: &Kind, range: [f64; 2]) -> Axis {
+        Shown::si(self.units, kind).counting(self.si(kind, 1.0)).axis(range)
+    }
+
+    /// Two of them that know their kinds.
+    fn chart(&self, kinds: [&'static Kind; 2], ranges: [[f64; 2]; 2]) -> Chart {
+        Chart { kinds, ranges, axes: [0, 1].map(|k| self.axis(kinds[k], ranges[k])) }
+    }
+
     /// A number with its unit.
     fn text(&self, kind: &Kind, value: f64) -> String {
         self.units.text(kind, self.si(kind, value))
@@ -192,13 +201,13 @@ impl<'a> Scene<'a> {
 
     /// A point with a tooltip that gives both of its coordinates.
     fn mark(&self, chart: &Chart, at: [f64; 2], what: &str) -> MarkedPoint {
-        let [x, y] = chart.kinds();
-        MarkedPoint::from(chart.at(at)).with_tooltip(self.tip(what, &[(x, at[0]), (y, at[1])]))
+        let [x, y] = chart.kinds;
+        MarkedPoint::from(at).with_tooltip(self.tip(what, &[(x, at[0]), (y, at[1])]))
     }
 
     /// The mark of the case.
     fn star(&self, chart: &Chart, at: [f64; 2]) -> Layer {
-        Layer::this_case(chart.at(at), self.mark(chart, at, "this case").tooltip)
+        Layer::this_case(at, self.mark(chart, at, "this case").tooltip)
     }
 
     /// What a parameter is.

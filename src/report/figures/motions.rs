@@ -12,7 +12,6 @@ use crate::study::plots::{Modulation, Restitutions};
 use crate::study::stretches::TraceStretch;
 
 use super::Scene;
-use super::chart::Chart;
 use super::parts;
 
 /// A long stretch of a motion, enlarged where it is captured and where it stays.
@@ -100,7 +99,7 @@ pub(super) fn restitutions(scene: &Scene, data: &Restitutions) -> Figure {
 fn manifolds(scene: &Scene, data: &Restitutions) -> Panel {
     let (last, top) = (2.4_f64.max(1.3 + data.level), 1.5_f64.max(1.3 * data.level));
     let chart = parts::amplitudes(scene, [0.0, last], [0.0, top]);
-    let rule = chart.horizontal(data.level, Role::Guide.style().colored(Color::Grey));
+    let rule = Layer::horizontal(data.level, Role::Guide.style().colored(Color::Grey));
     let rule = rule.labelled(Label::near("this case", [0.25 * last, data.level]));
     let mut panel = chart.panel().with_heading("manifolds: stable part thick").with(rule);
     let mut marks = Vec::new();
@@ -129,7 +128,7 @@ type ValueOf = fn(&Taken) -> f64;
 fn over_restitution(scene: &Scene, data: &Restitutions) -> Panel {
     let highest = data.taken.iter().map(|at| at.harmonic.max(at.damping)).fold(0.0, f64::max);
     let kinds = [&of::RESTITUTION, &of::HARMONIC_AMPLITUDE_RATIO];
-    let chart = Chart::new(scene, kinds, [[0.0, 1.0], [0.0, 1.12 * highest]]);
+    let chart = scene.chart(kinds, [[0.0, 1.0], [0.0, 1.12 * highest]]);
     let mut panel = chart.panel().with_heading("at this amplitude: stable part thick");
     let values: [(&str, Color, ValueOf); 2] = [
         ("E/b", Color::SkyBlue, |at| at.harmonic),

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::quantity::{Kind, catalogue as of};
 use crate::regimes::Amplitudes;
+use crate::report::chart::FITTED;
 use crate::report::figure::{
     Color, Dash, Figure, Fill, Hatch, Layer, Layout, MarkedPoint, Marker, Panel, Role, Style,
 };
@@ -16,7 +17,6 @@ use crate::study::stretches::{TraceStretch, impulse};
 use crate::system::{Excitation, State, System};
 
 use super::Scene;
-use super::chart::{Chart, FITTED};
 use super::parts;
 
 /// Up to so many impacts have a tooltip.
@@ -25,7 +25,8 @@ const TOOLTIPS: usize = 40;
 /// A quantity over time between two periods; the axis counts from `start`.
 struct Series<'a> {
     trace: &'a Trace,
-    chart: Chart,
+    /// Still empty.
+    panel: Panel,
     window: [f64; 2],
     start: f64,
 }
@@ -38,8 +39,8 @@ impl<'a> Series<'a> {
         window: [f64; 2],
         start: f64,
     ) -> Self {
-        let x = window.map(|at| at - start);
-        Self { trace, chart: Chart::new(scene, [&of::TIME, kind], [x, range]), window, start }
+        let time = scene.axis(&of::TIME, window.map(|at| at - start));
+        Self { trace, panel: Panel::new(time, scene.axis(kind, range)), window, start }
     }
 
     /// A line of what `value` says of each sample.
@@ -48,7 +49,7 @@ impl<'a> Series<'a> {
         let inside = self.trace.points.iter();
         let inside = inside.filter(|point| (first..=last).contains(&point.periods));
         let points = inside.map(|point| [point.periods - self.start, value(point)]);
-        self.chart.curve(role, &points.collect::<Vec<_>>())
+        Layer::curve(role, points.collect())
     }
 
     fn impacts(&self) -> impl Iterator<Item = (f64, &'a Impact)> {
@@ -63,8 +64,8 @@ impl<'a> Series<'a> {
         let marks = self.impacts().map(|(time, impact)| {
             let strength = impulse(scene.system().mass_ratio(), impact);
             let tip = scene.tip("impact", &[(&of::TIME, time), (&of::IMPULSE, strength)]);
-            let place = self.chart.at([time, value(time + self.start, impact)]);
-            MarkedPoint { tooltip: few.then_some(tip), ..MarkedPoint::from(place) }
+            let mark = MarkedPoint::new(time, value(time + self.start, impact));
+            MarkedPoint { tooltip: few.then_some(tip), ..mark }
         });
         Layer::points(Role::Impact, marks)
     }
@@ -76,13 +77,13 @@ pub(super) fn motion(scene: &Scene, data: &MotionTrace) -> Figure {
     let series = |kind, range| Series::new(scene, &data.trace, (kind, range), window, 0.0);
     let top = series(&of::DISPLACEMENT, FITTED);
     let low = series(&of::RELATIVE_DISPLACEMENT, [-1.35, 1.35]);
-    let first = top.chart.panel().with(top.curve(Role::Simulation, &|point| point.state.x));
+    let first = top.panel.clone().with(top.curve(Role::Simulation, &|point| point.state.x));
     let gap = low.curve(Role::Simulation, &|point| point.state.relative_displacement());
     let second = low
-        .chart
-        .panel()
-        .with(low.chart.horizontal(1.0, Role::Guide).labelled("walls at ±b"))
-        .with(low.chart.horizontal(-1.0, Role::Guide))
+        .panel
+        .clone()
+        .with(Layer::horizontal(1.0, Role::Guide).labelled("walls at ±b"))
+        .with(Layer::horizontal(-1.0, Role::Guide))
         .with(gap)
         .with(low.marks(scene, &|_, impact| impact.side.sign()).labelled("impacts"));
     let number = data.index + 1;
@@ -172,25 +173,24 @@ fn capture_panel(
     let line: Vec<[f64; 2]> =
         shown.iter().enumerate().map(|(k, one)| [k as f64 + 0.5, value(one)]).collect();
     let top = 1.1 * line.iter().map(|at| at[1]).fold(0.0, f64::max);
-    let chart = Chart::new(scene, [&of::TIME, kind], [[0.0, shown.len() as f64], [0.0, top]]);
-    let mut panel = chart.panel();
+    let time = scene.axis(&of::TIME, [0.0, shown.len() as f64]);
+    let mut panel = Panel::new(time, scene.axis(kind, [0.0, top]));
     let mut first = 0;
     for run in shown.chunk_by(|a, b| a.captured == b.captured) {
         let ends = [first, first + run.len()].map(|period| period as f64);
         if run[0].captured {
             let fill = Fill { color: Color::BluishGreen, opacity: 0.15, hatch: Hatch::None };
-            let side = |y: f64| ends.map(|x| chart.at([x, y]));
+            let side = |y: f64| ends.map(|x| [x, y]);
             panel.layers.push(Layer::between(&side(0.0), &side(top), fill));
         }
         first += run.len();
     }
-    panel = panel.with(chart.curve(Role::Simulation, &line));
+    panel = panel.with(Layer::curve(Role::Simulation, line.clone()));
     let named = kind.id == of::HARMONIC_AMPLITUDE.id;
     for (captured, name) in [(true, "in a capture"), (false, "between captures")] {
         let chosen = line.iter().zip(shown).filter(|(_, one)| one.captured == captured);
-        let marks = chart.line(chosen.map(|(at, _)| at));
         let marker = Marker { filled: captured, ..Role::Simulation.marker().sized(3.6) };
-        let layer = Layer::marked(marker, Role::Simulation.color(), marks);
+        let layer = Layer::marked(marker, Role::Simulation.color(), chosen.map(|(at, _)| *at));
         panel = panel.with(if named { layer.labelled(name) } else { layer });
     }
     panel
@@ -224,8 +224,8 @@ pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
     let series = |kind, range| Series::new(scene, &data.trace, (kind, range), window, window[0]);
     let top = series(&of::DISPLACEMENT, FITTED);
     let first = top
-        .chart
-        .panel()
+        .panel
+        .clone()
         .with(excitation(scene, &top))
         .with(top.curve(Role::Simulation, &|point| point.state.x).labelled("oscillator"));
     // In the middle of its jump.
@@ -236,8 +236,8 @@ pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
     let middle = series(&of::ACCELERATION, FITTED);
     let smooth = |point: &TracePoint| acceleration(system, point.periods, &point.state);
     let second = middle
-        .chart
-        .panel()
+        .panel
+        .clone()
         .with(middle.curve(Role::Simulation, &smooth))
         .with(middle.marks(scene, &struck).labelled("impacts"));
     let strength = |impact: &Impact| impulse(system.mass_ratio(), impact);
@@ -248,7 +248,7 @@ pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
         .flat_map(|(time, impact)| [[time, 0.0], [time, strength(impact)], [f64::NAN; 2]])
         .collect();
     let style = Style::new(Color::Vermillion, 1.6, Dash::Solid);
-    let third = low.chart.panel().with(Layer::curve(style, low.chart.line(&stems)));
+    let third = low.panel.clone().with(Layer::curve(style, stems));
     scene
         .figure("transfer", "captions/transfer", transfer_facts(scene, data, largest))
         .with_size(860, 620)
@@ -303,8 +303,8 @@ fn stretch_panel(scene: &Scene, data: &Transfer, name: &str, part: &Part) -> Pan
     let kind = (&of::DISPLACEMENT, FITTED);
     let series = Series::new(scene, &data.trace, kind, window, data.window.first as f64);
     series
-        .chart
-        .panel()
+        .panel
+        .clone()
         .with_heading(name)
         .with(excitation(scene, &series))
         .with(series.curve(Role::Simulation, &|point| point.state.x).labelled("oscillator"))

@@ -4,11 +4,11 @@ use super::regimes::mark;
 use crate::analysis::{FixedPoint, Manifold};
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
+use crate::report::chart::Chart;
 use crate::report::figure::{Color, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Style};
 use crate::study::plots::{Levels, Line};
 
 use super::Scene;
-use super::chart::Chart;
 
 const fn tint(color: Color, opacity: f64) -> Fill {
     Fill { color, opacity, hatch: Hatch::None }
@@ -24,7 +24,7 @@ const SAMPLES: u32 = 200;
 
 /// The plane of the manifold up to these amplitudes.
 pub(super) fn amplitudes(scene: &Scene, x: [f64; 2], y: [f64; 2]) -> Chart {
-    Chart::new(scene, [&of::ABSORBER_AMPLITUDE_RATIO, &of::OSCILLATOR_AMPLITUDE_RATIO], [x, y])
+    scene.chart([&of::ABSORBER_AMPLITUDE_RATIO, &of::OSCILLATOR_AMPLITUDE_RATIO], [x, y])
 }
 
 /// The manifold between two values of `B/b - 1`.
@@ -101,11 +101,11 @@ pub(super) fn by_regime(found: &[(Regime, MarkedPoint)], named: bool) -> Vec<Lay
     Regime::ALL.map(layer).into()
 }
 
-/// The areas as bands of `C/b` over the whole of a panel, in the units of its axes.
+/// The areas as bands of `C/b` over the whole of a panel.
 pub(super) fn levels(levels: &Levels, chart: &Chart) -> Vec<Layer> {
-    let ([first, last], [bottom, top]) = (chart.range(0), chart.range(1));
+    let [[first, last], [bottom, top]] = chart.ranges;
     let band = |name: &str, low: f64, high: f64, fill| {
-        let side = |y| [chart.at([first, y]), chart.at([last, y])];
+        let side = |y| [[first, y], [last, y]];
         (low < high.min(top))
             .then(|| Layer::between(&side(low), &side(high.min(top)), fill).labelled(name))
     };

@@ -6,13 +6,13 @@ use crate::band::Survey;
 use crate::case::BandOver;
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
+use crate::report::chart::Chart;
 use crate::report::figure::{
     Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
 use crate::study::plots::{Amplitude, BandCurves};
 use crate::study::scenes::WalkPoint;
 
-use super::chart::Chart;
 use super::parts;
 use super::{Ends, Scene};
 
@@ -31,21 +31,21 @@ pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
         BandOver::Frequency => &of::EXCITATION_FREQUENCY,
         BandOver::Amplitude => scene.forcing.0,
     };
-    let chart = Chart::new(scene, [kind, &of::PEAK], [band.range, [0.0, top]]);
+    let chart = scene.chart([kind, &of::PEAK], [band.range, [0.0, top]]);
     let damper = Style::new(Color::Orange, 1.6, Dash::LongDashed);
     let marks = found.iter().map(|(at, what)| scene.mark(&chart, *at, what));
     let marker = Marker::filled(Shape::Cross).sized(7.0);
     let [stable, unstable] = &data.orbits;
     let mut panel = chart
         .panel()
-        .with(chart.curve(Role::BareOscillator, &data.bare).labelled("without absorber"))
-        .with(chart.curve(damper, &data.damper).labelled("tuned mass damper"))
-        .with(chart.curve(Role::Unstable, unstable).labelled("unstable 1:1"))
-        .with(chart.curve(Role::Stable, stable).labelled("stable 1:1 (exact)"))
+        .with(Layer::curve(Role::BareOscillator, data.bare.clone()).labelled("without absorber"))
+        .with(Layer::curve(damper, data.damper.clone()).labelled("tuned mass damper"))
+        .with(Layer::curve(Role::Unstable, unstable.clone()).labelled("unstable 1:1"))
+        .with(Layer::curve(Role::Stable, stable.clone()).labelled("stable 1:1 (exact)"))
         .with(Layer::marked(marker, Role::Simulation.color(), marks).labelled("simulated"));
     if let Some(limit) = scene.limit.filter(|limit| *limit < top) {
         let style = Style::new(Color::Vermillion, 1.4, Dash::Dotted);
-        panel = panel.with(chart.horizontal(limit, style).labelled("limit"));
+        panel = panel.with(Layer::horizontal(limit, style).labelled("limit"));
     }
     let zones = survey.zones().iter().map(|zone| {
         let ends = [zone.from, zone.to].map(|at| scene.si(kind, at));
@@ -86,13 +86,13 @@ fn beside_orbits(scene: &Scene, survey: &Survey) -> Vec<([f64; 2], String)> {
 /// With and without absorber over frequency.
 pub(super) fn amplitude(scene: &Scene, data: &Amplitude) -> Figure {
     let kinds = [&of::EXCITATION_FREQUENCY, &of::PEAK];
-    let chart = Chart::new(scene, kinds, [data.window, [0.0, data.top]]);
+    let chart = scene.chart(kinds, [data.window, [0.0, data.top]]);
     let [stable, unstable] = &data.theory;
     let mut panel = chart
         .panel()
-        .with(chart.curve(Role::BareOscillator, &data.bare).labelled("without absorber"))
-        .with(chart.curve(Role::Unstable, unstable).labelled("unstable 1:1"))
-        .with(chart.curve(Role::Stable, stable).labelled("stable 1:1 (theory)"));
+        .with(Layer::curve(Role::BareOscillator, data.bare.clone()).labelled("without absorber"))
+        .with(Layer::curve(Role::Unstable, unstable.clone()).labelled("unstable 1:1"))
+        .with(Layer::curve(Role::Stable, stable.clone()).labelled("stable 1:1 (theory)"));
     for (attracts, name) in [(true, "exact stable orbit"), (false, "exact unstable orbit")] {
         let chosen = data.exact.iter().filter(|(_, one)| one.orbit.attracts() == attracts);
         let marks = chosen.map(|(ratio, one)| {
@@ -159,10 +159,10 @@ fn walked(
         let what = format!("{}, {}", scene.at_clearance(point.clearance), point.regime.words());
         (point.regime, scene.mark(chart, place(point), &what))
     });
-    let named = chart.kinds()[1].id == of::PEAK.id;
+    let named = chart.kinds[1].id == of::PEAK.id;
     let mut layers = parts::by_regime(&marks.collect::<Vec<_>>(), named);
     if let Some(here) = found.iter().find(|point| point.clearance == 1.0) {
-        layers.push(Layer::this_case(chart.at(place(here)), Some("this case".to_owned())));
+        layers.push(Layer::this_case(place(here), None));
     }
     layers
 }
@@ -190,19 +190,19 @@ fn over_clearance(scene: &Scene, found: &[WalkPoint]) -> Panel {
     let highest = found.iter().map(|point| point.peak).chain(bare).fold(0.0, f64::max);
     let ends = [found.first(), found.last()].map(|at| at.map_or(1.0, |at| at.clearance));
     let ranges = [[0.9 * ends[0], 1.15 * ends[1]], [0.0, 1.15 * highest]];
-    let chart = Chart::new(scene, [&of::CLEARANCE, &of::PEAK], ranges).with_log([true, false]);
+    let chart = scene.chart([&of::CLEARANCE, &of::PEAK], ranges).with_log([true, false]);
     let Ends { breaking, hopf, .. } = scene.ends;
     let mut panel = chart
         .panel()
         .with_heading("peak displacement")
-        .with(chart.vertical(breaking, Role::SymmetryBreaking).labelled("breaking"))
-        .with(chart.vertical(hopf, Role::Hopf).labelled("Hopf"));
+        .with(Layer::vertical(breaking, Role::SymmetryBreaking).labelled("breaking"))
+        .with(Layer::vertical(hopf, Role::Hopf).labelled("Hopf"));
     let last = scene.study.margins.clearance.iter().map(|at| at.clearance).fold(hopf, f64::max);
     if last > 1.02 * hopf {
-        panel = panel.with(chart.vertical(last, Role::SaddleNode).labelled("collision"));
+        panel = panel.with(Layer::vertical(last, Role::SaddleNode).labelled("collision"));
     }
     if let Some(bare) = bare {
-        let rule = chart.horizontal(bare, Role::BareOscillator);
+        let rule = Layer::horizontal(bare, Role::BareOscillator);
         panel = panel.with(rule.labelled("without absorber"));
     }
     panel.layers.extend(walked(scene, found, &chart, |point| [point.clearance, point.peak]));

@@ -5,13 +5,12 @@ use serde_json::{Value, json};
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::report::figure::{
-    Axis, Color, Dash, Figure, Fill, Hatch, Layer, Layout, MarkedPoint, Marker, Panel, Shape,
-    Style, Tick,
+    Axis, Color, Dash, Figure, Fill, Hatch, Layer, Layout, MarkedPoint, Marker, Panel, Scale,
+    Shape, Style, Tick,
 };
 use crate::study::plots::Ranges;
 
 use super::Scene;
-use super::chart::Chart;
 
 /// Thickness of a bar in pixels.
 const BAR: f64 = 9.0;
@@ -73,8 +72,8 @@ fn panel(scene: &Scene, data: &Ranges) -> Panel {
     let span = ends.fold([here; 2], |[low, high], end| [low.min(*end), high.max(*end)]);
     let span = if span[0] < span[1] { span } else { [0.9 * here, 1.1 * here] };
     let edges = [-ROOM, 1.0 + ROOM].map(|part| parameter.between(span, part));
-    let log = parameter.is_logarithmic();
-    let chart = Chart::new(scene, [kind; 2], [edges; 2]).with_log([log, false]);
+    let scale = if parameter.is_logarithmic() { Scale::Log } else { Scale::Linear };
+    let x = scene.axis(kind, edges).with_scale(scale);
     let count = rows(data);
     let row = |index: usize| count - 0.5 - index as f64;
     let tick = |(index, (layer, _)): (usize, &(Method, _))| Tick {
@@ -83,17 +82,17 @@ fn panel(scene: &Scene, data: &Ranges) -> Panel {
     };
     let ticks = data.layers.iter().enumerate().map(tick).collect();
     let y = Axis::of_ticks((0.0, count + ABOVE), ticks);
-    let star = [chart.at([here, 0.0])[0], count + 0.5 * ABOVE];
-    let mut panel = Panel { y, ..chart.panel() }
-        .with(chart.vertical(here, Style::new(Color::Black, 1.0, Dash::Dashed)))
+    let star = [here, count + 0.5 * ABOVE];
+    let mut panel = Panel::new(x, y)
+        .with(Layer::vertical(here, Style::new(Color::Black, 1.0, Dash::Dashed)))
         .with(Layer::this_case(star, Some(scene.tip("this case", &[(kind, here)]))));
     if data.layers.is_empty() {
-        let middle = chart.at([parameter.between(span, 0.5), 0.0])[0];
+        let middle = parameter.between(span, 0.5);
         panel = panel.with(Layer::note([middle, row(0)], "no range is known"));
     }
     let necks = [HEAD - ROOM, 1.0 + ROOM - HEAD].map(|part| parameter.between(span, part));
     for (index, (layer, ranges)) in data.layers.iter().enumerate() {
-        let place = |value: f64| [chart.at([value, 0.0])[0], row(index)];
+        let place = |value: f64| [value, row(index)];
         let (what, color) = look(*layer);
         for range in ranges {
             let ends = [0, 1].map(|k| range[k].unwrap_or(necks[k]));

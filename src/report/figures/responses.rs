@@ -11,7 +11,6 @@ use crate::study::plots::responses::BAND;
 use crate::study::plots::restitutions::observed;
 use crate::study::plots::{Areas, Responses, drawn};
 
-use super::chart::Chart;
 use super::parts;
 use super::{Ends, Scene};
 
@@ -47,7 +46,7 @@ pub(super) fn manifold(scene: &Scene) -> Figure {
         .with(Layer::marked(Role::Guide.marker().sized(6.0), Color::Black, special));
     let looks = parts::own_points();
     let points = parts::fixed_points(scene, &analysis.fixed_points, looks, &|point| {
-        chart.at([point.absorber_amplitude, point.oscillator_amplitude])
+        [point.absorber_amplitude, point.oscillator_amplitude]
     });
     for (layer, stable) in points.into_iter().zip([true, false]) {
         let count = analysis.fixed_points.iter().filter(|point| point.stable == stable).count();
@@ -96,7 +95,7 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
     let reach = last.min(data.heights[1] + 1.0);
     let left = parts::amplitudes(scene, [0.0, last], data.heights).with_log([false, log]);
     let kinds = [&of::EXCITATION_FREQUENCY, &of::OSCILLATOR_AMPLITUDE_RATIO];
-    let right = Chart::new(scene, kinds, [data.window, data.heights]).with_log([false, log]);
+    let right = scene.chart(kinds, [data.window, data.heights]).with_log([false, log]);
     let [unstable, stable] = parts::manifold_layers(&analysis.manifold, reach);
     let mut first = left.panel().with_heading("manifold");
     first.layers.extend(parts::levels(&data.levels, &left));
@@ -107,7 +106,7 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
         let own = data.own && k + 1 == data.members.len();
         let (color, dash) =
             if own { (Color::Black, Dash::Dashed) } else { STYLES[k % STYLES.len()] };
-        let [stable, unstable] = [0, 1].map(|part| right.line(&member.lines[part]));
+        let [stable, unstable] = member.lines.clone();
         let width = if own { 3.4 } else { 2.2 };
         let name = scene.at_clearance(member.clearance);
         let name = if own { format!("{name}, this case") } else { name };
@@ -117,13 +116,13 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
     }
     if data.own {
         let ratio = scene.system().frequency_ratio();
-        second.layers.insert(0, right.vertical(ratio, Role::Guide));
+        second.layers.insert(0, Layer::vertical(ratio, Role::Guide));
         let (points, looks) = (&analysis.fixed_points, parts::own_points());
         first.layers.extend(parts::fixed_points(scene, points, looks, &|point| {
-            left.at([point.absorber_amplitude, point.oscillator_amplitude])
+            [point.absorber_amplitude, point.oscillator_amplitude]
         }));
         second.layers.extend(parts::fixed_points(scene, points, looks, &|point| {
-            right.at([ratio, point.oscillator_amplitude])
+            [ratio, point.oscillator_amplitude]
         }));
     }
     let name = if data.own { "response" } else { "forcing-responses" };
@@ -155,25 +154,24 @@ pub(super) fn areas(scene: &Scene, data: &Areas) -> Figure {
     let reach = 1.12 * last.map_or(hopf, |last| last.max(hopf));
     let left = parts::amplitudes(scene, [0.0, Areas::WIDEST], [0.0, top]);
     let kinds = [&of::CLEARANCE, &of::OSCILLATOR_AMPLITUDE_RATIO];
-    let right = Chart::new(scene, kinds, [[0.4 * breaking, reach], [0.0, top]]);
+    let right = scene.chart(kinds, [[0.4 * breaking, reach], [0.0, top]]);
     let mut first = left.panel().with_heading("on the manifold");
     first.layers.extend(parts::levels(&data.levels, &left));
     first.layers.extend(parts::manifold_layers(manifold, Areas::WIDEST));
     let mut second = right.panel().with_heading("over the clearance");
     second.layers.extend(parts::levels(&data.levels, &right));
     let [stable, unstable] = &data.lines;
-    let near = |at, height| {
-        Label::near(height, right.at([at, if height == "Hopf" { 0.6 } else { 0.8 } * top]))
-    };
+    let near =
+        |at, height| Label::near(height, [at, if height == "Hopf" { 0.6 } else { 0.8 } * top]);
     second = second
-        .with(right.curve(Role::Unstable, unstable).labelled("unstable"))
-        .with(right.curve(Role::Stable, stable).labelled("stable"))
-        .with(right.vertical(hopf, Role::Hopf).labelled(near(hopf, "Hopf")));
+        .with(Layer::curve(Role::Unstable, unstable.clone()).labelled("unstable"))
+        .with(Layer::curve(Role::Stable, stable.clone()).labelled("stable"))
+        .with(Layer::vertical(hopf, Role::Hopf).labelled(near(hopf, "Hopf")));
     if let Some(last) = last {
         second =
-            second.with(right.vertical(last, Role::SaddleNode).labelled(near(last, "collision")));
+            second.with(Layer::vertical(last, Role::SaddleNode).labelled(near(last, "collision")));
     }
-    chosen(scene, data, [&left, &right], [&mut first, &mut second]);
+    chosen(scene, data, [&mut first, &mut second]);
     scene
         .figure("areas", "captions/areas", json!({ "levels": data.levels }))
         .with_size(860, 450)
@@ -191,13 +189,13 @@ const LOOKS: [(Color, Shape); 5] = [
 ];
 
 /// The fixed points of some clearances in both panels: stable ones filled, others hollow.
-fn chosen(scene: &Scene, data: &Areas, charts: [&Chart; 2], panels: [&mut Panel; 2]) {
+fn chosen(scene: &Scene, data: &Areas, panels: [&mut Panel; 2]) {
     for ((clearance, points), (color, shape)) in data.chosen.iter().zip(LOOKS) {
         let looks = [Marker::filled(shape), Marker::hollow(shape)].map(|marker| (marker, color));
         let [left, right] = [0, 1].map(|k| {
             parts::fixed_points(scene, points, looks, &|point| {
                 let x = if k == 0 { point.absorber_amplitude } else { *clearance };
-                charts[k].at([x, point.oscillator_amplitude])
+                [x, point.oscillator_amplitude]
             })
         });
         let named = usize::from(points.iter().all(|point| !point.stable));

@@ -7,6 +7,7 @@ use crate::motions::Motion;
 use crate::quantity::{Quantity, catalogue as of};
 use crate::regimes::return_map::pairs;
 use crate::regimes::{Exponent, Regime};
+use crate::report::chart::FITTED;
 use crate::report::figure::{
     Cells, Color, Dash, Figure, Fill, Hatch, Image, Key, Label, Layer, MarkedPoint, Marker, Role,
     Rule, Style, Tint,
@@ -14,7 +15,6 @@ use crate::report::figure::{
 use crate::study::plots::{MotionExponents, StartPlane, drawn};
 
 use super::Scene;
-use super::chart::{Chart, FITTED};
 use super::regimes::tint;
 
 /// At most so many points of a return map, the last ones.
@@ -35,7 +35,7 @@ pub(super) fn return_map(scene: &Scene, index: usize) -> Option<Figure> {
     let largest = points.iter().flatten().copied().reduce(f64::max)?;
     let end = (1.08 * largest).clamp(ENDS[0], ENDS[1]);
     let kinds = [&of::IMPACT_INTERVAL, &of::NEXT_INTERVAL];
-    let chart = Chart::new(scene, kinds, [[0.0, end]; 2]);
+    let chart = scene.chart(kinds, [[0.0, end]; 2]);
     let few = points.len() <= SINGLE;
     let marker = Marker::dot().sized(if few { 8.0 } else { 3.6 });
     let marks = points.iter().map(|at| {
@@ -101,15 +101,15 @@ const TINTS: [Tint; 5] = [
 pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
     let cells = data.motions.led();
     let kinds = [&of::DISPLACEMENT, &of::VELOCITY];
-    let chart = Chart::new(scene, kinds, [[-data.reach, data.reach]; 2]);
-    let edges: Vec<[f64; 2]> = data.edges().map(|edge| chart.at([edge; 2])).collect();
+    let chart = scene.chart(kinds, [[-data.reach, data.reach]; 2]);
+    let edges: Vec<f64> = data.edges().collect();
     // What still settles leads nowhere that is known.
     let settled = |index: &usize| data.motions.get(*index).is_some_and(Motion::settled);
     let leads = |cell: &Option<usize>| cell.filter(settled);
     let kind = |cell: &Option<usize>| leads(cell).map(|index| index.min(TINTS.len() - 1) as u8);
     let image = Image {
-        x_edges: edges.iter().map(|edge| edge[0]).collect(),
-        y_edges: edges.iter().map(|edge| edge[1]).collect(),
+        x_edges: edges.clone(),
+        y_edges: edges,
         cells: Cells::Kinds(TINTS.to_vec(), cells.iter().map(kind).collect()),
     };
     let share = |wanted: Option<usize>| {
@@ -145,8 +145,8 @@ pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
 pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figure> {
     data.first()?;
     let kinds = [&of::WINDOW, &of::LYAPUNOV_EXPONENT];
-    let chart = Chart::new(scene, kinds, [FITTED; 2]).with_log([true, false]);
-    let mut panel = chart.panel().with(chart.horizontal(0.0, Role::Guide));
+    let chart = scene.chart(kinds, [FITTED; 2]).with_log([true, false]);
+    let mut panel = chart.panel().with(Layer::horizontal(0.0, Role::Guide));
     let mut motions = Vec::new();
     for (one, color) in data.iter().zip([Color::Blue, Color::Vermillion, Color::BluishGreen]) {
         let line = |value: fn(&Exponent) -> f64| -> Vec<[f64; 2]> {
@@ -163,7 +163,7 @@ pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figur
         panel = panel.with(exponent.labelled(name));
         if let Some(exact) = one.exact {
             let style = Style { dash: Dash::Dashed, ..Role::ExactOrbit.style() };
-            let rule = chart.horizontal(exact, style);
+            let rule = Layer::horizontal(exact, style);
             panel = panel.with(rule.labelled("logarithm of the multiplier"));
         }
         let last = one.exponents.last()?;

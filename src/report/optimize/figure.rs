@@ -5,9 +5,10 @@ use super::kind;
 use crate::case::{Case, Objective};
 use crate::optimize::Optimization;
 use crate::optimize::chart::Suited;
-use crate::quantity::{Dimension, Units, catalogue};
+use crate::quantity::{Kind, Units, catalogue};
+use crate::report::chart::{FITTED, Shown};
 use crate::report::figure::{
-    Axis, Color, Dash, Figure, Fill, Label, Layer, MarkedPoint, Marker, Panel, Role, Rule, Shape,
+    Axis, Color, Dash, Figure, Fill, Label, Layer, MarkedPoint, Marker, Panel, Role, Scale, Shape,
     Style,
 };
 
@@ -19,7 +20,7 @@ const GUIDE: Style = Style::new(Color::Grey, 1.4, Dash::Dotted);
 /// Both figures.
 pub fn figures(case: &Case, found: &Optimization) -> Vec<Figure> {
     let context = super::context(case, found);
-    let drawing = Drawing { case, found, units: case.units() };
+    let drawing = Drawing { found, units: case.units() };
     let mut figures =
         vec![drawing.landscape().with_facts("captions/optimize-landscape", context.clone())];
     let chart = drawing.chart();
@@ -36,19 +37,14 @@ pub(super) fn nearest(found: &Optimization) -> Option<&Suited> {
 }
 
 struct Drawing<'a> {
-    case: &'a Case,
     found: &'a Optimization,
     units: Units,
 }
 
 impl Drawing<'_> {
-    /// A length in the units of the axes.
-    fn length(&self, length: f64) -> f64 {
-        length / self.units.unit(Dimension::Length, self.found.own.choice.clearance()).size
-    }
-
-    fn clearances(&self) -> String {
-        self.units.axis_label(&catalogue::CLEARANCE, self.found.own.choice.clearance())
+    /// An axis of numbers in SI.
+    fn axis(&self, kind: &Kind, range: [f64; 2], scale: Scale) -> Axis {
+        Shown::si(self.units, kind).axis(range).with_scale(scale)
     }
 
     fn landscape(&self) -> Figure {
@@ -57,43 +53,37 @@ impl Drawing<'_> {
         let kind = kind(found.task.objective);
         let values = found.landscape.iter().map(|place| place.1).filter(|value| value.is_finite());
         let largest = values.fold(0.0, f64::max);
-        let unit = self.units.axis_unit(kind, largest).size;
-        let place = |at: f64, value: f64| [self.length(at), value / unit];
-        let [low, high] =
-            [found.task.bounds[0].from, found.task.bounds[0].to].map(|at| self.length(at));
-        let x = Axis::log(self.clearances()).with_range(low, high);
-        let mut panel = Panel::new(x, Axis::linear(self.units.axis_label(kind, largest)));
+        let [low, high] = [found.task.bounds[0].from, found.task.bounds[0].to];
+        let x = self.axis(&catalogue::CLEARANCE, [low, high], Scale::Log);
+        let mut panel = Panel::new(x, Shown::si(self.units, kind).axis_up_to(largest, FITTED));
         let finite = found.landscape.iter().filter(|(_, value)| value.is_finite());
-        let cheap = finite.map(|(at, value)| place(*at, *value));
+        let cheap = finite.map(|(at, value)| [*at, *value]);
         // A coarse survey scatters: nothing is known between its places.
         panel.layers.push(if amplitude {
             let small = Marker::filled(Shape::Circle).sized(2.0);
-            let points = cheap.map(|[x, y]| MarkedPoint::new(x, y));
-            Layer::marked(small, Color::Grey, points).labelled("coarse survey")
+            Layer::marked(small, Color::Grey, cheap).labelled("coarse survey")
         } else {
-            Layer::curve(Role::Stable, cheap.collect::<Vec<_>>()).labelled("as written")
+            Layer::curve(Role::Stable, cheap.collect()).labelled("as written")
         });
         let own = found.own.choice.clearance();
         let end = found.claim.map(|claim| claim.end_clearance * own);
         let end = (end, "1:1 disappears", Style::new(Color::Vermillion, 1.4, Dash::DashDot));
         for (at, name, style) in [(Some(own), "the case", GUIDE), end] {
-            let at = at.map(|at| self.length(at)).filter(|at| low < *at && *at < high);
-            let rule = at.map(|at| Layer::rule(Rule::Vertical(at), style).labelled(name));
-            panel.layers.extend(rule);
+            let at = at.filter(|at| low < *at && *at < high);
+            panel.layers.extend(at.map(|at| Layer::vertical(at, style).labelled(name)));
         }
-        panel.layers.extend(self.judged(unit));
+        panel.layers.extend(self.judged());
         Figure::new("optimize-landscape", "").with_panel(panel)
     }
 
-    /// What was judged as `check` judges its case, the optimum and the robust one as marks; heights in `unit`.
-    fn judged(&self, unit: f64) -> Vec<Layer> {
+    /// What was judged as `check` judges its case, the optimum and the robust one as marks.
+    fn judged(&self) -> Vec<Layer> {
         let (found, kind) = (self.found, kind(self.found.task.objective));
         let amplitude = found.task.objective == Objective::WorstAmplitude;
         let mark = |[at, value, error]: [f64; 3], name: &str| {
             let told = self.units.with_error(kind, value, error, kind.digits);
             let clearance = self.units.text(&catalogue::CLEARANCE, at);
-            MarkedPoint::new(self.length(at), value / unit)
-                .with_tooltip(format!("{name}{clearance}: {told}"))
+            MarkedPoint::new(at, value).with_tooltip(format!("{name}{clearance}: {told}"))
         };
         let mut layers = Vec::new();
         for (feasible, name, shape, color) in [
@@ -126,14 +116,9 @@ impl Drawing<'_> {
     /// `None` where no clearance suits any of the frequencies.
     fn chart(&self) -> Option<Figure> {
         let found = self.found;
-        let units = self.case.units();
-        let frequency = |omega: f64| units.frequency(omega);
+        let clearances = |scale| self.axis(&catalogue::CLEARANCE, FITTED, scale);
         let suited = |of: &dyn Fn(&Suited) -> Option<f64>| -> Vec<[f64; 2]> {
-            let placed = found
-                .chart
-                .iter()
-                .filter_map(|one| Some([frequency(one.frequency_ratio), self.length(of(one)?)]));
-            placed.collect()
+            found.chart.iter().filter_map(|one| Some([one.frequency_ratio, of(one)?])).collect()
         };
         let best = suited(&|one| one.best);
         let largest = best.iter().map(|point| point[1]).max_by(f64::total_cmp)?;
@@ -143,28 +128,25 @@ impl Drawing<'_> {
             line.iter_mut().for_each(|at| at[1] = at[1].clamp(0.3 * smallest, 2.0 * largest));
             line
         });
-        let range =
-            [found.chart.first()?, found.chart.last()?].map(|one| frequency(one.frequency_ratio));
-        let x = self.units.axis_label(&catalogue::EXCITATION_FREQUENCY, 1.0);
-        let x = Axis::linear(x).with_range(range[0], range[1]);
+        let range = [found.chart.first()?, found.chart.last()?].map(|one| one.frequency_ratio);
+        let x = Shown::dimensionless(self.units, &catalogue::EXCITATION_FREQUENCY).axis(range);
         let tint = Fill::tint(Color::SkyBlue);
-        let mut over_frequency = Panel::new(x, Axis::log(self.clearances()))
+        let mut over_frequency = Panel::new(x, clearances(Scale::Log))
             .with(Layer::between(&ends[0], &ends[1], tint).labelled("stable 1:1"))
             .with(Layer::curve(Role::Stable, best).labelled("best"));
         if found.reached() {
-            let at = Rule::Horizontal(self.length(found.best.choice.clearance()));
-            over_frequency.layers.push(Layer::rule(at, GUIDE).labelled("chosen"));
+            let chosen = Layer::horizontal(found.best.choice.clearance(), GUIDE);
+            over_frequency.layers.push(chosen.labelled("chosen"));
         }
         let here = nearest(found)?;
-        let line = |at: f64| AMPLITUDES.map(|factor| [factor, self.length(at) * factor]).to_vec();
-        let x = Axis::linear("amplitude over the case's (1)");
-        let x = x.with_range(AMPLITUDES[0], AMPLITUDES[1]);
-        let mut over_amplitude = Panel::new(x, Axis::linear(self.clearances()));
+        let line = |at: f64| AMPLITUDES.map(|factor| [factor, at * factor]).to_vec();
+        let x = self.axis(&catalogue::AMPLITUDE_OVER_OWN, AMPLITUDES, Scale::Linear);
+        let mut over_amplitude = Panel::new(x, clearances(Scale::Linear));
         if let Some([low, high]) = here.stable {
             let area = Layer::between(&line(low), &line(high), tint);
             over_amplitude = over_amplitude.with(area.labelled(Label::from("stable 1:1")));
         }
-        let own = [1.0, self.length(found.own.choice.clearance())];
+        let own = [1.0, found.own.choice.clearance()];
         let over_amplitude = over_amplitude
             .with(Layer::curve(Role::Stable, line(here.best?)).labelled("best"))
             .with(Layer::this_case(own, None));

@@ -1,11 +1,11 @@
-//! An axis of a sweep in the units that a page shows.
+//! An axis of a sweep as a page shows it.
 
 use serde::Serialize;
 
 use crate::case::{Case, SweepAxis};
 use crate::method::Method;
-use crate::quantity::unit::Unit;
 use crate::quantity::{Digits, Kind, Quantity, Units};
+use crate::report::chart::Shown;
 use crate::report::figure::{Axis, Scale, edges};
 use crate::system::Parameter;
 
@@ -16,14 +16,8 @@ pub struct AxisShown {
     pub parameter: Parameter,
     /// The quantity that it is.
     pub kind: &'static Kind,
-    /// The name with symbol and unit: `clearance b (mm)`.
-    pub label: String,
-    /// The unit in which it is drawn.
-    pub unit: Unit,
     /// Its values in SI, or in a reduced case's units, ascending.
     pub values: Vec<f64>,
-    /// The same in [`Self::unit`].
-    pub shown: Vec<f64>,
     /// Whether each is so many times the one before.
     pub logarithmic: bool,
     /// The case's own value in SI, where the case has one.
@@ -42,25 +36,13 @@ impl AxisShown {
     /// An axis of a case's table `[sweep]`.
     pub fn of(case: &Case, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
-        let (kind, units) = (case.design.kind(parameter), case.units());
-        let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-        let unit = units.axis_unit(kind, largest);
-        Self {
-            parameter,
-            kind,
-            label: units.axis_label(kind, largest),
-            unit,
-            values: values.clone(),
-            shown: values.iter().map(|value| value / unit.size).collect(),
-            logarithmic,
-            own: case.design.value(parameter),
-            units,
-        }
+        let (kind, own) = (case.design.kind(parameter), case.design.value(parameter));
+        Self { parameter, kind, values: values.clone(), logarithmic, own, units: case.units() }
     }
 
-    /// The boundaries of the values' cells, as drawn.
+    /// The boundaries of the values' cells.
     pub(super) fn edges(&self) -> Vec<f64> {
-        edges(&self.shown, self.scale())
+        edges(&self.values, self.scale())
     }
 
     const fn scale(&self) -> Scale {
@@ -68,16 +50,16 @@ impl AxisShown {
     }
 
     /// The axis of a figure, with half a step to either side: single cells have their middle there.
-    pub(super) fn drawn(&self) -> Axis {
+    pub fn drawn(&self) -> Axis {
         let edges = self.edges();
-        let axis = Axis::linear(self.label.clone()).with_range(edges[0], edges[edges.len() - 1]);
-        Axis { scale: self.scale(), ..axis }
+        let axis = Shown::si(self.units, self.kind).axis([edges[0], edges[edges.len() - 1]]);
+        axis.with_scale(self.scale())
     }
 
-    /// The case's own value as drawn, where it lies between the ends.
+    /// The case's own value, where it lies between the ends.
     pub(super) fn own_within(&self) -> Option<f64> {
-        let (own, edges) = (self.own? / self.unit.size, self.edges());
-        (edges[0] <= own && own <= edges[edges.len() - 1]).then_some(own)
+        let edges = self.edges();
+        self.own.filter(|own| (edges[0]..=edges[edges.len() - 1]).contains(own))
     }
 
     pub(super) fn at(&self, index: usize) -> At {

@@ -6,6 +6,8 @@ use crate::case::Recorded;
 use crate::excitation::Scene;
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
+use crate::report::chart::{FITTED, Shown};
+use crate::report::figure::Axis;
 use crate::sweep::columns::{Cell, Column, Direction};
 use crate::sweep::indices;
 use crate::system::Parameter;
@@ -31,33 +33,20 @@ pub(super) struct Plane<'a> {
     x_is_last: bool,
 }
 
-/// The axis and the unit in which columns of one dimension are drawn.
-pub(super) struct Measure {
-    pub label: String,
-    size: f64,
-}
-
-impl Measure {
-    /// That of columns of which none is larger than any of these.
-    pub(super) fn of<'b>(
-        units: &Units,
-        kind: &Kind,
-        columns: impl IntoIterator<Item = &'b Numbers>,
-    ) -> Self {
-        let all = columns.into_iter().flatten().flatten();
-        let largest = all.fold(0.0, |most: f64, value| most.max(value.abs()));
-        let size = units.axis_unit(kind, largest).size;
-        Self { label: units.axis_label(kind, largest), size }
-    }
-
-    pub(super) fn shown(&self, column: &Numbers) -> Numbers {
-        column.iter().map(|value| value.map(|value| value / self.size)).collect()
-    }
-}
-
 impl Swept<'_> {
     pub(super) fn units(&self) -> Units {
         self.case.units()
+    }
+
+    /// The axis of some columns of a kind.
+    pub(super) fn axis_of<'b>(
+        &self,
+        kind: &Kind,
+        columns: impl IntoIterator<Item = &'b Numbers>,
+    ) -> Axis {
+        let all = columns.into_iter().flatten().flatten();
+        let largest = all.fold(0.0, |most: f64, value| most.max(value.abs()));
+        Shown::si(self.units(), kind).axis_up_to(largest, FITTED)
     }
 
     pub(super) fn points(&self) -> usize {

@@ -10,7 +10,7 @@ type Edges = BTreeMap<Corner, BTreeSet<Corner>>;
 /// A line between the cells that differ, as one curve whose pieces are separated by NaN. Cells in which nothing
 /// is known have no line around them.
 ///
-/// `cells` are row by row from the smallest ordinate; edges are in the units of the axes.
+/// `cells` are row by row from the smallest ordinate.
 pub(super) fn between<T: PartialEq>(
     cells: &[Option<T>],
     x_edges: &[f64],

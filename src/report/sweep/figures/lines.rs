@@ -4,14 +4,15 @@ use serde_json::json;
 
 use super::super::Swept;
 use super::super::axis::AxisShown;
-use super::super::grid::{self, Measure, Numbers};
+use super::super::grid::{self, Numbers};
 use super::QUANTITIES;
 use crate::case::Recorded;
+use crate::quantity::Kind;
 use crate::quantity::catalogue::{PEAK, SECTION};
 use crate::regimes::Regime;
 use crate::report::figure::{
-    Axis, Cells, Color, Dash, Figure, Image, Key, Layer, Layout, Marker, Panel, Role, Rule, Shape,
-    Style, Tick,
+    Axis, Cells, Color, Dash, Figure, Image, Key, Layer, Layout, Marker, Panel, Role, Shape, Style,
+    Tick,
 };
 use crate::report::figures::regimes::{mark, tint};
 use crate::report::transient::{DAMPER, THEORY};
@@ -52,18 +53,18 @@ struct Diagram<'a> {
 
 impl Diagram<'_> {
     /// A figure with one panel, the case's own value marked; nothing where nothing is drawn.
-    fn figure(&self, name: &str, of: &str, label: String, layers: Vec<Layer>) -> Option<Figure> {
+    fn figure(&self, name: &str, of: &Kind, y: Axis, layers: Vec<Layer>) -> Option<Figure> {
         if layers.is_empty() {
             return None;
         }
-        let mut panel = Panel::new(self.axis.drawn(), Axis::linear(label));
+        let mut panel = Panel::new(self.axis.drawn(), y);
         panel.layers = layers;
         panel.layers.extend(self.axis.own_within().map(|own| {
             let style = Style::new(Color::Grey, 1.2, Dash::DashDot);
-            Layer::rule(Rule::Vertical(own), style).labelled("this case")
+            Layer::vertical(own, style).labelled("this case")
         }));
         let facts = json!({
-            "of": of, "x": self.axis.kind.id, "x_ends": self.axis.ends(),
+            "of": of.id, "x": self.axis.kind.id, "x_ends": self.axis.ends(),
             "followed": self.directions.len() > 1, "steady": self.swept.is_steady(),
             "simulated": self.directions.iter().any(|way| self.swept.cells(Recorded::Peak.key(), *way).is_some())
         });
@@ -75,11 +76,10 @@ impl Diagram<'_> {
         let all = self.swept.in_directions(of);
         let beside = self.beside(of);
         let columns = all.iter().map(|(_, one)| one).chain(beside.iter().map(|(one, _)| one));
-        let measure = Measure::of(&self.swept.units(), of.kind()?, columns);
-        let mut layers = self.lines(&measure, &beside);
-        layers
-            .extend(all.iter().flat_map(|(way, values)| self.marks(*way, &measure.shown(values))));
-        self.figure(name, of.kind()?.id, measure.label.clone(), layers)
+        let y = self.swept.axis_of(of.kind()?, columns);
+        let mut layers = self.lines(&beside);
+        layers.extend(all.iter().flat_map(|(way, values)| self.marks(*way, values)));
+        self.figure(name, of.kind()?, y, layers)
     }
 
     fn beside(&self, of: Recorded) -> Vec<(Numbers, Beside)> {
@@ -87,9 +87,9 @@ impl Diagram<'_> {
         all.filter_map(|one| Some((self.swept.numbers(one.1, Direction::Single)?, one))).collect()
     }
 
-    fn lines(&self, measure: &Measure, beside: &[(Numbers, Beside)]) -> Vec<Layer> {
+    fn lines(&self, beside: &[(Numbers, Beside)]) -> Vec<Layer> {
         let line = |(values, (.., style, name)): &(Numbers, Beside)| {
-            Layer::curve(*style, self.line(&measure.shown(values))).labelled(*name)
+            Layer::curve(*style, self.line(values)).labelled(*name)
         };
         beside.iter().map(line).collect()
     }
@@ -102,32 +102,31 @@ impl Diagram<'_> {
         let beside = self.beside(Recorded::Peak);
         let peaks = self.swept.in_directions(Recorded::Peak);
         let all = peaks.iter().map(|(_, one)| one).chain(beside.iter().map(|(one, _)| one));
-        let measure = Measure::of(&self.swept.units(), &PEAK, all.chain(&orbit));
-        let mut layers = self.lines(&measure, &beside);
+        let y = self.swept.axis_of(&PEAK, all.chain(&orbit));
+        let mut layers = self.lines(&beside);
         if let (Some(largest), [(Direction::Single, main)]) = (largest, peaks.as_slice()) {
-            layers.extend(self.others(&measure, &largest, main));
+            layers.extend(self.others(&largest, main));
         }
         for (way, values) in &peaks {
-            layers.extend(self.marks(*way, &measure.shown(values)));
+            layers.extend(self.marks(*way, values));
         }
         // In front of the marks, which would else hide it where they agree.
         let orbit = orbit.filter(|orbit| orbit.iter().any(Option::is_some));
         layers.extend(orbit.map(|orbit| {
-            let line = self.line(&measure.shown(&orbit));
-            Layer::curve(Role::ExactOrbit, line).labelled("exact 1:1 orbit")
+            Layer::curve(Role::ExactOrbit, self.line(&orbit)).labelled("exact 1:1 orbit")
         }));
-        let figure = self.figure("sweep-bifurcation", PEAK.id, measure.label.clone(), layers)?;
+        let figure = self.figure("sweep-bifurcation", &PEAK, y, layers)?;
         Some(if self.directions.len() > 1 { self.with_strip(figure) } else { figure })
     }
 
     /// Other motions, where they are told apart from the main one at this size.
-    fn others(&self, measure: &Measure, largest: &Numbers, main: &Numbers) -> Option<Layer> {
+    fn others(&self, largest: &Numbers, main: &Numbers) -> Option<Layer> {
         let other = |(largest, main): (&Option<f64>, &Option<f64>)| {
             largest.filter(|largest| main.is_none_or(|main| *largest > 1.01 * main))
         };
         let others: Numbers = largest.iter().zip(main).map(other).collect();
         let marker = Marker::hollow(Shape::Diamond).sized(5.0);
-        let points = self.points(&measure.shown(&others));
+        let points = self.points(&others);
         let layer = |points| Layer::marked(marker, Color::Grey, points);
         (!points.is_empty()).then(|| layer(points).labelled("largest other motion"))
     }
@@ -141,9 +140,9 @@ impl Diagram<'_> {
         };
         let all: Vec<_> = self.directions.iter().map(named).collect();
         let columns = all.iter().flat_map(|(_, columns)| columns);
-        let measure = Measure::of(&self.swept.units(), &SECTION, columns);
+        let y = self.swept.axis_of(&SECTION, columns);
         let layers = all.iter().filter_map(|(way, columns)| {
-            let dots = columns.iter().flat_map(|column| self.points(&measure.shown(column)));
+            let dots = columns.iter().flat_map(|column| self.points(column));
             let dots: Vec<[f64; 2]> = dots.collect();
             if dots.is_empty() {
                 return None;
@@ -153,17 +152,17 @@ impl Diagram<'_> {
             let single = *way == Direction::Single;
             Some(if single { layer } else { layer.labelled(grid::words(*way)) })
         });
-        self.figure("sweep-section", SECTION.id, measure.label.clone(), layers.collect())
+        self.figure("sweep-section", &SECTION, y, layers.collect())
     }
 
     fn points(&self, values: &Numbers) -> Vec<[f64; 2]> {
-        let pairs = self.axis.shown.iter().zip(values);
+        let pairs = self.axis.values.iter().zip(values);
         pairs.filter_map(|(x, y)| Some([*x, (*y)?])).collect()
     }
 
     /// A line that is interrupted where there is no value.
     fn line(&self, values: &Numbers) -> Vec<[f64; 2]> {
-        let pairs = self.axis.shown.iter().zip(values);
+        let pairs = self.axis.values.iter().zip(values);
         pairs.map(|(x, y)| [*x, y.unwrap_or(f64::NAN)]).collect()
     }
 

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::super::Swept;
-use super::super::grid::{self, Measure, Numbers, Plane};
+use super::super::grid::{self, Plane};
 use super::super::kinds::{AREAS, COUNTS};
 use super::QUANTITIES;
 use super::overlay::{self, Lines};
@@ -31,8 +31,8 @@ struct Map {
     of: &'static str,
     cells: Vec<(Direction, Cells)>,
     keys: Vec<Key>,
-    /// Label of the bar beside a map of values, and whether some lie beyond its range.
-    bar: Option<(String, bool)>,
+    /// The axis of the bar beside a map of values, and whether some lie beyond its range.
+    bar: Option<(Axis, bool)>,
 }
 
 /// Panels of a figure: slices of the other axes, or directions.
@@ -122,9 +122,7 @@ impl Panels<'_> {
     /// A quantity on a ramp; nothing where it is not recorded.
     fn values(&self, name: &'static str, of: Recorded, ramp: Ramp) -> Option<Map> {
         let all = self.swept.in_directions(of);
-        let measure = Measure::of(&self.swept.units(), of.kind()?, all.iter().map(|(_, one)| one));
-        let all: Vec<(Direction, Numbers)> =
-            all.iter().map(|(way, values)| (*way, measure.shown(values))).collect();
+        let axis = self.swept.axis_of(of.kind()?, all.iter().map(|(_, one)| one));
         let shown = self.shown.iter().flat_map(|(slice, way)| {
             let here = all.iter().find(|(of, _)| of == way);
             here.map(|(_, values)| self.plane.cells(values, *slice)).unwrap_or_default()
@@ -137,7 +135,7 @@ impl Panels<'_> {
             of: of.kind()?.id,
             cells: cells.collect(),
             keys: unknown.then(|| Key::from((Tint::UNKNOWN, "no value"))).into_iter().collect(),
-            bar: Some((measure.label, cut)),
+            bar: Some((axis, cut)),
         })
     }
 
@@ -219,7 +217,7 @@ impl Panels<'_> {
             panel.layers.extend(overlay::area_names(self.swept, self.plane, slice, columns));
         }
         if let (1, Some(x), Some(y)) = (self.swept.slices(), x.own_within(), y.own_within()) {
-            panel.layers.push(Layer::this_case([x, y], Some("this case".to_owned())));
+            panel.layers.push(Layer::this_case([x, y], None));
         }
         (panel, lines)
     }
@@ -227,7 +225,7 @@ impl Panels<'_> {
 
 /// What the colours of a map of values mean.
 fn bar(map: &Map) -> Option<Panel> {
-    let (label, _) = map.bar.as_ref()?;
+    let (axis, _) = map.bar.as_ref()?;
     let (_, Cells::Values(ramp, (low, high), _)) = map.cells.first()? else { return None };
     let part = |k: f64| low + (high - low) * k / f64::from(BAR);
     let cells = (0..BAR).map(|k| Some(part(f64::from(k) + 0.5))).collect();
@@ -237,8 +235,7 @@ fn bar(map: &Map) -> Option<Panel> {
         cells: Cells::Values(*ramp, (*low, *high), cells),
     };
     let x = Axis::of_ticks((0.0, 1.0), Vec::new());
-    let y = Axis::linear(label).with_range(*low, *high);
-    Some(Panel::new(x, y).with(Layer::Image(image)))
+    Some(Panel::new(x, axis.clone().with_range(*low, *high)).with(Layer::Image(image)))
 }
 
 /// The range of a ramp, and whether some values lie beyond it.

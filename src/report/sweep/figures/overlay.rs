@@ -51,35 +51,30 @@ fn computed(swept: &Swept, plane: Plane) -> Option<Vec<Layer>> {
     if axes != [Parameter::Frequency, Parameter::Clearance] || gamma == 0.0 {
         return None;
     }
-    // A reduced case's frequencies are ratios to its own.
-    let natural = units.frequency(1.0) / plane.x.unit.size;
     let (edges, top) = (plane.x.edges(), *plane.y.edges().last()?);
-    let [first, last] = [edges[0], edges[edges.len() - 1]].map(|edge| edge / natural);
-    let detuning = |ratio: f64| (ratio - 1.0) / system.mass_ratio();
-    let manifold = Manifold::of(system.restitution());
-    let borders = Borders::over(&system, &manifold, (detuning(first), detuning(last)));
-    let shown = |ratio: f64, over_clearance: f64| {
-        [ratio * natural, units.length(over_clearance) / plane.y.unit.size]
-    };
+    let detuning = |edge: f64| (units.frequency_ratio(edge) - 1.0) / system.mass_ratio();
+    let window = (detuning(edges[0]), detuning(edges[edges.len() - 1]));
+    let borders = Borders::over(&system, &Manifold::of(system.restitution()), window);
     let place = |detuning: f64, at: f64| {
-        let [x, y] = shown(1.0 + system.mass_ratio() * detuning, gamma / at);
+        let x = units.frequency(1.0 + system.mass_ratio() * detuning);
+        let y = units.length(gamma / at);
         // What lies far beyond the map would draw the line's name away from it.
         [x, if y > 3.0 * top { f64::NAN } else { y }]
     };
     let mut layers: Vec<Layer> = borders.lines(&place).into_iter().flat_map(cased).collect();
     layers.extend(borders.meeting_point(&place));
-    layers.extend(exact(swept, &shown));
+    layers.extend(exact(swept));
     Some(layers)
 }
 
 /// Where the stable exact orbit begins and ends, at some frequencies.
-fn exact(swept: &Swept, shown: &dyn Fn(f64, f64) -> [f64; 2]) -> Option<Layer> {
+fn exact(swept: &Swept) -> Option<Layer> {
+    let units = swept.units();
     let point = |at: &StabilityLimit| {
-        let clearance = swept.case.units().length(at.limit.clearance);
-        let place = swept.units().text(&CLEARANCE, clearance);
-        let [x, y] = shown(at.frequency_ratio, at.limit.clearance);
+        let clearance = units.length(at.limit.clearance);
+        let place = units.text(&CLEARANCE, clearance);
         let words = format!("{} of the exact orbit at {place}", at.limit.kind.words());
-        MarkedPoint::new(x, y).with_tooltip(words)
+        MarkedPoint::new(units.frequency(at.frequency_ratio), clearance).with_tooltip(words)
     };
     let points: Vec<MarkedPoint> = swept.limits.iter().map(point).collect();
     let marker = Role::ExactOrbit.marker().sized(5.4);
@@ -137,7 +132,7 @@ pub(super) fn area_names(swept: &Swept, plane: Plane, slice: usize, columns: usi
         let depth = |cell: usize| inside[cell][0].min(inside[cell][1]);
         let here = (0..cells.len()).filter(|cell| cells[*cell] == Some(*area)).filter(fits);
         let middle = here.max_by(|a, b| depth(*a).total_cmp(&depth(*b)).then(b.cmp(a)))?;
-        let at = [plane.x.shown[middle % across], plane.y.shown[middle / across]];
+        let at = [plane.x.values[middle % across], plane.y.values[middle / across]];
         Some(Layer::note(at, *area))
     });
     named.collect()

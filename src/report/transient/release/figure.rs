@@ -6,8 +6,9 @@ use serde_json::Value;
 
 use crate::case::Case;
 use crate::flights::STEPS;
-use crate::quantity::{Dimension, catalogue as of};
-use crate::report::figure::{Axis, Figure, Layer, Panel, Role, Rule};
+use crate::quantity::catalogue as of;
+use crate::report::chart::Shown;
+use crate::report::figure::{Figure, Layer, Panel, Role, Scale};
 use crate::report::transient::{DAMPER, THEORY};
 use crate::transient::DecayStudy;
 
@@ -29,16 +30,12 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
         .fold(0.0, f64::max);
     let shown =
         if shown > 0.0 { 1.05 * shown } else { found.amplitudes.len() as f64 / f64::from(STEPS) };
-    let seconds = |oscillations: f64| units.time(TAU * oscillations);
-    let time_unit = units.axis_unit(&of::TIME, seconds(shown)).size;
-    let length_unit = units.unit(Dimension::Length, units.length(study.from)).size;
-    let at = |[oscillations, amplitude]: [f64; 2]| {
-        [seconds(oscillations) / time_unit, units.length(amplitude) / length_unit]
-    };
+    let oscillations = Shown::dimensionless(units, &of::TIME).counting(TAU);
+    let amplitude = Shown::dimensionless(units, &of::OSCILLATOR_AMPLITUDE);
     let lowest = 0.5 * study.level;
-    let line = |points: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
-        let visible = |one: &&[f64; 2]| one[0] <= shown && one[1] >= lowest;
-        points.iter().filter(visible).map(|one| at(*one)).collect()
+    let line = |mut points: Vec<[f64; 2]>| {
+        points.retain(|one| one[0] <= shown && one[1] >= lowest);
+        points
     };
     let sampled = |amplitudes: &[f64]| {
         let step = (shown * f64::from(STEPS)) as usize / POINTS + 1;
@@ -50,13 +47,9 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
         let time = shown * k as f64 / POINTS as f64;
         [time, study.from * libm::exp(-decay * time)]
     });
-    let x = Axis::linear(units.axis_label(&of::TIME, seconds(shown)));
-    let x = x.with_range(0.0, seconds(shown) / time_unit);
-    let [bottom, top] = [lowest, 1.2 * study.from].map(|one| at([0.0, one])[1]);
-    let y = Axis::log(units.axis_label(&of::OSCILLATOR_AMPLITUDE, units.length(study.from)));
-    let level = |value: f64| Rule::Horizontal(at([0.0, value])[1]);
-    let mut panel = Panel::new(x, y.with_range(bottom, top))
-        .with(Layer::rule(level(study.level), Role::Guide).labelled("at rest"))
+    let y = amplitude.axis([lowest, 1.2 * study.from]).with_scale(Scale::Log);
+    let mut panel = Panel::new(oscillations.axis([0.0, shown]), y)
+        .with(Layer::horizontal(study.level, Role::Guide).labelled("at rest"))
         .with(
             Layer::curve(Role::BareOscillator, line(alone.collect())).labelled("without absorber"),
         )
@@ -69,7 +62,7 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
         )
         .with(Layer::curve(THEORY, line(study.predicted.path.clone())).labelled("theory"));
     if study.predicted.residual > study.level && study.system.cavity().is_ideal() {
-        let end = Layer::rule(level(study.predicted.residual), Role::Hopf);
+        let end = Layer::horizontal(study.predicted.residual, Role::Hopf);
         panel = panel.with(end.labelled("capture ends"));
     }
     Some(Figure::new("decay", "").with_panel(panel))

@@ -4,8 +4,9 @@ use serde_json::Value;
 
 use crate::case::Case;
 use crate::excitation::SweepRate;
-use crate::quantity::{Dimension, catalogue as of};
-use crate::report::figure::{Axis, Color, Dash, Figure, Layer, MarkedPoint, Panel, Role, Style};
+use crate::quantity::catalogue as of;
+use crate::report::chart::{FITTED, Shown};
+use crate::report::figure::{Color, Dash, Figure, Layer, Panel, Role, Scale, Style};
 use crate::report::transient::DAMPER;
 use crate::transient::SweepStudy;
 
@@ -19,45 +20,34 @@ pub fn figures(case: &Case, study: &SweepStudy, facts: &Value) -> Vec<Figure> {
     if study.alone.peak()[1] == 0.0 {
         return Vec::new();
     }
-    let figures = [("envelope", envelope(case, study)), ("rates", rates(case, study))];
-    let figure = |(name, panel): (&str, Panel)| {
-        let template =
-            if name == "envelope" { "captions/sine-sweep" } else { "captions/sweep-rates" };
-        Figure::new(name, "").with_panel(panel).with_facts(template, facts.clone())
-    };
-    figures.map(figure).into()
+    vec![
+        envelope(case, study).with_facts("captions/sine-sweep", facts.clone()),
+        rates(case, study).with_facts("captions/sweep-rates", facts.clone()),
+    ]
 }
 
-fn envelope(case: &Case, study: &SweepStudy) -> Panel {
-    let units = case.units();
-    let [from, to] = [study.sweep.from, study.sweep.to];
-    let highest = from.max(to);
+fn envelope(case: &Case, study: &SweepStudy) -> Figure {
+    let shown = |kind| Shown::dimensionless(case.units(), kind);
+    let ends = [study.sweep.from, study.sweep.to];
+    let [from, to] = ends.map(|frequency| case.units().frequency_ratio(frequency));
     let peak = |passage: &crate::flights::Passage| passage.peak()[1];
     let there = study.worst().map(|(_, worst)| worst);
     let own = there.map_or(0.0, peak);
     let largest = own.max(peak(&study.back)).max(peak(&study.alone));
-    let frequency_unit = units.axis_unit(&of::EXCITATION_FREQUENCY, highest).size;
-    let length_unit = units.unit(Dimension::Length, units.length(largest)).size;
-    let at = |[ratio, length]: [f64; 2]| {
-        [units.frequency(ratio) / frequency_unit, units.length(length) / length_unit]
-    };
     let line = |envelope: &[[f64; 2]]| {
         // The largest of what shares a pixel.
         let together = envelope.len() / POINTS + 1;
         let larger = |a: &[f64; 2], b: &[f64; 2]| a[1].total_cmp(&b[1]);
         let groups = envelope.chunks(together);
-        groups.filter_map(|some| some.iter().copied().max_by(|a, b| larger(a, b))).map(at).collect()
+        groups.filter_map(|some| some.iter().copied().max_by(|a, b| larger(a, b))).collect()
     };
+    let top = 1.1 * largest;
     let steady = |k: usize| {
-        let within = |[ratio, length]: [f64; 2]| {
-            at([ratio, if length > 1.1 * largest { f64::NAN } else { length }])
-        };
-        study.steady.iter().map(|one| within([one[0], one[k]])).collect::<Vec<_>>()
+        let within = |length: f64| if length > top { f64::NAN } else { length };
+        study.steady.iter().map(|one| [one[0], within(one[k])]).collect::<Vec<_>>()
     };
-    let x = Axis::linear(units.axis_label(&of::EXCITATION_FREQUENCY, highest));
-    let x = x.with_range(from.min(to) / frequency_unit, highest / frequency_unit);
-    let y = Axis::linear(units.axis_label(&of::PEAK, units.length(largest)));
-    let y = y.with_range(0.0, 1.1 * at([0.0, largest])[1]);
+    let x = shown(&of::EXCITATION_FREQUENCY).axis([from.min(to), from.max(to)]);
+    let y = shown(&of::PEAK).axis([0.0, top]);
     let [own_name, back_name] = if from > to { ["down", "up"] } else { ["up", "down"] };
     let mut panel = Panel::new(x, y)
         .with(Layer::curve(Role::BareOscillator, steady(1)).labelled("steady, without absorber"))
@@ -72,15 +62,15 @@ fn envelope(case: &Case, study: &SweepStudy) -> Panel {
         let orbit = Layer::curve(Role::Stable, steady(2)).labelled("stable 1:1 motion, exact");
         panel = panel.with(orbit);
     }
-    let marks: Vec<MarkedPoint> =
-        study.jumps.iter().flatten().map(|jump| at([jump.at, jump.levels[1]]).into()).collect();
+    let jumps = study.jumps.iter().flatten().map(|jump| [jump.at, jump.levels[1]]);
+    let marks: Vec<[f64; 2]> = jumps.collect();
     if !marks.is_empty() {
         panel = panel.with(Layer::points(Role::Impact, marks).labelled("jump"));
     }
-    panel
+    Figure::new("envelope", "").with_panel(panel)
 }
 
-fn rates(case: &Case, study: &SweepStudy) -> Panel {
+fn rates(case: &Case, study: &SweepStudy) -> Figure {
     let units = case.units();
     let size = |rate: SweepRate| match rate {
         SweepRate::Linear(rate) => (&of::SWEEP_RATE, rate),
@@ -88,20 +78,17 @@ fn rates(case: &Case, study: &SweepStudy) -> Panel {
     };
     let fastest = study.by_rate.iter().map(|one| size(one.sweep.rate).1).fold(0.0, f64::max);
     let kind = size(study.sweep.rate).0;
-    let rate_unit = units.axis_unit(kind, fastest).size;
+    let x = Shown::si(units, kind).axis_up_to(fastest, FITTED).with_scale(Scale::Log);
     let largest = study.by_rate.iter().flat_map(|one| one.peaks.map(|peak| peak[1]));
-    let largest = units.length(largest.fold(0.0, f64::max));
-    let length_unit = units.unit(Dimension::Length, largest).size;
+    let largest = largest.fold(0.0, f64::max);
+    let y = Shown::dimensionless(units, &of::PEAK).axis([0.0, 1.1 * largest]);
     let line = |k: usize| -> Vec<[f64; 2]> {
-        let point = |one: &crate::transient::ByRate| {
-            [size(one.sweep.rate).1 / rate_unit, units.length(one.peaks[k][1]) / length_unit]
-        };
-        study.by_rate.iter().map(point).collect()
+        let rates = study.by_rate.iter();
+        rates.map(|one| [size(one.sweep.rate).1, one.peaks[k][1]]).collect()
     };
-    let y = Axis::linear(units.axis_label(&of::PEAK, largest))
-        .with_range(0.0, 1.1 * largest / length_unit);
-    Panel::new(Axis::log(units.axis_label(kind, fastest)), y)
+    let panel = Panel::new(x, y)
         .with(Layer::curve(Role::BareOscillator, line(1)).labelled("without absorber"))
         .with(Layer::curve(DAMPER, line(2)).labelled("tuned mass damper"))
-        .with(Layer::curve(Role::Simulation, line(0)).labelled("with absorber, worst start"))
+        .with(Layer::curve(Role::Simulation, line(0)).labelled("with absorber, worst start"));
+    Figure::new("rates", "").with_panel(panel)
 }
