@@ -2,7 +2,7 @@
 
 use super::geometry::{Point, Rect, depth, distance, lerp};
 use super::layers::Layer;
-use super::shapes::Shape;
+use super::shapes::ShapeOfLayer;
 use super::text::Anchor;
 
 /// The eight sides of a point, the liked ones first: by what side the words are held, how far down they are,
@@ -42,17 +42,17 @@ impl Candidate {
 }
 
 /// Where the name of a layer can go; nowhere where nothing of the layer is visible.
-pub(super) fn of_layer(layer: &Layer, shape: &Shape, size: Point) -> Vec<Candidate> {
+pub(super) fn of_layer(layer: &Layer, shape: &ShapeOfLayer, size: Point) -> Vec<Candidate> {
     let close = |(at, radius, penalty)| around(at, radius, &CLOSE, penalty, size);
     match (layer, shape) {
-        (_, Shape::Lines(lines)) => {
+        (_, ShapeOfLayer::Lines(lines)) => {
             sampled(lines).into_iter().flat_map(|(at, penalty)| close((at, 0.5, penalty))).collect()
         }
-        (Layer::Points { marker, .. }, Shape::Dots(dots)) => {
+        (Layer::Points { marker, .. }, ShapeOfLayer::Dots(dots)) => {
             let some = dots.iter().step_by(dots.len().div_ceil(60).max(1));
             some.flat_map(|dot| close((dot.at, marker.diameter / 2.0, 0.0))).collect()
         }
-        (_, Shape::Area(area)) => within(area, size),
+        (_, ShapeOfLayer::Area(area)) => within(area, size),
         _ => Vec::new(),
     }
 }

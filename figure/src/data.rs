@@ -15,7 +15,7 @@ pub struct Figure {
     /// What to see, for those who cannot see the figure; it is not drawn.
     pub alt: String,
     /// What title, caption and alternative text are made from; none where they are set.
-    pub facts: Option<Facts>,
+    pub facts: Option<CaptionFacts>,
     /// Width and height in pixels.
     pub size: (u32, u32),
     /// The panels, in the order of the layout's cells.
@@ -28,7 +28,7 @@ pub struct Figure {
 
 /// What a figure's words are made from.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Facts {
+pub struct CaptionFacts {
     /// A template whose first three lines are title, caption and alternative text.
     pub template: &'static str,
     /// What it gets.
@@ -69,7 +69,7 @@ impl Figure {
     /// Leaves title, caption and alternative text to a template, which gets the data.
     #[must_use]
     pub fn with_facts(mut self, template: &'static str, data: serde_json::Value) -> Self {
-        self.facts = Some(Facts { template, data });
+        self.facts = Some(CaptionFacts { template, data });
         self
     }
 
@@ -114,7 +114,7 @@ pub struct Layout {
     /// Relative heights of the rows.
     pub heights: Vec<f64>,
     /// One cell for each panel.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<GridCell>,
 }
 
 impl Layout {
@@ -122,7 +122,7 @@ impl Layout {
     /// and row of its cell and how many it takes.
     #[must_use]
     pub fn cells(widths: &[f64], heights: &[f64], cells: &[[usize; 4]]) -> Self {
-        let cell = |[column, row, columns, rows]: &[usize; 4]| Cell {
+        let cell = |[column, row, columns, rows]: &[usize; 4]| GridCell {
             column: *column,
             row: *row,
             columns: *columns,
@@ -149,7 +149,7 @@ impl Layout {
 
 /// A rectangle of grid cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Cell {
+pub struct GridCell {
     /// First column, from 0.
     pub column: usize,
     /// First row, from 0 at the top.
@@ -214,7 +214,7 @@ pub struct Axis {
     /// First and last value, as the data have them; chosen from the data if absent.
     pub range: Option<(f64, f64)>,
     /// Linear or logarithmic.
-    pub scale: Scale,
+    pub scale: AxisScale,
     /// The ticks, in the unit of the label; chosen round if absent.
     pub ticks: Option<Vec<Tick>>,
 }
@@ -222,17 +222,23 @@ pub struct Axis {
 impl Axis {
     /// A linear axis that fits the data.
     pub fn linear(label: impl Into<String>) -> Self {
-        Self { label: label.into(), factor: 1.0, range: None, scale: Scale::Linear, ticks: None }
+        Self {
+            label: label.into(),
+            factor: 1.0,
+            range: None,
+            scale: AxisScale::Linear,
+            ticks: None,
+        }
     }
 
     /// A logarithmic axis that fits the data.
     pub fn log(label: impl Into<String>) -> Self {
-        Self::linear(label).with_scale(Scale::Log)
+        Self::linear(label).with_scale(AxisScale::Log)
     }
 
     /// Sets the scale.
     #[must_use]
-    pub const fn with_scale(mut self, scale: Scale) -> Self {
+    pub const fn with_scale(mut self, scale: AxisScale) -> Self {
         self.scale = scale;
         self
     }
@@ -260,7 +266,7 @@ impl Axis {
 
 /// How values become lengths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scale {
+pub enum AxisScale {
     /// In proportion.
     Linear,
     /// By their decimal logarithm; values at or below 0 are not drawn.

@@ -1,7 +1,7 @@
 //! A panel's cells as an image: one colour a cell, in a PNG inside the drawing.
 
 use super::colors::{Ramp, Tint};
-use super::data::Scale;
+use super::data::AxisScale;
 use super::geometry::Rect;
 use super::layout::Frame;
 use super::limits::Span;
@@ -48,8 +48,8 @@ const EVEN: f64 = 1e-6;
 ///
 /// A single value has a cell of a tenth of itself to both sides, or of 1 where it is 0.
 #[must_use]
-pub fn edges(values: &[f64], scale: Scale) -> Vec<f64> {
-    let log = scale == Scale::Log;
+pub fn edges(values: &[f64], scale: AxisScale) -> Vec<f64> {
+    let log = scale == AxisScale::Log;
     let measured = |v: f64| if log { libm::log(v) } else { v };
     let back = |v: f64| if log { libm::exp(v) } else { v };
     let at: Vec<f64> = values.iter().map(|v| measured(*v)).collect();

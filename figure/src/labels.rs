@@ -7,7 +7,7 @@ use super::layers::{Hatch, Layer};
 use super::layout::Frame;
 use super::palette::Marker;
 use super::raster::{Raster, WORDS, bit};
-use super::shapes::Shape;
+use super::shapes::ShapeOfLayer;
 use super::text::{Anchor, LARGE, SMALL, Words};
 
 /// White around every label, pixels.
@@ -30,7 +30,7 @@ pub(super) struct Labels {
 }
 
 /// Words that want a place.
-struct Request {
+struct LabelRequest {
     layer: usize,
     words: Words,
     places: Vec<Candidate>,
@@ -41,16 +41,17 @@ struct Request {
 }
 
 /// Places the names of a panel; layers in its legend have theirs there already.
-pub(super) fn place(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Labels {
+pub(super) fn place(panel: &Panel, frame: &Frame, shapes: &[ShapeOfLayer]) -> Labels {
     let mut raster = occupied(panel, frame, shapes);
     let mut labels = Labels::default();
-    let lines = shapes.iter().enumerate().filter(|(_, shape)| matches!(shape, Shape::Lines(_)));
+    let lines =
+        shapes.iter().enumerate().filter(|(_, shape)| matches!(shape, ShapeOfLayer::Lines(_)));
     let lines = lines.fold(0, |bits, (index, _)| bits | bit(index));
-    let with_free_places = |request: Request| {
+    let with_free_places = |request: LabelRequest| {
         let found = free(&request, frame, lines, &raster);
         (request, found)
     };
-    let mut open: Vec<(Request, Vec<Candidate>)> =
+    let mut open: Vec<(LabelRequest, Vec<Candidate>)> =
         requests(panel, frame, shapes).into_iter().map(with_free_places).collect();
     // Words that must be somewhere come first, then those with the fewest places to go.
     open.sort_by_key(|(request, found)| (request.movable, found.len(), request.layer));
@@ -83,7 +84,7 @@ fn settle(words: Words, place: &Candidate, raster: &mut Raster, labels: &mut Lab
 }
 
 /// The places on free ground, best first.
-fn free(request: &Request, frame: &Frame, lines: u64, raster: &Raster) -> Vec<Candidate> {
+fn free(request: &LabelRequest, frame: &Frame, lines: u64, raster: &Raster) -> Vec<Candidate> {
     let inside = frame.plot.grown(-INSET);
     let own = bit(request.layer);
     let clear = |c: &&Candidate| {
@@ -105,7 +106,11 @@ fn free(request: &Request, frame: &Frame, lines: u64, raster: &Raster) -> Vec<Ca
 }
 
 /// For words that must be somewhere: the place that covers least, other words least of all.
-fn least_bad<'a>(request: &'a Request, frame: &Frame, raster: &Raster) -> Option<&'a Candidate> {
+fn least_bad<'a>(
+    request: &'a LabelRequest,
+    frame: &Frame,
+    raster: &Raster,
+) -> Option<&'a Candidate> {
     let cover = |c: &&Candidate| {
         let outside = if frame.plot.contains(&c.room) { 0 } else { 1_000_000 };
         let room = c.room.grown(AIR);
@@ -115,14 +120,17 @@ fn least_bad<'a>(request: &'a Request, frame: &Frame, raster: &Raster) -> Option
 }
 
 /// What the data take.
-fn occupied(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Raster {
+fn occupied(panel: &Panel, frame: &Frame, shapes: &[ShapeOfLayer]) -> Raster {
     let mut raster = Raster::new(frame.plot);
     for (index, (layer, shape)) in panel.layers.iter().zip(shapes).enumerate() {
         match (layer, shape) {
-            (Layer::Curve { style, .. } | Layer::Rule { style, .. }, Shape::Lines(lines)) => {
+            (
+                Layer::Curve { style, .. } | Layer::Rule { style, .. },
+                ShapeOfLayer::Lines(lines),
+            ) => {
                 lines.iter().for_each(|line| raster.trace(line, style.width, bit(index)));
             }
-            (Layer::Points { marker, .. }, Shape::Dots(dots)) if *marker != Marker::NONE => {
+            (Layer::Points { marker, .. }, ShapeOfLayer::Dots(dots)) if *marker != Marker::NONE => {
                 let side = marker.diameter + 1.0;
                 for dot in dots {
                     raster.take(&Rect::around(dot.at, side, side), bit(index));
@@ -135,7 +143,7 @@ fn occupied(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Raster {
 }
 
 /// All words of a panel with the places that they could take.
-fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
+fn requests(panel: &Panel, frame: &Frame, shapes: &[ShapeOfLayer]) -> Vec<LabelRequest> {
     let mut all = Vec::new();
     // Words keep off all data but areas and images: the lines in these run through them, and their colours may be dark.
     let crossed = |layer: &Layer| match layer {
@@ -147,13 +155,13 @@ fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
         let color = data.text_color();
         let words =
             |text: &str| Words { color, halo, ..Words::new(text, [0.0; 2], Anchor::Middle, SMALL) };
-        if let (Layer::Points { points, marker, .. }, Shape::Dots(dots)) = (data, shape) {
+        if let (Layer::Points { points, marker, .. }, ShapeOfLayer::Dots(dots)) = (data, shape) {
             let size = if *marker == Marker::NONE { LARGE } else { SMALL };
             for dot in dots {
                 let Some(label) = &points[dot.index].label else { continue };
                 let words = Words { size, bold: *marker == Marker::THIS_CASE, ..words(label) };
                 let places = of_point(dot.at, marker.diameter / 2.0, words.size());
-                all.push(Request { layer, words, places, beside_line: false, movable: false });
+                all.push(LabelRequest { layer, words, places, beside_line: false, movable: false });
             }
         }
         let named = frame.legend.iter().any(|(k, _)| *k == layer);
@@ -165,9 +173,9 @@ fn requests(panel: &Panel, frame: &Frame, shapes: &[Shape]) -> Vec<Request> {
                 place.penalty += 0.3 * distance(place.room.center(), near);
             }
         }
-        let beside_line = matches!(shape, Shape::Lines(_));
+        let beside_line = matches!(shape, ShapeOfLayer::Lines(_));
         if !places.is_empty() {
-            all.push(Request { layer, words, places, beside_line, movable: true });
+            all.push(LabelRequest { layer, words, places, beside_line, movable: true });
         }
     }
     all

@@ -1,6 +1,6 @@
 //! Where the panels are: margins are what the words take, so that nothing is cut.
 
-use super::data::{Axis, Cell, Figure, Layout, Panel, Scale, Tick};
+use super::data::{Axis, AxisScale, Figure, GridCell, Layout, Panel, Tick};
 use super::geometry::{Point, Rect};
 use super::layers::Layer;
 use super::limits::{Span, Spans, spans};
@@ -95,7 +95,7 @@ fn grid(figure: &Figure) -> Result<Layout, FigureError> {
     if let Some(w) = widths.iter().chain(heights).find(|w| !(**w > 0.0 && **w < 1e6)) {
         return wrong(format!("a relative width or height is {w}, expected above 0"));
     }
-    let fits = |c: &Cell| {
+    let fits = |c: &GridCell| {
         c.column + c.columns <= widths.len()
             && c.row + c.rows <= heights.len()
             && c.columns * c.rows > 0
@@ -173,8 +173,8 @@ fn align(grid: &Layout, frames: &mut [Frame]) {
 /// The plot, made smaller so that one unit is equally long on both axes.
 fn equal(plot: Rect, spans: &Spans) -> Rect {
     let size = |s: &Span| match s.scale {
-        Scale::Linear => s.last - s.first,
-        Scale::Log => libm::log10(s.last / s.first),
+        AxisScale::Linear => s.last - s.first,
+        AxisScale::Log => libm::log10(s.last / s.first),
     };
     let (sx, sy) = (size(&spans.x), size(&spans.y));
     let unit = (plot.width() / sx).min(plot.height() / sy);
@@ -282,7 +282,7 @@ fn plots(grid: &Layout, frames: &[Frame], room: &Rect) -> Vec<Rect> {
     let (before, after) = margins(grid, frames);
     let columns = tracks(&before[0], &grid.widths, &after[0], room.width());
     let rows = tracks(&before[1], &grid.heights, &after[1], room.height());
-    let place = |cell: &Cell| {
+    let place = |cell: &GridCell| {
         let (left, right) = (columns[cell.column].0, columns[cell.column + cell.columns - 1].1);
         let (top, bottom) = (rows[cell.row].0, rows[cell.row + cell.rows - 1].1);
         Rect::new(room.left + left, room.top + top, room.left + right, room.top + bottom)

@@ -34,7 +34,7 @@ mod text;
 mod ticks;
 
 pub use colors::{Ramp, Tint};
-pub use data::{Axis, Cell, Figure, Key, Layout, Panel, Scale, Tick};
+pub use data::{Axis, AxisScale, Figure, GridCell, Key, Layout, Panel, Tick};
 pub use geometry::Rect;
 pub use image::{Cells, Image, edges};
 pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};

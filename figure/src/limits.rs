@@ -1,6 +1,6 @@
 //! Which part of each axis a panel shows.
 
-use super::data::{Figure, Panel, Scale};
+use super::data::{AxisScale, Figure, Panel};
 use super::layers::{Layer, Rule};
 use super::render::FigureError;
 use super::ticks::round_step;
@@ -21,7 +21,7 @@ const FAR_OFF: f64 = 1e9;
 pub(super) struct Span {
     pub first: f64,
     pub last: f64,
-    pub scale: Scale,
+    pub scale: AxisScale,
     /// That of the axis.
     pub factor: f64,
 }
@@ -43,9 +43,9 @@ impl Span {
             return f64::NAN;
         }
         let part = match self.scale {
-            Scale::Linear => (value - self.first) / (self.last - self.first),
-            Scale::Log if value <= 0.0 => f64::NAN,
-            Scale::Log => libm::log(value / self.first) / libm::log(self.last / self.first),
+            AxisScale::Linear => (value - self.first) / (self.last - self.first),
+            AxisScale::Log if value <= 0.0 => f64::NAN,
+            AxisScale::Log => libm::log(value / self.first) / libm::log(self.last / self.first),
         };
         part.clamp(-FAR_OFF, FAR_OFF)
     }
@@ -84,7 +84,7 @@ fn resolve(panel: &Panel, index: usize) -> Result<Span, String> {
     let span = |[first, last]: [f64; 2]| Span { first, last, scale, factor };
     if let Some((first, last)) = axis.range {
         let [first, last] = [first, last].map(|end| end * factor);
-        let positive = scale == Scale::Linear || first >= 1.0 / HUGE;
+        let positive = scale == AxisScale::Linear || first >= 1.0 / HUGE;
         let wide = (last - first) / first.abs().max(last.abs()) > 1e-12;
         if first < last && last - first < HUGE && positive && wide {
             return Ok(span([first, last]));
@@ -94,9 +94,9 @@ fn resolve(panel: &Panel, index: usize) -> Result<Span, String> {
     let mut values = coordinates(panel, index);
     values.iter_mut().for_each(|(v, _)| *v *= factor);
     // Where nothing is below 0, a margin is not either.
-    let floor = scale == Scale::Linear && !values.iter().any(|(v, _)| *v < 0.0);
-    values.retain(|(v, _)| v.abs() <= HUGE && (scale == Scale::Linear || *v >= 1.0 / HUGE));
-    if scale == Scale::Log {
+    let floor = scale == AxisScale::Linear && !values.iter().any(|(v, _)| *v < 0.0);
+    values.retain(|(v, _)| v.abs() <= HUGE && (scale == AxisScale::Linear || *v >= 1.0 / HUGE));
+    if scale == AxisScale::Log {
         values.iter_mut().for_each(|(v, _)| *v = libm::log10(*v));
         return Ok(span(extent(&values, index, floor).map(|end| libm::pow(10.0, end))));
     }

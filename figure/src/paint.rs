@@ -8,7 +8,7 @@ use super::layers::{Fill, Hatch, Layer, MarkedPoint};
 use super::layout::{KEY, swatch};
 use super::markers;
 use super::palette::{Color, Dash, Marker, Style};
-use super::shapes::{Dot, Shape};
+use super::shapes::{Dot, ShapeOfLayer};
 use super::text::{escape, tenths};
 
 /// What holds unless an element says otherwise.
@@ -16,13 +16,13 @@ pub(super) const USUAL: &str =
     "fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\" font-size=\"140\"";
 
 /// Draws a layer.
-pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &Shape) {
+pub(super) fn layer(svg: &mut String, layer: &Layer, shape: &ShapeOfLayer) {
     match (layer, shape) {
-        (Layer::Curve { style, .. } | Layer::Rule { style, .. }, Shape::Lines(lines)) => {
+        (Layer::Curve { style, .. } | Layer::Rule { style, .. }, ShapeOfLayer::Lines(lines)) => {
             stroke(svg, lines, *style);
         }
-        (Layer::Band { fill, .. }, Shape::Area(area)) => area_of(svg, area, *fill),
-        (Layer::Points { points, marker, color, .. }, Shape::Dots(dots))
+        (Layer::Band { fill, .. }, ShapeOfLayer::Area(area)) => area_of(svg, area, *fill),
+        (Layer::Points { points, marker, color, .. }, ShapeOfLayer::Dots(dots))
             if *marker != Marker::NONE =>
         {
             points_of(svg, points, dots, *marker, *color);
@@ -42,9 +42,9 @@ pub(super) fn sample(svg: &mut String, of: &Layer, at: Point) {
         Layer::Band { .. } => {
             let [left, right] = [at[0] + 3.0, at[0] + width - 3.0];
             let [top, bottom] = [at[1] - 6.0, at[1] + 6.0];
-            Shape::Area(vec![[left, top], [right, top], [right, bottom], [left, bottom]])
+            ShapeOfLayer::Area(vec![[left, top], [right, top], [right, bottom], [left, bottom]])
         }
-        _ => Shape::Lines(vec![vec![at, [at[0] + width, at[1]]]]),
+        _ => ShapeOfLayer::Lines(vec![vec![at, [at[0] + width, at[1]]]]),
     };
     layer(svg, of, &shape);
 }

@@ -1,6 +1,6 @@
 //! From a figure to its file.
 
-use super::data::{Figure, Scale};
+use super::data::{AxisScale, Figure};
 use super::frame;
 use super::geometry::Rect;
 use super::image;
@@ -147,7 +147,7 @@ fn compose(figure: &Figure, frames: &[Frame], labels: &[Labels], coarseness: f64
     let placed = |w: Words| PlacedText { room: w.bounds(), text: w.text };
     let axis = |span: Span| {
         let [first, last] = span.of_data();
-        (first, last, span.scale == Scale::Log)
+        (first, last, span.scale == AxisScale::Log)
     };
     let panels = frames.iter().map(|frame| {
         let axes = [frame.spans.x, frame.spans.y].map(axis);

@@ -25,33 +25,33 @@ pub(super) struct Dot {
 
 /// What remains of a layer; no lines where nothing does. An image has a way of its own.
 #[derive(Debug, Clone)]
-pub(super) enum Shape {
+pub(super) enum ShapeOfLayer {
     Lines(Vec<Vec<Point>>),
     Dots(Vec<Dot>),
     Area(Vec<Point>),
 }
 
 /// How much detail is left out; 1 is invisible, more is for figures that would be too large.
-pub(super) fn shapes(panel: &Panel, frame: &Frame, coarseness: f64) -> Vec<Shape> {
+pub(super) fn shapes(panel: &Panel, frame: &Frame, coarseness: f64) -> Vec<ShapeOfLayer> {
     panel.layers.iter().map(|layer| shape(layer, frame, coarseness)).collect()
 }
 
-fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> Shape {
+fn shape(layer: &Layer, frame: &Frame, coarseness: f64) -> ShapeOfLayer {
     let tolerance = TOLERANCE * coarseness;
     let map = |points: &[Point]| points.iter().map(|p| frame.map(*p)).collect::<Vec<_>>();
     let lines = |points: &[Point]| {
         let pieces = clip_polyline(&frame.plot, points);
-        Shape::Lines(pieces.iter().map(|piece| simplify(piece, tolerance)).collect())
+        ShapeOfLayer::Lines(pieces.iter().map(|piece| simplify(piece, tolerance)).collect())
     };
     match layer {
         Layer::Curve { points, .. } => lines(&map(points)),
         Layer::Rule { rule, .. } => lines(&ends(*rule, frame)),
         Layer::Band { outline, .. } => {
             // Their edges are faint, or lie below the lines that bound them.
-            Shape::Area(simplify(&clip_polygon(&frame.plot, &map(outline)), 2.0 * tolerance))
+            ShapeOfLayer::Area(simplify(&clip_polygon(&frame.plot, &map(outline)), 2.0 * tolerance))
         }
-        Layer::Image(_) => Shape::Lines(Vec::new()),
-        Layer::Points { points, .. } => Shape::Dots(dots(points, frame, 0.5 * coarseness)),
+        Layer::Image(_) => ShapeOfLayer::Lines(Vec::new()),
+        Layer::Points { points, .. } => ShapeOfLayer::Dots(dots(points, frame, 0.5 * coarseness)),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Round ticks with as few digits as tell them apart.
 
-use super::data::{Scale, Tick};
+use super::data::{AxisScale, Tick};
 
 /// The smallest of 1, 2, 5 times a power of ten that divides a span into at most `most` parts.
 pub(super) fn round_step(span: f64, most: f64) -> f64 {
@@ -15,10 +15,10 @@ pub(super) fn round_step(span: f64, most: f64) -> f64 {
 }
 
 /// Ticks for a range, at most about `most` of them with words.
-pub(super) fn ticks(scale: Scale, first: f64, last: f64, most: f64) -> Vec<Tick> {
+pub(super) fn ticks(scale: AxisScale, first: f64, last: f64, most: f64) -> Vec<Tick> {
     match scale {
-        Scale::Linear => linear(first, last, most),
-        Scale::Log => {
+        AxisScale::Linear => linear(first, last, most),
+        AxisScale::Log => {
             let decades = libm::log10(last / first);
             if decades < 0.8 { linear(first, last, most) } else { decadic(first, last, most) }
         }

@@ -45,7 +45,7 @@ pub fn orbits(case: &Case) -> Vec<Value> {
 }
 
 /// A point of a branch, in the case's units.
-struct Point {
+struct BranchRow {
     value: f64,
     peak: f64,
     orbit: Orbit,
@@ -53,7 +53,7 @@ struct Point {
 
 /// A branch, from its lower end to its upper end.
 pub struct Followed {
-    points: Vec<Point>,
+    points: Vec<BranchRow>,
     /// Bifurcations in the order of the points, and both ends.
     pub told: Value,
 }
@@ -112,12 +112,12 @@ pub fn followed(
         // Lengths of an orbit are over the clearance at its own value.
         let length = parameter.unit(value) * scales.clearance;
         let peak = length * Peaks::of(&map, &orbit.cycle).displacement;
-        Ok::<_, PyErr>(Point { value: unit * value, peak, orbit: orbit.clone() })
+        Ok::<_, PyErr>(BranchRow { value: unit * value, peak, orbit: orbit.clone() })
     };
     let (mut points, mut specials) = (Vec::new(), Vec::new());
     let parts = [Some((&down, true)), up.as_ref().map(|up| (up, false))];
     for (branch, reversed) in parts.into_iter().flatten() {
-        let mut some: Vec<Point> = Vec::new();
+        let mut some: Vec<BranchRow> = Vec::new();
         for point in branch.points.iter().skip(usize::from(!reversed)) {
             some.push(told(point.value, &point.orbit)?);
         }
@@ -155,9 +155,10 @@ impl Followed {
     /// A value of each point in a column.
     pub fn columns<'py>(&self, py: Python<'py>) -> PyResult<Columns<'py>> {
         let dict = PyDict::new(py);
-        let numbers =
-            |of: fn(&Point) -> f64| self.points.iter().map(of).collect::<Vec<_>>().into_pyarray(py);
-        let flags = |of: fn(&Point) -> bool| {
+        let numbers = |of: fn(&BranchRow) -> f64| {
+            self.points.iter().map(of).collect::<Vec<_>>().into_pyarray(py)
+        };
+        let flags = |of: fn(&BranchRow) -> bool| {
             self.points.iter().map(of).collect::<Vec<_>>().into_pyarray(py)
         };
         dict.set_item("value", numbers(|one| one.value))?;

@@ -22,7 +22,7 @@ use vinesink::study::fidelity::LayerPlan;
 use vinesink::system::State;
 
 use crate::simulate::{self, Impacts, Wanted};
-use crate::work::{self, Work, refused};
+use crate::work::{self, WorkState, refused};
 use crate::{branch, report};
 
 create_exception!(vinesink, CaseError, PyValueError, "A case that cannot be read.");
@@ -189,7 +189,7 @@ impl Case {
         name: &str,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<bool> {
-        let render = |work: &Work| report::rendered(&self.inner, name, work);
+        let render = |work: &WorkState| report::rendered(&self.inner, name, work);
         let (files, holds) = work::done(py, progress, render)?;
         report::write(&folder, &files)?;
         Ok(holds)
@@ -239,7 +239,7 @@ impl Case {
         Some(page::document(&self.stem, &self.inner, study, &[], content))
     }
 
-    fn analysed(&self, work: &Work) -> PyResult<serde_json::Value> {
+    fn analysed(&self, work: &WorkState) -> PyResult<serde_json::Value> {
         let case = &self.inner;
         let plan = LayerPlan::of_case(case, None).map_err(refused)?;
         let answer = Answer::of(case, Asked::Analysis, plan.as_ref(), work).map_err(refused)?;

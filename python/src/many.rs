@@ -13,7 +13,7 @@ use vinesink::system::{Parameter, State, System};
 
 use crate::case::{Case, Columns, states};
 use crate::simulate::numbers;
-use crate::work::{self, Work, refused};
+use crate::work::{self, WorkState, refused};
 
 /// Trajectories side by side, as in a sweep: many times the lanes of a batch, and few enough to stay in a cache.
 const TOGETHER: usize = 256;
@@ -25,7 +25,7 @@ pub fn regimes() -> Vec<&'static str> {
 }
 
 /// One system of many.
-type Place = (System, State, Units);
+type OneOfMany = (System, State, Units);
 
 /// The long-term motion of each element: `values` has a row for each of the names, `initial` one for each element.
 #[pyfunction]
@@ -77,10 +77,10 @@ pub fn simulate_many<'py>(
             let begin = TOGETHER * chunk;
             (begin..count.min(begin + TOGETHER)).map(place).collect()
         };
-        let chunks: Vec<PyResult<Vec<Place>>> =
+        let chunks: Vec<PyResult<Vec<OneOfMany>>> =
             (0..count.div_ceil(TOGETHER)).into_par_iter().map(some).collect();
         // The first of several that are wrong, whichever was seen first.
-        let places: Vec<Vec<Place>> = chunks.into_iter().collect::<PyResult<_>>()?;
+        let places: Vec<Vec<OneOfMany>> = chunks.into_iter().collect::<PyResult<_>>()?;
         motions(&places, &effort, work)
     })?;
     columns(py, &found)
@@ -91,7 +91,7 @@ fn place(
     case: &case::Case,
     values: impl Iterator<Item = (Parameter, f64)> + Clone,
     start: Option<State>,
-) -> Result<Place, String> {
+) -> Result<OneOfMany, String> {
     let named = || {
         let each =
             values.clone().map(|(parameter, value)| format!("{} = {value}", parameter.key()));
@@ -113,9 +113,9 @@ fn place(
 /// A motion with what turns its numbers into units; none where it could not be followed.
 type Found = (Option<Motion>, Units);
 
-fn motions(places: &[Vec<Place>], effort: &Effort, work: &Work) -> PyResult<Vec<Found>> {
+fn motions(places: &[Vec<OneOfMany>], effort: &Effort, work: &WorkState) -> PyResult<Vec<Found>> {
     work.expect(places.iter().map(|some| some.len() as u64).sum());
-    let each = |some: &Vec<Place>| {
+    let each = |some: &Vec<OneOfMany>| {
         work.goes_on();
         let starts: Vec<(System, State)> =
             some.iter().map(|(system, start, _)| (*system, *start)).collect();

@@ -15,7 +15,7 @@ use vinesink::report::console::Simulated;
 use vinesink::system::State;
 
 use crate::case::Columns;
-use crate::work::{Work, refused};
+use crate::work::{WorkState, refused};
 
 /// Impacts after which a run is ended, as by the program.
 const IMPACT_LIMIT: u64 = 200_000_000;
@@ -88,7 +88,7 @@ impl Observer for Impacts {
 pub fn measured(
     case: &Case,
     wanted: &Wanted,
-    work: &Work,
+    work: &WorkState,
 ) -> PyResult<(Value, Vec<Impact>, State)> {
     let (system, effort) = (case.system(), wanted.effort);
     let mut log = ImpactLog::default();
@@ -108,7 +108,7 @@ pub fn measured(
 }
 
 /// The impacts of a trajectory, nothing measured.
-pub fn flown(case: &Case, wanted: &Wanted, work: &Work) -> PyResult<Impacts> {
+pub fn flown(case: &Case, wanted: &Wanted, work: &WorkState) -> PyResult<Impacts> {
     let system = case.system();
     let start = wanted.start.unwrap_or(State::AT_REST);
     let mut simulation = Simulation::new(&system, start, 0.0).map_err(refused)?;
@@ -125,7 +125,7 @@ fn run(
     simulation: &mut Simulation,
     periods: u64,
     observer: &mut dyn Observer,
-    work: &Work,
+    work: &WorkState,
 ) -> PyResult<()> {
     let mut left = periods;
     while left > 0 {
@@ -145,7 +145,7 @@ fn run(
 }
 
 /// The states at some times, one after the other.
-pub fn sampled(case: &Case, start: State, times: Vec<f64>, work: &Work) -> PyResult<Vec<f64>> {
+pub fn sampled(case: &Case, start: State, times: Vec<f64>, work: &WorkState) -> PyResult<Vec<f64>> {
     let ascend = times.windows(2).all(|pair| pair[0] <= pair[1]);
     let last = times.last().copied().unwrap_or_default();
     let begins = times.first().is_none_or(|first| *first >= 0.0);

@@ -20,7 +20,7 @@ const LOOK: Duration = Duration::from_millis(100);
 
 /// How far work is, and whether it is to go on.
 #[derive(Default)]
-pub struct Work {
+pub struct WorkState {
     steps: AtomicU64,
     done: AtomicU64,
     stopped: AtomicBool,
@@ -29,13 +29,13 @@ pub struct Work {
 /// What unwinds work that is to stop.
 struct Stopped;
 
-impl Work {
+impl WorkState {
     /// Announces so many steps.
     pub fn expect(&self, steps: u64) {
         self.steps.fetch_add(steps, Ordering::Relaxed);
     }
 
-    /// Some steps more are done; see [`Work::goes_on`].
+    /// Some steps more are done; see [`WorkState::goes_on`].
     pub fn advance(&self, steps: u64) {
         self.done.fetch_add(steps, Ordering::Relaxed);
         self.goes_on();
@@ -63,14 +63,14 @@ impl Work {
 }
 
 /// On all processors.
-impl Executor for Work {
+impl Executor for WorkState {
     fn each(&self, what: &str, count: usize, f: &(dyn Fn(usize) + Sync)) {
         let named = !what.is_empty();
         if named {
             self.expect(count as u64);
         }
         (0..count).into_par_iter().with_max_len(1).for_each(|k| {
-            Work::goes_on(self);
+            WorkState::goes_on(self);
             f(k);
             if named {
                 self.advance(1);
@@ -79,15 +79,15 @@ impl Executor for Work {
     }
 
     fn goes_on(&self) {
-        Work::goes_on(self);
+        WorkState::goes_on(self);
     }
 
     fn expect(&self, steps: u64) {
-        Work::expect(self, steps);
+        WorkState::expect(self, steps);
     }
 
     fn advance(&self, steps: u64) {
-        Work::advance(self, steps);
+        WorkState::advance(self, steps);
     }
 }
 
@@ -99,9 +99,9 @@ impl Executor for Work {
 pub fn done<T: Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
-    work: impl FnOnce(&Work) -> PyResult<T> + Send,
+    work: impl FnOnce(&WorkState) -> PyResult<T> + Send,
 ) -> PyResult<T> {
-    let shared = Work::default();
+    let shared = WorkState::default();
     let watch = || {
         thread::scope(|scope| {
             let (tell, told) = channel();

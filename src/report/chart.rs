@@ -3,7 +3,7 @@
 //! What is drawn stays as its source has it, dimensionless or in SI. The axis says what the renderer multiplies
 //! it by.
 
-use super::figure::{Axis, Panel, Scale};
+use super::figure::{Axis, AxisScale, Panel};
 use crate::quantity::{Kind, Units};
 
 /// A range that follows from what is drawn.
@@ -11,14 +11,14 @@ pub(super) const FITTED: [f64; 2] = [0.0, f64::NAN];
 
 /// What an axis shows: a kind of quantity, and what its numbers are counted in.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Shown<'a> {
+pub(super) struct AxisOf<'a> {
     kind: &'a Kind,
     units: Units,
     /// What one of them is in SI, or in the units of a reduced case.
     one: f64,
 }
 
-impl<'a> Shown<'a> {
+impl<'a> AxisOf<'a> {
     /// Dimensionless numbers: see [`Units::number`].
     pub fn dimensionless(units: Units, kind: &'a Kind) -> Self {
         Self { kind, units, one: units.number(kind.dimension, 1.0) }
@@ -63,7 +63,7 @@ impl Chart {
     /// The same with logarithmic axes where that is asked for.
     pub fn with_log(mut self, log: [bool; 2]) -> Self {
         for (axis, log) in self.axes.iter_mut().zip(log) {
-            axis.scale = if log { Scale::Log } else { Scale::Linear };
+            axis.scale = if log { AxisScale::Log } else { AxisScale::Linear };
         }
         self
     }
@@ -83,12 +83,12 @@ mod tests {
     #[test]
     fn an_axis_has_name_symbol_and_unit_and_leads_to_it() {
         let units = Units::physical(7.5e-3);
-        let axis = Shown::dimensionless(units, &of::CLEARANCE).axis([0.5, 3.0]);
+        let axis = AxisOf::dimensionless(units, &of::CLEARANCE).axis([0.5, 3.0]);
         assert_eq!((axis.label.as_str(), axis.range), ("clearance b (mm)", Some((0.5, 3.0))));
         assert!((axis.factor - 7.5).abs() < 1e-12, "{}", axis.factor);
-        let axis = Shown::si(units, &of::IMPACT_SPEED).axis_up_to(0.02, FITTED);
+        let axis = AxisOf::si(units, &of::IMPACT_SPEED).axis_up_to(0.02, FITTED);
         assert_eq!((axis.label.as_str(), axis.range), ("impact speed (mm/s)", None));
-        let axis = Shown::dimensionless(units, &of::DETUNING).counting(2.0).axis([-1.0, 1.0]);
+        let axis = AxisOf::dimensionless(units, &of::DETUNING).counting(2.0).axis([-1.0, 1.0]);
         assert_eq!((axis.label.as_str(), axis.factor), ("detuning σ (1)", 2.0));
     }
 }

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 use vinesink::report::figure::{
-    Axis, Cell, Cells, Color, Drawing, Figure, Fill, Image, Label, Layer, Layout, MarkedPoint,
-    Panel, Role, Rule, Scale, Tick, Tint, draw, render,
+    Axis, AxisScale, Cells, Color, Drawing, Figure, Fill, GridCell, Image, Label, Layer, Layout,
+    MarkedPoint, Panel, Role, Rule, Tick, Tint, draw, render,
 };
 
 fn simple(layers: Vec<Layer>) -> Figure {
@@ -248,7 +248,7 @@ fn mistakes_are_told() {
     figure.panels[0].y = Axis::log("y (1)").with_range(0.0, 1.0);
     tells(&figure, "axis \"y (1)\" cannot run from 0 to 1");
     tells(&simple(vec![]).with_size(60, 60), "pixels; enlarge the figure");
-    let cells = vec![Cell { column: 1, row: 0, columns: 1, rows: 1 }];
+    let cells = vec![GridCell { column: 1, row: 0, columns: 1, rows: 1 }];
     let layout = Layout { widths: vec![1.0], heights: vec![1.0], cells };
     tells(&simple(vec![]).with_layout(layout), "the cell of panel 0 is empty or outside the grid");
 }
@@ -269,7 +269,7 @@ fn stacked_panels_share_their_time_axis() {
 }
 
 /// Everything that can be drawn, in one of several units of the data. Powers of two lose no digit.
-fn in_units(units: [f64; 2], scale: Scale, range: Option<(f64, f64)>) -> Figure {
+fn in_units(units: [f64; 2], scale: AxisScale, range: Option<(f64, f64)>) -> Figure {
     let at = |[x, y]: [f64; 2]| [x / units[0], y / units[1]];
     let line = |bend: f64| -> Vec<[f64; 2]> {
         (1..90).map(|k| f64::from(k) / 10.0).map(|x| at([x, 2.0 + bend * x * x])).collect()
@@ -304,7 +304,7 @@ fn in_units(units: [f64; 2], scale: Scale, range: Option<(f64, f64)>) -> Figure 
 /// What the axes multiply by might as well have been multiplied before.
 #[test]
 fn data_in_another_unit_make_the_same_drawing() {
-    for scale in [Scale::Linear, Scale::Log] {
+    for scale in [AxisScale::Linear, AxisScale::Log] {
         for range in [None, Some((0.5, 9.5))] {
             let plain = draw(&in_units([1.0; 2], scale, range)).expect("can be drawn");
             let other = draw(&in_units([1024.0, 0.125], scale, range)).expect("can be drawn");

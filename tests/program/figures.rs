@@ -8,7 +8,7 @@ use vinesink::case::{Case, ExtraFigure, ReportSettings};
 use vinesink::executor::Serial;
 use vinesink::motions::{Effort, Place, motions};
 use vinesink::report::document::{self, Source};
-use vinesink::report::figure::{Color, Figure, Layer, Marker, Panel, Scale, Shape, draw};
+use vinesink::report::figure::{AxisScale, Color, Figure, Layer, Marker, Panel, Shape, draw};
 use vinesink::report::{figures as made, template};
 use vinesink::study::CaseStudy;
 use vinesink::study::plots::Plot;
@@ -115,8 +115,8 @@ fn case_is_inside(panel: &Panel) {
     for (axis, value) in [&panel.x, &panel.y].into_iter().zip(at) {
         let (first, last) = axis.range.expect("is fixed");
         let part = match axis.scale {
-            Scale::Linear => (value - first) / (last - first),
-            Scale::Log => libm::log(value / first) / libm::log(last / first),
+            AxisScale::Linear => (value - first) / (last - first),
+            AxisScale::Log => libm::log(value / first) / libm::log(last / first),
         };
         assert!((0.01..0.99).contains(&part), "{}: {value} in {first}..{last}", axis.label);
     }

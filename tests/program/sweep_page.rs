@@ -14,8 +14,8 @@ use vinesink::case::{Case, SweepAxis};
 use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::Regime;
 use vinesink::report::figure::{
-    Axis, Cells, Figure, Image, Label, Layer, Marker, Panel, Ramp, Rule, Scale, Tint, draw, edges,
-    render,
+    Axis, AxisScale, Cells, Figure, Image, Label, Layer, Marker, Panel, Ramp, Rule, Tint, draw,
+    edges, render,
 };
 use vinesink::report::render;
 use vinesink::report::sweep::{AxisShown, Swept, SweptError, tint};

@@ -12,7 +12,7 @@ use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{self, Figure, PlacedPanel};
 use vinesink::report::{figures, template};
 use vinesink::study::CaseStudy;
-use vinesink::study::plots::{Map, Plot};
+use vinesink::study::plots::{BoundaryMap, Plot};
 use vinesink::system::Parameter;
 
 use crate::controls;
@@ -164,7 +164,7 @@ fn map(case: &Case) -> Result<Value, Value> {
     if case.system().forcing_per_clearance() == 0.0 {
         return Err(words("nothing drives this case: there is no map"));
     }
-    let plot = Plot::Map(Map::of(&sketch));
+    let plot = Plot::Map(BoundaryMap::of(&sketch));
     let mut figure =
         drawn(case, &sketch, &[plot])?.pop().ok_or_else(|| words("there is no map"))?;
     let at = figure.take_case();

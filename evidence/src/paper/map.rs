@@ -10,8 +10,8 @@ use vinesink::executor::{self, Executor};
 use vinesink::motions::{Effort, follow, starts};
 use vinesink::regimes::Regime;
 use vinesink::report::figure::{
-    Axis, Cells, Color, Dash, Figure, Image, Key, Layer, Layout, MarkedPoint, Marker, Panel, Scale,
-    Shape, Style, Tint, edges,
+    Axis, AxisScale, Cells, Color, Dash, Figure, Image, Key, Layer, Layout, MarkedPoint, Marker,
+    Panel, Shape, Style, Tint, edges,
 };
 use vinesink::study::StudyError;
 use vinesink::system::System;
@@ -152,8 +152,8 @@ fn panel(map: &HoldsMap, case: &Case, clearances: &[f64]) -> Result<Panel, Paper
     let row = &map.places[..FREQUENCIES.2];
     let frequencies: Vec<f64> = row.iter().map(|set| set.natural_frequency).collect();
     let image = Image {
-        x_edges: edges(&frequencies, Scale::Linear),
-        y_edges: edges(&amplitudes, Scale::Log),
+        x_edges: edges(&frequencies, AxisScale::Linear),
+        y_edges: edges(&amplitudes, AxisScale::Log),
         cells: Cells::Kinds(
             TINTS.map(|(tint, _)| tint).into(),
             map.cells.iter().copied().map(Some).collect(),

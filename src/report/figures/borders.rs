@@ -8,11 +8,11 @@ use crate::study::plots::borders::Border;
 use super::parts;
 
 /// Puts `(sigma, gamma)` on the axes.
-type Place<'a> = &'a dyn Fn(f64, f64) -> [f64; 2];
+type OnAxes<'a> = &'a dyn Fn(f64, f64) -> [f64; 2];
 
 impl Borders {
     /// Areas and lines, from the back to the front. `outer` and `inner` are ordinates beyond Z4 and beyond Z1.
-    pub(super) fn layers(&self, place: Place, [outer, inner]: [f64; 2]) -> Vec<Layer> {
+    pub(super) fn layers(&self, place: OnAxes, [outer, inner]: [f64; 2]) -> Vec<Layer> {
         let line = |value: fn(&Border) -> f64| finite(self.line(place, value));
         let to = |line: &[[f64; 2]], y: f64| line.iter().map(|at| [at[0], y]).collect::<Vec<_>>();
         let area =
@@ -37,12 +37,12 @@ impl Borders {
         layers
     }
 
-    fn line(&self, place: Place, value: fn(&Border) -> f64) -> Vec<[f64; 2]> {
+    fn line(&self, place: OnAxes, value: fn(&Border) -> f64) -> Vec<[f64; 2]> {
         self.samples.iter().map(|at| place(at.detuning, value(at))).collect()
     }
 
     /// The lines alone.
-    pub(in crate::report) fn lines(&self, place: Place) -> [Layer; 3] {
+    pub(in crate::report) fn lines(&self, place: OnAxes) -> [Layer; 3] {
         let line = |role: Role, name: &str, value: fn(&Border) -> f64| {
             Layer::curve(role, self.line(place, value)).labelled(name)
         };
@@ -54,7 +54,7 @@ impl Borders {
     }
 
     /// P1, if it is in the window.
-    pub(in crate::report) fn meeting_point(&self, place: Place) -> Option<Layer> {
+    pub(in crate::report) fn meeting_point(&self, place: OnAxes) -> Option<Layer> {
         let [detuning, gamma] = self.meeting?;
         let [x, y] = place(detuning, gamma);
         let tooltip = "P1: saddle-node and Hopf boundaries meet; A1 on one side, A2 on the other";
@@ -63,7 +63,7 @@ impl Borders {
     }
 
     /// The longest run of one strip.
-    fn strip(&self, strip: Strip, place: Place) -> Option<Layer> {
+    fn strip(&self, strip: Strip, place: OnAxes) -> Option<Layer> {
         let runs = self.samples.chunk_by(|a, b| a.strip == b.strip);
         let runs = runs.filter(|run| run[0].strip == Some(strip));
         let run = runs.max_by_key(|run| run.len())?;

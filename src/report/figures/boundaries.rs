@@ -9,10 +9,10 @@ use crate::report::figure::{
     Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
 use crate::study::plots::borders::{Bifurcations, Border, Condition};
-use crate::study::plots::{Borders, Map};
+use crate::study::plots::{Borders, BoundaryMap};
 use crate::validation::AsymptoticError;
 
-use super::Scene;
+use super::DrawnCase;
 
 /// The boundaries that are compared with exact ones.
 const COMPARED: [(Bifurcation, Role); 3] = [
@@ -22,7 +22,7 @@ const COMPARED: [(Bifurcation, Role); 3] = [
 ];
 
 /// In frequency and clearance, with the theory's errors below.
-pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
+pub(super) fn map(scene: &DrawnCase, data: &BoundaryMap) -> Figure {
     let (heights, log) = heights(scene, &data.borders);
     let kinds = [&of::EXCITATION_FREQUENCY, &of::CLEARANCE];
     let chart = scene.chart(kinds, [data.window, heights]).with_log([false, log]);
@@ -57,7 +57,7 @@ pub(super) fn map(scene: &Scene, data: &Map) -> Figure {
 
 /// Smallest and largest clearance that show the boundaries and the case; logarithmic where a linear axis
 /// would hide one of them. A peak higher than five times the middle height of its line is cut.
-fn heights(scene: &Scene, borders: &Borders) -> ([f64; 2], bool) {
+fn heights(scene: &DrawnCase, borders: &Borders) -> ([f64; 2], bool) {
     let sorted = |value: fn(&Border) -> f64| {
         let all = borders.samples.iter().map(|at| scene.clearance(value(at)));
         let mut finite: Vec<f64> = all.filter(|b| b.is_finite() && *b > 0.0).collect();
@@ -78,7 +78,7 @@ fn heights(scene: &Scene, borders: &Borders) -> ([f64; 2], bool) {
 }
 
 /// How far each boundary of the theory lies from the exact one; none where there is nothing to compare.
-fn errors(scene: &Scene, data: &Map) -> Option<Panel> {
+fn errors(scene: &DrawnCase, data: &BoundaryMap) -> Option<Panel> {
     let known = |errors: &[AsymptoticError], kind| {
         let mut bounds = errors.iter().filter(|error| error.bounds_stability);
         bounds.find_map(|error| error.difference.filter(|_| error.kind == kind))
@@ -108,7 +108,7 @@ fn errors(scene: &Scene, data: &Map) -> Option<Panel> {
 }
 
 /// In the reduced parameters `(sigma, gamma)`.
-pub(super) fn plane(scene: &Scene, borders: &Borders) -> Figure {
+pub(super) fn plane(scene: &DrawnCase, borders: &Borders) -> Figure {
     let system = scene.system();
     let case = [system.detuning(), system.forcing_per_clearance()];
     let meeting = borders.meeting.map_or(1.0, |at| at[1]);
@@ -136,7 +136,7 @@ const STYLES: [Style; 3] = [
 ];
 
 /// What the saddle-node and the Hopf boundary are, and where they lie.
-pub(super) fn bifurcations(scene: &Scene, data: &Bifurcations) -> Figure {
+pub(super) fn bifurcations(scene: &DrawnCase, data: &Bifurcations) -> Figure {
     let meeting = scene.study.analysis.boundaries.codimension_two;
     let collisions = data.conditions.iter().filter_map(|at| Some(at.collision?.0));
     let found = data.conditions.iter().map(|at| at.hopf).chain(collisions);
@@ -157,7 +157,7 @@ pub(super) fn bifurcations(scene: &Scene, data: &Bifurcations) -> Figure {
 
 /// Marks of the Hopf condition and of collisions, at the abscissae of the first and of the second.
 fn condition_marks(
-    scene: &Scene,
+    scene: &DrawnCase,
     data: &Bifurcations,
     chart: &Chart,
     x: impl Fn(&Condition) -> [f64; 2],
@@ -173,7 +173,7 @@ fn condition_marks(
 }
 
 /// Which clearance gives a fixed point which amplitude: its top is the collision.
-fn condition_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
+fn condition_panel(scene: &DrawnCase, data: &Bifurcations, y: [f64; 2]) -> Panel {
     let kinds = [&of::ABSORBER_AMPLITUDE_RATIO, &of::CLEARANCE];
     let chart = scene.chart(kinds, [Bifurcations::AMPLITUDES, y]);
     let fold = scene.study.analysis.manifold.fold.absorber_amplitude;
@@ -192,7 +192,7 @@ fn condition_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
 }
 
 /// The two boundaries around P1, with the same frequencies.
-fn border_panel(scene: &Scene, data: &Bifurcations, y: [f64; 2]) -> Panel {
+fn border_panel(scene: &DrawnCase, data: &Bifurcations, y: [f64; 2]) -> Panel {
     let kinds = [&of::EXCITATION_FREQUENCY, &of::CLEARANCE];
     let window = data.borders.window().map(|detuning| scene.ratio(detuning));
     let chart = scene.chart(kinds, [window, y]);

@@ -7,7 +7,7 @@ use crate::orbits::Bifurcation;
 use crate::quantity::catalogue as of;
 use crate::report::chart::Chart;
 use crate::report::figure::{
-    Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Scale, Shape,
+    AxisScale, Color, Dash, Figure, Label, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape,
     Style,
 };
 use crate::study::diagrams::{Diagram, Hysteresis, PERIODS, STEPS};
@@ -15,7 +15,7 @@ use crate::study::exact_branches::ExactPoint;
 use crate::study::plots::first_drawn;
 use crate::system::Parameter;
 
-use super::Scene;
+use super::DrawnCase;
 
 /// Longest time between impacts that is shown, in periods; a modulated motion has single longer ones.
 const LONGEST: f64 = 1.6;
@@ -61,7 +61,7 @@ struct Heights<'a> {
 }
 
 /// The largest displacement in each period above, the times between impacts below.
-pub(super) fn figure(scene: &Scene, diagram: &Diagram, bare: &[[f64; 2]]) -> Figure {
+pub(super) fn figure(scene: &DrawnCase, diagram: &Diagram, bare: &[[f64; 2]]) -> Figure {
     let parameter = diagram.parameter;
     let own = parameter.of(scene.system());
     let log = [parameter.is_logarithmic(), parameter == Parameter::Amplitude];
@@ -122,10 +122,10 @@ fn fitted(diagram: &Diagram, log: bool) -> [f64; 2] {
 }
 
 impl Heights<'_> {
-    fn draw(&self, scene: &Scene, panel: &mut Panel, named: bool) {
+    fn draw(&self, scene: &DrawnCase, panel: &mut Panel, named: bool) {
         let label = |layer: Layer, name: &str| if named { layer.labelled(name) } else { layer };
         let (low, high) = panel.y.range.unwrap_or((0.0, 1.0));
-        let log = panel.y.scale == Scale::Log;
+        let log = panel.y.scale == AxisScale::Log;
         let part = |height: f64| {
             if log {
                 libm::log(height / low) / libm::log(high / low)
@@ -155,7 +155,7 @@ impl Heights<'_> {
         }
     }
 
-    fn marks(&self, scene: &Scene, kind: Bifurcation) -> Vec<MarkedPoint> {
+    fn marks(&self, scene: &DrawnCase, kind: Bifurcation) -> Vec<MarkedPoint> {
         let told = self.diagram.exact.marks.iter().filter(|mark| {
             mark.kind == kind && (mark.beside_stable || kind == Bifurcation::Grazing)
         });
@@ -231,7 +231,7 @@ fn outside(points: Vec<[f64; 2]>, known: &[Vec<[f64; 2]>]) -> Option<Vec<[f64; 2
     (low < high).then(|| vec![[low, height], [high, height]])
 }
 
-fn facts(scene: &Scene, diagram: &Diagram) -> Value {
+fn facts(scene: &DrawnCase, diagram: &Diagram) -> Value {
     let kind = scene.kind(diagram.parameter);
     json!({
         "over": kind.id,

@@ -15,11 +15,11 @@ use crate::report::figure::{
 use crate::study::plots::dissipation::{AverageSource, Look, Looks};
 use crate::study::plots::{Dissipation, Line};
 
-use super::Scene;
+use super::DrawnCase;
 use super::regimes::mark;
 
 /// Both components of the force beside the frequency response.
-pub(super) fn figure(scene: &Scene, data: &Dissipation) -> Figure {
+pub(super) fn figure(scene: &DrawnCase, data: &Dissipation) -> Figure {
     let [_, top] = data.averages.range;
     let kinds = [&of::RESISTANCE, &of::REACTANCE];
     let forces = [0, 1].map(|k| {
@@ -46,7 +46,7 @@ pub(super) fn figure(scene: &Scene, data: &Dissipation) -> Figure {
 }
 
 /// Amplitudes over the frequency, with those of this case and of its simulated motions.
-fn response(scene: &Scene, data: &Dissipation) -> Panel {
+fn response(scene: &DrawnCase, data: &Dissipation) -> Panel {
     let [_, most] = data.averages.range;
     let seen = scene.study.motions.iter().map(|found| (found, amplitude(found)));
     let seen: Vec<_> = seen.filter(|(_, amplitude)| *amplitude < most).collect();
@@ -119,7 +119,7 @@ fn layers(looks: &Looks, named: bool) -> Vec<Layer> {
 
 /// The steady amplitudes of the case: stable ones filled, others hollow.
 fn marks(
-    scene: &Scene,
+    scene: &DrawnCase,
     data: &Dissipation,
     chart: &Chart,
     place: &dyn Fn(&SteadyState) -> Option<[f64; 2]>,
@@ -137,7 +137,7 @@ fn marks(
 }
 
 /// What a designer remembers: how much of the reduced forcing the absorber takes, over which amplitudes.
-fn facts(scene: &Scene, data: &Dissipation) -> Value {
+fn facts(scene: &DrawnCase, data: &Dissipation) -> Value {
     let averages = &data.averages;
     let fold = scene.study.analysis.manifold.fold.oscillator_amplitude;
     let [least, last] = averages.range;

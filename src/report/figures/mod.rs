@@ -28,7 +28,7 @@ use crate::study::CaseStudy;
 use crate::study::plots::Plot;
 use crate::system::{Parameter, System};
 
-use super::chart::{Chart, Shown};
+use super::chart::{AxisOf, Chart};
 use super::document::motions::found;
 use super::document::{Scale, theory};
 use super::figure::{Axis, Figure, Layer, MarkedPoint};
@@ -36,7 +36,7 @@ use super::figure::{Axis, Figure, Layer, MarkedPoint};
 /// All figures of a report, in reading order; their words are still to be filled in by
 /// [`super::template::worded`].
 pub fn all(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Vec<Figure> {
-    let scene = Scene::new(case, study);
+    let scene = DrawnCase::new(case, study);
     let mut figures: Vec<Figure> = plots.iter().flat_map(|plot| scene.figures_of(plot)).collect();
     for panel in figures.iter_mut().flat_map(|figure| &mut figure.panels) {
         // A layer without points would still be named.
@@ -49,7 +49,7 @@ pub fn all(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Vec<Figure> {
 
 /// A studied case and its units. Numbers that go in are dimensionless: lengths over the clearance, times in
 /// excitation periods, frequencies and excitation amplitudes as ratios.
-struct Scene<'a> {
+struct DrawnCase<'a> {
     study: &'a CaseStudy,
     units: Units,
     /// The excitation's amplitude, and what it is.
@@ -72,7 +72,7 @@ struct Ends {
     branch: Option<ManifoldBranch>,
 }
 
-impl<'a> Scene<'a> {
+impl<'a> DrawnCase<'a> {
     fn new(case: &Case, study: &'a CaseStudy) -> Self {
         let scale = Scale::of(case);
         let mut limits = case.criteria.iter();
@@ -166,7 +166,7 @@ impl<'a> Scene<'a> {
 
     /// An axis of dimensionless numbers.
     fn axis(&self, kind: &Kind, range: [f64; 2]) -> Axis {
-        Shown::si(self.units, kind).counting(self.si(kind, 1.0)).axis(range)
+        AxisOf::si(self.units, kind).counting(self.si(kind, 1.0)).axis(range)
     }
 
     /// Two of them that know their kinds.

@@ -11,11 +11,11 @@ use crate::study::plots::restitutions::Taken;
 use crate::study::plots::{Modulation, Restitutions};
 use crate::study::stretches::TraceStretch;
 
-use super::Scene;
+use super::DrawnCase;
 use super::parts;
 
 /// A long stretch of a motion, enlarged where it is captured and where it stays.
-pub(super) fn modulation(scene: &Scene, data: &Modulation) -> Figure {
+pub(super) fn modulation(scene: &DrawnCase, data: &Modulation) -> Figure {
     let all = data.projection.line(None);
     let [transition, stay] = data.enlarged;
     let manifold = &scene.study.analysis.manifold;
@@ -55,7 +55,7 @@ pub(super) fn modulation(scene: &Scene, data: &Modulation) -> Figure {
 }
 
 fn on_manifold(
-    scene: &Scene,
+    scene: &DrawnCase,
     data: &Modulation,
     stretch: Option<TraceStretch>,
     [x, y]: [[f64; 2]; 2],
@@ -87,7 +87,7 @@ const LOOKS: [(f64, Color, Dash); 5] = [
 ];
 
 /// The manifold, and what it takes from the oscillator.
-pub(super) fn restitutions(scene: &Scene, data: &Restitutions) -> Figure {
+pub(super) fn restitutions(scene: &DrawnCase, data: &Restitutions) -> Figure {
     let facts = json!({ "level": data.level, "strongest": data.strongest, "best": data.best });
     scene
         .figure("restitutions", "captions/restitutions", facts)
@@ -96,7 +96,7 @@ pub(super) fn restitutions(scene: &Scene, data: &Restitutions) -> Figure {
         .with_panel(over_restitution(scene, data))
 }
 
-fn manifolds(scene: &Scene, data: &Restitutions) -> Panel {
+fn manifolds(scene: &DrawnCase, data: &Restitutions) -> Panel {
     let (last, top) = (2.4_f64.max(1.3 + data.level), 1.5_f64.max(1.3 * data.level));
     let chart = parts::amplitudes(scene, [0.0, last], [0.0, top]);
     let rule = Layer::horizontal(data.level, Role::Guide.style().colored(Color::Grey));
@@ -125,7 +125,7 @@ fn manifolds(scene: &Scene, data: &Restitutions) -> Panel {
 /// A value of a point of the manifold.
 type ValueOf = fn(&Taken) -> f64;
 
-fn over_restitution(scene: &Scene, data: &Restitutions) -> Panel {
+fn over_restitution(scene: &DrawnCase, data: &Restitutions) -> Panel {
     let highest = data.taken.iter().map(|at| at.harmonic.max(at.damping)).fold(0.0, f64::max);
     let kinds = [&of::RESTITUTION, &of::HARMONIC_AMPLITUDE_RATIO];
     let chart = scene.chart(kinds, [[0.0, 1.0], [0.0, 1.12 * highest]]);

@@ -16,14 +16,14 @@ use crate::study::plots::{MotionTrace, Transfer, first_drawn};
 use crate::study::stretches::{TraceStretch, impulse};
 use crate::system::{Excitation, State, System};
 
-use super::Scene;
+use super::DrawnCase;
 use super::parts;
 
 /// Up to so many impacts have a tooltip.
 const TOOLTIPS: usize = 40;
 
 /// A quantity over time between two periods; the axis counts from `start`.
-struct Series<'a> {
+struct TimeSeries<'a> {
     trace: &'a Trace,
     /// Still empty.
     panel: Panel,
@@ -31,9 +31,9 @@ struct Series<'a> {
     start: f64,
 }
 
-impl<'a> Series<'a> {
+impl<'a> TimeSeries<'a> {
     fn new(
-        scene: &Scene,
+        scene: &DrawnCase,
         trace: &'a Trace,
         (kind, range): (&'static Kind, [f64; 2]),
         window: [f64; 2],
@@ -59,7 +59,7 @@ impl<'a> Series<'a> {
     }
 
     /// Impacts where `value` says, with their impulse as tooltip if there are few.
-    fn marks(&self, scene: &Scene, value: &dyn Fn(f64, &Impact) -> f64) -> Layer {
+    fn marks(&self, scene: &DrawnCase, value: &dyn Fn(f64, &Impact) -> f64) -> Layer {
         let few = self.impacts().count() <= TOOLTIPS;
         let marks = self.impacts().map(|(time, impact)| {
             let strength = impulse(scene.system().mass_ratio(), impact);
@@ -72,9 +72,9 @@ impl<'a> Series<'a> {
 }
 
 /// A motion: oscillator and relative displacement over time, and both amplitudes on the manifold.
-pub(super) fn motion(scene: &Scene, data: &MotionTrace) -> Figure {
+pub(super) fn motion(scene: &DrawnCase, data: &MotionTrace) -> Figure {
     let window = [0.0, data.trace.points.last().map_or(1.0, |point| point.periods)];
-    let series = |kind, range| Series::new(scene, &data.trace, (kind, range), window, 0.0);
+    let series = |kind, range| TimeSeries::new(scene, &data.trace, (kind, range), window, 0.0);
     let top = series(&of::DISPLACEMENT, FITTED);
     let low = series(&of::RELATIVE_DISPLACEMENT, [-1.35, 1.35]);
     let first = top.panel.clone().with(top.curve(Role::Simulation, &|point| point.state.x));
@@ -100,7 +100,7 @@ pub(super) fn motion(scene: &Scene, data: &MotionTrace) -> Figure {
         .with_panel(projection(scene, data))
 }
 
-fn projection(scene: &Scene, data: &MotionTrace) -> Panel {
+fn projection(scene: &DrawnCase, data: &MotionTrace) -> Panel {
     let path = data.projection.line(None);
     let [farthest, highest] =
         [0, 1].map(|index| path.iter().map(|at| at[index]).fold(0.0, f64::max));
@@ -122,7 +122,7 @@ fn projection(scene: &Scene, data: &MotionTrace) -> Panel {
 }
 
 /// What the motion's own facts do not say.
-fn motion_facts(scene: &Scene, data: &MotionTrace) -> Value {
+fn motion_facts(scene: &DrawnCase, data: &MotionTrace) -> Value {
     let evidence = &scene.study.measured[data.index].classification.evidence;
     json!({
         "index": data.index,
@@ -136,7 +136,7 @@ fn motion_facts(scene: &Scene, data: &MotionTrace) -> Value {
 const CAPTURES: usize = 150;
 
 /// The amplitudes `C` and `E` of equation (17) period by period (section 4.2 of Li, Seguy, Berlioz 2016).
-pub(super) fn captures(scene: &Scene) -> Option<Figure> {
+pub(super) fn captures(scene: &DrawnCase) -> Option<Figure> {
     let (_, found) = first_drawn(scene.study)?;
     let all = &found.amplitudes;
     let shown = &all[all.len().saturating_sub(CAPTURES)..];
@@ -165,7 +165,7 @@ pub(super) fn captures(scene: &Scene) -> Option<Figure> {
 
 /// One amplitude over time, the captures shaded. A period's amplitudes belong to its middle.
 fn capture_panel(
-    scene: &Scene,
+    scene: &DrawnCase,
     shown: &[Amplitudes],
     kind: &'static Kind,
     value: fn(&Amplitudes) -> f64,
@@ -206,7 +206,7 @@ fn acceleration(system: &System, periods: f64, state: &State) -> f64 {
 
 /// Displacement of the base over the clearance, `F sin(Omega tau)`; for a force the displacement that it would
 /// give at rest.
-fn excitation(scene: &Scene, series: &Series) -> Layer {
+fn excitation(scene: &DrawnCase, series: &TimeSeries) -> Layer {
     let system = scene.system();
     let amplitude = system.mass_ratio() * system.forcing_per_clearance();
     let name = match system.excitation() {
@@ -218,10 +218,11 @@ fn excitation(scene: &Scene, series: &Series) -> Layer {
 }
 
 /// Displacement, acceleration and every impact's strength over some seconds.
-pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
+pub(super) fn transfer(scene: &DrawnCase, data: &Transfer) -> Figure {
     let system = scene.system();
     let window = [data.window.first, data.window.end()].map(|period| period as f64);
-    let series = |kind, range| Series::new(scene, &data.trace, (kind, range), window, window[0]);
+    let series =
+        |kind, range| TimeSeries::new(scene, &data.trace, (kind, range), window, window[0]);
     let top = series(&of::DISPLACEMENT, FITTED);
     let first = top
         .panel
@@ -258,7 +259,7 @@ pub(super) fn transfer(scene: &Scene, data: &Transfer) -> Figure {
         .with_panel(third)
 }
 
-fn transfer_facts(scene: &Scene, data: &Transfer, largest: f64) -> Value {
+fn transfer_facts(scene: &DrawnCase, data: &Transfer, largest: f64) -> Value {
     let window = data.window;
     let captures = data.periods.captures();
     let whole =
@@ -277,7 +278,7 @@ fn transfer_facts(scene: &Scene, data: &Transfer, largest: f64) -> Value {
 }
 
 /// Three short stretches of it: weak impacts, decrease, few impacts (Figs. 12d to 12f).
-pub(super) fn stretches(scene: &Scene, data: &Transfer) -> Option<Figure> {
+pub(super) fn stretches(scene: &DrawnCase, data: &Transfer) -> Option<Figure> {
     let names = ["d: captured, yet it grows", "e: captured, it falls", "f: few impacts, it grows"];
     let shown = names.into_iter().zip(data.parts).filter_map(|(name, part)| Some((name, part?)));
     let shown: Vec<(&str, Part)> = shown.collect();
@@ -298,10 +299,10 @@ pub(super) fn stretches(scene: &Scene, data: &Transfer) -> Option<Figure> {
 }
 
 /// Displacement over one stretch. A time axis of its own would hide where in the window it lies.
-fn stretch_panel(scene: &Scene, data: &Transfer, name: &str, part: &Part) -> Panel {
+fn stretch_panel(scene: &DrawnCase, data: &Transfer, name: &str, part: &Part) -> Panel {
     let window = [part.stretch.first, part.stretch.end()].map(|period| period as f64);
     let kind = (&of::DISPLACEMENT, FITTED);
-    let series = Series::new(scene, &data.trace, kind, window, data.window.first as f64);
+    let series = TimeSeries::new(scene, &data.trace, kind, window, data.window.first as f64);
     series
         .panel
         .clone()

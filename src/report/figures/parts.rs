@@ -8,7 +8,7 @@ use crate::report::chart::Chart;
 use crate::report::figure::{Color, Fill, Hatch, Label, Layer, MarkedPoint, Marker, Role, Style};
 use crate::study::plots::{Levels, Line};
 
-use super::Scene;
+use super::DrawnCase;
 
 const fn tint(color: Color, opacity: f64) -> Fill {
     Fill { color, opacity, hatch: Hatch::None }
@@ -23,7 +23,7 @@ pub(super) const Z4: Fill = tint(Color::Light, 0.15);
 const SAMPLES: u32 = 200;
 
 /// The plane of the manifold up to these amplitudes.
-pub(super) fn amplitudes(scene: &Scene, x: [f64; 2], y: [f64; 2]) -> Chart {
+pub(super) fn amplitudes(scene: &DrawnCase, x: [f64; 2], y: [f64; 2]) -> Chart {
     scene.chart([&of::ABSORBER_AMPLITUDE_RATIO, &of::OSCILLATOR_AMPLITUDE_RATIO], [x, y])
 }
 
@@ -59,7 +59,7 @@ pub(super) fn branches(parts: [(Style, Line); 2], name: impl Into<Label>) -> [La
 
 /// Fixed points by their places: the stable and the unstable ones, in the looks of these.
 pub(super) fn fixed_points(
-    scene: &Scene,
+    scene: &DrawnCase,
     points: &[FixedPoint],
     looks: [(Marker, Color); 2],
     place: &dyn Fn(&FixedPoint) -> [f64; 2],
@@ -79,7 +79,7 @@ pub(super) fn own_points() -> [(Marker, Color); 2] {
 }
 
 /// A fixed point's mark.
-fn fixed_point(scene: &Scene, point: &FixedPoint, at: [f64; 2]) -> MarkedPoint {
+fn fixed_point(scene: &DrawnCase, point: &FixedPoint, at: [f64; 2]) -> MarkedPoint {
     let stability = if point.stable { "stable" } else { "unstable" };
     let what = format!("{stability} fixed point, {} of the slow flow", point.kind.words());
     let amplitudes = [

@@ -10,14 +10,14 @@ use crate::report::chart::Chart;
 use crate::report::figure::{
     Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
-use crate::study::plots::{Amplitude, BandCurves};
+use crate::study::plots::{AmplitudeCurves, BandCurves};
 use crate::study::scenes::WalkPoint;
 
 use super::parts;
-use super::{Ends, Scene};
+use super::{DrawnCase, Ends};
 
 /// The response over the case's band, and what else could be done.
-pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
+pub(super) fn band(scene: &DrawnCase, data: &BandCurves) -> Option<Figure> {
     let survey = scene.study.band.as_ref()?;
     let band = survey.band();
     let found = beside_orbits(scene, survey);
@@ -62,7 +62,7 @@ pub(super) fn band(scene: &Scene, data: &BandCurves) -> Option<Figure> {
 }
 
 /// Simulated peaks along the band where they are not the exact orbit's.
-fn beside_orbits(scene: &Scene, survey: &Survey) -> Vec<([f64; 2], String)> {
+fn beside_orbits(scene: &DrawnCase, survey: &Survey) -> Vec<([f64; 2], String)> {
     let mut found = Vec::new();
     for (at, here) in survey.motions.places() {
         for (_, motion) in here.counting(survey.count_rest) {
@@ -84,7 +84,7 @@ fn beside_orbits(scene: &Scene, survey: &Survey) -> Vec<([f64; 2], String)> {
 }
 
 /// With and without absorber over frequency.
-pub(super) fn amplitude(scene: &Scene, data: &Amplitude) -> Figure {
+pub(super) fn amplitude(scene: &DrawnCase, data: &AmplitudeCurves) -> Figure {
     let kinds = [&of::EXCITATION_FREQUENCY, &of::PEAK];
     let chart = scene.chart(kinds, [data.window, [0.0, data.top]]);
     let [stable, unstable] = &data.theory;
@@ -123,7 +123,7 @@ pub(super) fn amplitude(scene: &Scene, data: &Amplitude) -> Figure {
 }
 
 /// The peak without absorber, if anything limits it.
-fn bare(scene: &Scene) -> Option<f64> {
+fn bare(scene: &DrawnCase) -> Option<f64> {
     Some(scene.study.rivals.bare.1).filter(|bare| bare.is_finite())
 }
 
@@ -133,7 +133,7 @@ fn decibels(ratio: f64) -> f64 {
 
 /// What simulation finds at many clearances: where on the manifold (Fig. 11g), and how much the oscillator
 /// vibrates (section 3.1 and the red cross in Fig. 6c).
-pub(super) fn clearances(scene: &Scene, found: &[WalkPoint]) -> Figure {
+pub(super) fn clearances(scene: &DrawnCase, found: &[WalkPoint]) -> Figure {
     let least = found.iter().min_by(|a, b| a.peak.total_cmp(&b.peak));
     let facts = json!({
         "count": found.len(),
@@ -150,7 +150,7 @@ pub(super) fn clearances(scene: &Scene, found: &[WalkPoint]) -> Figure {
 
 /// The motions by regime, and the case.
 fn walked(
-    scene: &Scene,
+    scene: &DrawnCase,
     found: &[WalkPoint],
     chart: &Chart,
     place: fn(&WalkPoint) -> [f64; 2],
@@ -167,7 +167,7 @@ fn walked(
     layers
 }
 
-fn on_manifold(scene: &Scene, found: &[WalkPoint]) -> Panel {
+fn on_manifold(scene: &DrawnCase, found: &[WalkPoint]) -> Panel {
     let manifold = &scene.study.analysis.manifold;
     let over = |index: usize| found.iter().map(move |point| point.amplitudes[index]);
     let farthest = over(0).fold(2.0, f64::max);
@@ -185,7 +185,7 @@ fn on_manifold(scene: &Scene, found: &[WalkPoint]) -> Panel {
     panel.with(Layer::marked(Role::Guide.marker().sized(3.0), Color::Black, ends))
 }
 
-fn over_clearance(scene: &Scene, found: &[WalkPoint]) -> Panel {
+fn over_clearance(scene: &DrawnCase, found: &[WalkPoint]) -> Panel {
     let bare = bare(scene);
     let highest = found.iter().map(|point| point.peak).chain(bare).fold(0.0, f64::max);
     let ends = [found.first(), found.last()].map(|at| at.map_or(1.0, |at| at.clearance));

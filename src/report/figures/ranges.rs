@@ -5,12 +5,12 @@ use serde_json::{Value, json};
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::report::figure::{
-    Axis, Color, Dash, Figure, Fill, Hatch, Layer, Layout, MarkedPoint, Marker, Panel, Scale,
+    Axis, AxisScale, Color, Dash, Figure, Fill, Hatch, Layer, Layout, MarkedPoint, Marker, Panel,
     Shape, Style, Tick,
 };
 use crate::study::plots::Ranges;
 
-use super::Scene;
+use super::DrawnCase;
 
 /// Thickness of a bar in pixels.
 const BAR: f64 = 9.0;
@@ -23,7 +23,7 @@ const HEAD: f64 = 0.03;
 const ROOM: f64 = 0.22;
 
 /// One panel for each parameter.
-pub(super) fn figure(scene: &Scene, data: &[Ranges]) -> Option<Figure> {
+pub(super) fn figure(scene: &DrawnCase, data: &[Ranges]) -> Option<Figure> {
     let heights: Vec<f64> = data.iter().map(|one| rows(one) + ABOVE).collect();
     let height = 52.0 * data.len() as f64 + 32.0 * heights.iter().sum::<f64>();
     let ranges = || data.iter().flat_map(|one| &one.layers).flat_map(|(_, ranges)| ranges);
@@ -44,7 +44,7 @@ fn rows(data: &Ranges) -> f64 {
     data.layers.len().max(1) as f64
 }
 
-fn row_facts(scene: &Scene, data: &Ranges) -> Value {
+fn row_facts(scene: &DrawnCase, data: &Ranges) -> Value {
     let kind = scene.kind(data.parameter);
     let bars = data.layers.iter().flat_map(|(layer, ranges)| {
         let end = |at: Option<f64>| at.map(|at| scene.si(kind, at));
@@ -65,14 +65,14 @@ const fn look(layer: Method) -> (&'static str, Color) {
 }
 
 /// A row of bars for each layer, below the case's mark.
-fn panel(scene: &Scene, data: &Ranges) -> Panel {
+fn panel(scene: &DrawnCase, data: &Ranges) -> Panel {
     let (parameter, kind) = (data.parameter, scene.kind(data.parameter));
     let here = parameter.of(scene.system());
     let ends = data.layers.iter().flat_map(|(_, ranges)| ranges.iter().flatten().flatten());
     let span = ends.fold([here; 2], |[low, high], end| [low.min(*end), high.max(*end)]);
     let span = if span[0] < span[1] { span } else { [0.9 * here, 1.1 * here] };
     let edges = [-ROOM, 1.0 + ROOM].map(|part| parameter.between(span, part));
-    let scale = if parameter.is_logarithmic() { Scale::Log } else { Scale::Linear };
+    let scale = if parameter.is_logarithmic() { AxisScale::Log } else { AxisScale::Linear };
     let x = scene.axis(kind, edges).with_scale(scale);
     let count = rows(data);
     let row = |index: usize| count - 0.5 - index as f64;

@@ -12,13 +12,13 @@ use crate::study::plots::restitutions::observed;
 use crate::study::plots::{Areas, Responses, drawn};
 
 use super::parts;
-use super::{Ends, Scene};
+use super::{DrawnCase, Ends};
 
 /// Beyond this `B/b` the plane of the manifold is logarithmic.
 const FAR: f64 = 40.0;
 
 /// With the case's fixed points and its observed motions.
-pub(super) fn manifold(scene: &Scene) -> Figure {
+pub(super) fn manifold(scene: &DrawnCase) -> Figure {
     let analysis = &scene.study.analysis;
     let manifold = &analysis.manifold;
     let seen: Vec<([f64; 2], Regime)> = (0..scene.study.motions.len())
@@ -62,7 +62,7 @@ pub(super) fn manifold(scene: &Scene) -> Figure {
 }
 
 /// The predicted stable motion, and the simulated 1:1 motion next to it.
-fn manifold_facts(scene: &Scene, seen: &[([f64; 2], Regime)]) -> Value {
+fn manifold_facts(scene: &DrawnCase, seen: &[([f64; 2], Regime)]) -> Value {
     let analysis = &scene.study.analysis;
     let predicted = analysis.stable_points().last();
     let two = seen.iter().filter(|(_, regime)| regime.is_two_per_period());
@@ -88,7 +88,7 @@ const STYLES: [(Color, Dash); 4] = [
 ];
 
 /// Frequency responses beside the manifold.
-pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
+pub(super) fn figure(scene: &DrawnCase, data: &Responses) -> Figure {
     let analysis = &scene.study.analysis;
     let log = data.heights[0] > 0.0;
     let last = 2.0 * data.heights[1] + if data.own { 1.0 } else { 0.0 };
@@ -135,7 +135,7 @@ pub(super) fn figure(scene: &Scene, data: &Responses) -> Figure {
         .with_panel(second)
 }
 
-fn response_facts(scene: &Scene, data: &Responses) -> Value {
+fn response_facts(scene: &DrawnCase, data: &Responses) -> Value {
     let analysis = &scene.study.analysis;
     let band = [-BAND, BAND].map(|at| scene.ratio(at));
     let shares: Vec<[f64; 2]> = data.members.iter().map(|at| [at.clearance, at.share]).collect();
@@ -147,7 +147,7 @@ fn response_facts(scene: &Scene, data: &Responses) -> Value {
 }
 
 /// The areas along the manifold, and how the fixed points move as the clearance grows.
-pub(super) fn areas(scene: &Scene, data: &Areas) -> Figure {
+pub(super) fn areas(scene: &DrawnCase, data: &Areas) -> Figure {
     let manifold = &scene.study.analysis.manifold;
     let Ends { breaking, hopf, last, .. } = scene.ends;
     let top = manifold.point(Areas::WIDEST - 1.0).oscillator_amplitude;
@@ -189,7 +189,7 @@ const LOOKS: [(Color, Shape); 5] = [
 ];
 
 /// The fixed points of some clearances in both panels: stable ones filled, others hollow.
-fn chosen(scene: &Scene, data: &Areas, panels: [&mut Panel; 2]) {
+fn chosen(scene: &DrawnCase, data: &Areas, panels: [&mut Panel; 2]) {
     for ((clearance, points), (color, shape)) in data.chosen.iter().zip(LOOKS) {
         let looks = [Marker::filled(shape), Marker::hollow(shape)].map(|marker| (marker, color));
         let [left, right] = [0, 1].map(|k| {

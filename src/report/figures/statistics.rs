@@ -14,7 +14,7 @@ use crate::report::figure::{
 };
 use crate::study::plots::{MotionExponents, StartPlane, drawn};
 
-use super::Scene;
+use super::DrawnCase;
 use super::regimes::tint;
 
 /// At most so many points of a return map, the last ones.
@@ -27,7 +27,7 @@ const SINGLE: usize = 12;
 const ENDS: [f64; 2] = [1.25, 4.0];
 
 /// Each time between impacts against the next one; none where there are too few impacts.
-pub(super) fn return_map(scene: &Scene, index: usize) -> Option<Figure> {
+pub(super) fn return_map(scene: &DrawnCase, index: usize) -> Option<Figure> {
     let impacts = &drawn(scene.study, index)?.1.impacts;
     let first = impacts.len().saturating_sub(POINTS + 2);
     let all = pairs(&impacts[first..], scene.system().period());
@@ -98,7 +98,7 @@ const TINTS: [Tint; 5] = [
 ];
 
 /// Which starts lead to which long-term motion.
-pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
+pub(super) fn basins(scene: &DrawnCase, data: &StartPlane) -> Figure {
     let cells = data.motions.led();
     let kinds = [&of::DISPLACEMENT, &of::VELOCITY];
     let chart = scene.chart(kinds, [[-data.reach, data.reach]; 2]);
@@ -142,7 +142,7 @@ pub(super) fn basins(scene: &Scene, data: &StartPlane) -> Figure {
 }
 
 /// How the largest Lyapunov exponent of each motion converges, and what the exact orbit says of it.
-pub(super) fn exponents(scene: &Scene, data: &[MotionExponents]) -> Option<Figure> {
+pub(super) fn exponents(scene: &DrawnCase, data: &[MotionExponents]) -> Option<Figure> {
     data.first()?;
     let kinds = [&of::WINDOW, &of::LYAPUNOV_EXPONENT];
     let chart = scene.chart(kinds, [FITTED; 2]).with_log([true, false]);

@@ -6,10 +6,10 @@ use crate::case::{Case, Objective};
 use crate::optimize::Optimization;
 use crate::optimize::chart::Suited;
 use crate::quantity::{Kind, Units, catalogue};
-use crate::report::chart::{FITTED, Shown};
+use crate::report::chart::{AxisOf, FITTED};
 use crate::report::figure::{
-    Axis, Color, Dash, Figure, Fill, Label, Layer, MarkedPoint, Marker, Panel, Role, Scale, Shape,
-    Style,
+    Axis, AxisScale, Color, Dash, Figure, Fill, Label, Layer, MarkedPoint, Marker, Panel, Role,
+    Shape, Style,
 };
 
 /// Amplitudes of the chart, over the case's own.
@@ -20,7 +20,7 @@ const GUIDE: Style = Style::new(Color::Grey, 1.4, Dash::Dotted);
 /// Both figures.
 pub fn figures(case: &Case, found: &Optimization) -> Vec<Figure> {
     let context = super::context(case, found);
-    let drawing = Drawing { found, units: case.units() };
+    let drawing = OptimumDrawing { found, units: case.units() };
     let mut figures =
         vec![drawing.landscape().with_facts("captions/optimize-landscape", context.clone())];
     let chart = drawing.chart();
@@ -36,15 +36,15 @@ pub(super) fn nearest(found: &Optimization) -> Option<&Suited> {
     suited.min_by(|a, b| away(a).total_cmp(&away(b)))
 }
 
-struct Drawing<'a> {
+struct OptimumDrawing<'a> {
     found: &'a Optimization,
     units: Units,
 }
 
-impl Drawing<'_> {
+impl OptimumDrawing<'_> {
     /// An axis of numbers in SI.
-    fn axis(&self, kind: &Kind, range: [f64; 2], scale: Scale) -> Axis {
-        Shown::si(self.units, kind).axis(range).with_scale(scale)
+    fn axis(&self, kind: &Kind, range: [f64; 2], scale: AxisScale) -> Axis {
+        AxisOf::si(self.units, kind).axis(range).with_scale(scale)
     }
 
     fn landscape(&self) -> Figure {
@@ -54,8 +54,8 @@ impl Drawing<'_> {
         let values = found.landscape.iter().map(|place| place.1).filter(|value| value.is_finite());
         let largest = values.fold(0.0, f64::max);
         let [low, high] = [found.task.bounds[0].from, found.task.bounds[0].to];
-        let x = self.axis(&catalogue::CLEARANCE, [low, high], Scale::Log);
-        let mut panel = Panel::new(x, Shown::si(self.units, kind).axis_up_to(largest, FITTED));
+        let x = self.axis(&catalogue::CLEARANCE, [low, high], AxisScale::Log);
+        let mut panel = Panel::new(x, AxisOf::si(self.units, kind).axis_up_to(largest, FITTED));
         let finite = found.landscape.iter().filter(|(_, value)| value.is_finite());
         let cheap = finite.map(|(at, value)| [*at, *value]);
         // A coarse survey scatters: nothing is known between its places.
@@ -129,9 +129,9 @@ impl Drawing<'_> {
             line
         });
         let range = [found.chart.first()?, found.chart.last()?].map(|one| one.frequency_ratio);
-        let x = Shown::dimensionless(self.units, &catalogue::EXCITATION_FREQUENCY).axis(range);
+        let x = AxisOf::dimensionless(self.units, &catalogue::EXCITATION_FREQUENCY).axis(range);
         let tint = Fill::tint(Color::SkyBlue);
-        let mut over_frequency = Panel::new(x, clearances(Scale::Log))
+        let mut over_frequency = Panel::new(x, clearances(AxisScale::Log))
             .with(Layer::between(&ends[0], &ends[1], tint).labelled("stable 1:1"))
             .with(Layer::curve(Role::Stable, best).labelled("best"));
         if found.reached() {
@@ -140,8 +140,8 @@ impl Drawing<'_> {
         }
         let here = nearest(found)?;
         let line = |at: f64| AMPLITUDES.map(|factor| [factor, at * factor]).to_vec();
-        let x = self.axis(&catalogue::AMPLITUDE_OVER_OWN, AMPLITUDES, Scale::Linear);
-        let mut over_amplitude = Panel::new(x, clearances(Scale::Linear));
+        let x = self.axis(&catalogue::AMPLITUDE_OVER_OWN, AMPLITUDES, AxisScale::Linear);
+        let mut over_amplitude = Panel::new(x, clearances(AxisScale::Linear));
         if let Some([low, high]) = here.stable {
             let area = Layer::between(&line(low), &line(high), tint);
             over_amplitude = over_amplitude.with(area.labelled(Label::from("stable 1:1")));

@@ -5,8 +5,8 @@ use serde::Serialize;
 use crate::case::{Case, SweepAxis};
 use crate::method::Method;
 use crate::quantity::{Digits, Kind, Quantity, Units};
-use crate::report::chart::Shown;
-use crate::report::figure::{Axis, Scale, edges};
+use crate::report::chart::AxisOf;
+use crate::report::figure::{Axis, AxisScale, edges};
 use crate::system::Parameter;
 
 /// An axis as it is shown.
@@ -45,14 +45,14 @@ impl AxisShown {
         edges(&self.values, self.scale())
     }
 
-    const fn scale(&self) -> Scale {
-        if self.logarithmic { Scale::Log } else { Scale::Linear }
+    const fn scale(&self) -> AxisScale {
+        if self.logarithmic { AxisScale::Log } else { AxisScale::Linear }
     }
 
     /// The axis of a figure, with half a step to either side: single cells have their middle there.
     pub fn drawn(&self) -> Axis {
         let edges = self.edges();
-        let axis = Shown::si(self.units, self.kind).axis([edges[0], edges[edges.len() - 1]]);
+        let axis = AxisOf::si(self.units, self.kind).axis([edges[0], edges[edges.len() - 1]]);
         axis.with_scale(self.scale())
     }
 

@@ -6,7 +6,7 @@ use crate::case::Recorded;
 use crate::excitation::Scene;
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
-use crate::report::chart::{FITTED, Shown};
+use crate::report::chart::{AxisOf, FITTED};
 use crate::report::figure::Axis;
 use crate::sweep::columns::{Cell, Column, Direction};
 use crate::sweep::indices;
@@ -46,7 +46,7 @@ impl Swept<'_> {
     ) -> Axis {
         let all = columns.into_iter().flatten().flatten();
         let largest = all.fold(0.0, |most: f64, value| most.max(value.abs()));
-        Shown::si(self.units(), kind).axis_up_to(largest, FITTED)
+        AxisOf::si(self.units(), kind).axis_up_to(largest, FITTED)
     }
 
     pub(super) fn points(&self) -> usize {

@@ -25,7 +25,7 @@ const CUT: f64 = 2.2;
 
 /// Peaks over frequency, over the clearance.
 #[derive(Debug, Clone)]
-pub struct Amplitude {
+pub struct AmplitudeCurves {
     /// First and last frequency ratio.
     pub window: [f64; 2],
     /// Without absorber.
@@ -42,7 +42,7 @@ pub struct Amplitude {
     pub top: f64,
 }
 
-impl Amplitude {
+impl AmplitudeCurves {
     /// Of a simulated case.
     pub(super) fn of(study: &CaseStudy) -> Result<Self, StudyError> {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);

@@ -85,10 +85,10 @@ impl Dissipation {
 }
 
 /// Where a point lies, and whether it is stable there.
-type Place<'a> = &'a dyn Fn(&PairPoint) -> Option<([f64; 2], bool)>;
+type CurvePlace<'a> = &'a dyn Fn(&PairPoint) -> Option<([f64; 2], bool)>;
 
 /// What is drawn of a branch.
-fn draw(branch: &PairBranch, place: Place, drawn: &mut Looks) {
+fn draw(branch: &PairBranch, place: CurvePlace, drawn: &mut Looks) {
     let known = |point: &PairPoint| match (branch.closed_form, point.repeats_after) {
         (true, _) => AverageSource::ClosedForm,
         (false, Some(_)) => AverageSource::Repeating,

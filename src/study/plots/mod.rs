@@ -28,7 +28,7 @@ use super::diagrams::Diagram;
 use super::scenes::{WalkPoint, walk};
 use super::{CaseStudy, StudyError};
 
-pub use amplitude::Amplitude;
+pub use amplitude::AmplitudeCurves;
 pub use areas::{Areas, Levels};
 pub use band::BandCurves;
 pub use borders::{Bifurcations, Borders};
@@ -65,7 +65,7 @@ pub enum Plot {
     /// Where steady 1:1 resonance begins and ends.
     Ranges(Vec<Ranges>),
     /// The case among its boundaries, in frequency and clearance.
-    Map(Map),
+    Map(BoundaryMap),
     /// The same in detuning and forcing per clearance.
     Plane(Borders),
     /// The slow invariant manifold with what was found on it.
@@ -73,7 +73,7 @@ pub enum Plot {
     /// Frequency responses of several clearances beside the manifold.
     Responses(Responses),
     /// Peaks over frequency.
-    Amplitude(Amplitude),
+    Amplitude(AmplitudeCurves),
     /// A motion over time, and the times between its impacts.
     Motion(MotionTrace),
     /// The areas along the manifold.
@@ -132,7 +132,7 @@ impl Plot {
             plots.push(Self::Ranges(Ranges::of(study)));
         }
         if forced {
-            plots.push(Self::Map(Map::of(study)));
+            plots.push(Self::Map(BoundaryMap::of(study)));
         }
         plots.extend([Self::Plane(Borders::around(study)), Self::Manifold]);
         plots.extend(Responses::around(study).filter(|_| forced).map(Self::Responses));
@@ -140,7 +140,7 @@ impl Plot {
             return Ok(plots);
         }
         if forced {
-            plots.push(Self::Amplitude(Amplitude::of(study)?));
+            plots.push(Self::Amplitude(AmplitudeCurves::of(study)?));
         }
         for index in 0..study.motions.len().min(MOTIONS) {
             plots.extend(MotionTrace::of(study, index)?.map(Self::Motion));
@@ -209,7 +209,7 @@ pub fn window(system: &System) -> [f64; 2] {
 
 /// The case among its boundaries over frequency.
 #[derive(Debug, Clone)]
-pub struct Map {
+pub struct BoundaryMap {
     /// First and last frequency ratio.
     pub window: [f64; 2],
     /// The theory's boundaries.
@@ -220,7 +220,7 @@ pub struct Map {
     pub errors: Vec<(f64, Vec<AsymptoticError>)>,
 }
 
-impl Map {
+impl BoundaryMap {
     /// Frequencies, less one, at which the exact boundaries are marked.
     const EXACT: u32 = 40;
 

@@ -25,7 +25,7 @@ const DISTINCT: f64 = 0.18;
 #[derive(Debug, Clone)]
 pub struct Responses {
     /// The clearances, from the smallest; for `Self::around` the case's own last.
-    pub members: Vec<Response>,
+    pub members: Vec<ClearanceResponse>,
     /// Whether the case's is the last.
     pub own: bool,
     /// First and last frequency ratio.
@@ -38,7 +38,7 @@ pub struct Responses {
 
 /// The response of one clearance.
 #[derive(Debug, Clone)]
-pub struct Response {
+pub struct ClearanceResponse {
     /// The clearance over the case's.
     pub clearance: f64,
     /// `[frequency ratio, C/b]`: the stable part, and the others.
@@ -67,7 +67,8 @@ impl Responses {
         // curve that matters only below must not be coarse there.
         let others = others.into_iter().map(|at| (at, (top + 1.0).min(OTHERS)));
         let members = others.chain([(gamma, top + 1.0)]);
-        let members = members.filter_map(|(at, largest)| Response::of(system, at, largest));
+        let members =
+            members.filter_map(|(at, largest)| ClearanceResponse::of(system, at, largest));
         Some(Self {
             members: members.collect(),
             own: true,
@@ -87,7 +88,9 @@ impl Responses {
         let members = family(system).into_iter();
         let half = BAND * system.mass_ratio();
         Some(Self {
-            members: members.filter_map(|at| Response::of(system, at, top + 1.0)).collect(),
+            members: members
+                .filter_map(|at| ClearanceResponse::of(system, at, top + 1.0))
+                .collect(),
             own: false,
             window: [(1.0 - half).max(0.05), 1.0 + half],
             heights: [0.0, top],
@@ -96,7 +99,7 @@ impl Responses {
     }
 }
 
-impl Response {
+impl ClearanceResponse {
     fn of(system: &System, gamma: f64, largest: f64) -> Option<Self> {
         let there = Parameters { forcing_per_clearance: gamma, ..system.parameters() };
         let there = System::new(there).ok()?;

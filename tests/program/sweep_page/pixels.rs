@@ -54,13 +54,13 @@ fn the_order_of_the_axes_does_not_turn_the_map() {
 /// geometric mean.
 #[test]
 fn uneven_cells_end_midway() {
-    assert_eq!(edges(&[1.0, 2.0, 4.0], Scale::Linear), [0.5, 1.5, 3.0, 5.0]);
-    let log = edges(&[1.0, 4.0, 16.0], Scale::Log);
+    assert_eq!(edges(&[1.0, 2.0, 4.0], AxisScale::Linear), [0.5, 1.5, 3.0, 5.0]);
+    let log = edges(&[1.0, 4.0, 16.0], AxisScale::Log);
     for (found, wanted) in log.iter().zip([0.5, 2.0, 8.0, 32.0]) {
         // Through a logarithm and back.
         assert!((found / wanted - 1.0).abs() < 1e-14, "{log:?}");
     }
-    assert_eq!(edges(&[5.0], Scale::Linear), [4.5, 5.5]);
+    assert_eq!(edges(&[5.0], AxisScale::Linear), [4.5, 5.5]);
     let tints = vec![Tint([10, 20, 30]), Tint([200, 100, 50]), Tint([0, 200, 0])];
     let draw = |x_edges: &[f64], log: bool| {
         let (first, last) = (x_edges[0], x_edges[3]);

@@ -22,7 +22,7 @@ use crate::sweep::columns::{self, Direction};
 const WORDS: &str = "captions/sweep-line";
 
 pub(super) fn all(swept: &Swept, axis: &AxisShown) -> Vec<Figure> {
-    let diagram = Diagram { swept, axis, directions: swept.directions() };
+    let diagram = LineDiagram { swept, axis, directions: swept.directions() };
     let values = |of: fn(Recorded) -> bool| {
         let some = QUANTITIES.iter().filter(move |(_, one, _)| of(*one));
         some.filter_map(|(name, one, _)| diagram.values(name, *one))
@@ -45,13 +45,13 @@ const BESIDE: [Beside; 6] = [
     (Recorded::Peak, Recorded::DamperPeak, DAMPER, "tuned mass damper"),
 ];
 
-struct Diagram<'a> {
+struct LineDiagram<'a> {
     swept: &'a Swept<'a>,
     axis: &'a AxisShown,
     directions: Vec<Direction>,
 }
 
-impl Diagram<'_> {
+impl LineDiagram<'_> {
     /// A figure with one panel, the case's own value marked; nothing where nothing is drawn.
     fn figure(&self, name: &str, of: &Kind, y: Axis, layers: Vec<Layer>) -> Option<Figure> {
         if layers.is_empty() {

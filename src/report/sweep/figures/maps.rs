@@ -10,7 +10,7 @@ use super::overlay::{self, Lines};
 use crate::case::Recorded;
 use crate::regimes::Regime;
 use crate::report::figure::{
-    Axis, Cell, Cells, Figure, Image, Key, Layer, Layout, Panel, Ramp, Tint, inliers,
+    Axis, Cells, Figure, GridCell, Image, Key, Layer, Layout, Panel, Ramp, Tint, inliers,
 };
 use crate::report::figures::regimes::tint;
 use crate::sweep::columns::Direction;
@@ -166,11 +166,11 @@ impl Panels<'_> {
             }
             lines = drawn;
             figure.panels.push(panel);
-            cells.push(Cell { column, row, columns: 1, rows: 1 });
+            cells.push(GridCell { column, row, columns: 1, rows: 1 });
         }
         if let Some(bar) = bar(map) {
             figure.panels.push(bar);
-            cells.push(Cell { column: columns, row: 0, columns: 1, rows });
+            cells.push(GridCell { column: columns, row: 0, columns: 1, rows });
             widths.push(0.11 * columns as f64);
         }
         figure.keys.clone_from(&map.keys);

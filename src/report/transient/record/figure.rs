@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use crate::case::Case;
 use crate::quantity::catalogue as of;
-use crate::report::chart::Shown;
-use crate::report::figure::{Color, Dash, Figure, Layer, Panel, Role, Scale, Style};
+use crate::report::chart::AxisOf;
+use crate::report::figure::{AxisScale, Color, Dash, Figure, Layer, Panel, Role, Style};
 use crate::report::transient::DAMPER;
 use crate::transient::{RecordStudy, SpectrumPoint};
 
@@ -24,7 +24,7 @@ pub fn figures(case: &Case, study: &RecordStudy, facts: &Value) -> Vec<Figure> {
 }
 
 fn history(case: &Case, study: &RecordStudy) -> Option<Figure> {
-    let shown = |kind| Shown::dimensionless(case.units(), kind);
+    let shown = |kind| AxisOf::dimensionless(case.units(), kind);
     let first = study.first()?;
     let (_, worst) = first.worst()?;
     let end = first.bare.trace.last()?[0];
@@ -49,7 +49,7 @@ fn history(case: &Case, study: &RecordStudy) -> Option<Figure> {
 }
 
 fn spectrum(case: &Case, study: &RecordStudy) -> Figure {
-    let shown = |kind| Shown::dimensionless(case.units(), kind);
+    let shown = |kind| AxisOf::dimensionless(case.units(), kind);
     let peaks = study.spectrum.iter().flat_map(|one| [one.bare, one.absorber, one.damped]);
     let (least, most) = peaks
         .fold((f64::INFINITY, 0.0_f64), |(least, most), peak| (least.min(peak), most.max(peak)));
@@ -59,8 +59,8 @@ fn spectrum(case: &Case, study: &RecordStudy) -> Figure {
     let ends = [study.spectrum.first(), study.spectrum.last()];
     let ends = ends.map(|one| one.map_or(1.0, |one| one.ratio));
     // The prefix is that of the structure itself.
-    let x = shown(&of::STRUCTURE_FREQUENCY).axis_up_to(1.0, ends).with_scale(Scale::Log);
-    let y = shown(&of::PEAK).axis([0.8 * least, 1.25 * most]).with_scale(Scale::Log);
+    let x = shown(&of::STRUCTURE_FREQUENCY).axis_up_to(1.0, ends).with_scale(AxisScale::Log);
+    let y = shown(&of::PEAK).axis([0.8 * least, 1.25 * most]).with_scale(AxisScale::Log);
     let panel = Panel::new(x, y)
         .with(Layer::vertical(1.0, Role::Guide).labelled("this structure"))
         .with(Layer::curve(Role::BareOscillator, line(|one| one.bare)).labelled("without absorber"))

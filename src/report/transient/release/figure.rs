@@ -7,8 +7,8 @@ use serde_json::Value;
 use crate::case::Case;
 use crate::flights::STEPS;
 use crate::quantity::catalogue as of;
-use crate::report::chart::Shown;
-use crate::report::figure::{Figure, Layer, Panel, Role, Scale};
+use crate::report::chart::AxisOf;
+use crate::report::figure::{AxisScale, Figure, Layer, Panel, Role};
 use crate::report::transient::{DAMPER, THEORY};
 use crate::transient::DecayStudy;
 
@@ -30,8 +30,8 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
         .fold(0.0, f64::max);
     let shown =
         if shown > 0.0 { 1.05 * shown } else { found.amplitudes.len() as f64 / f64::from(STEPS) };
-    let oscillations = Shown::dimensionless(units, &of::TIME).counting(TAU);
-    let amplitude = Shown::dimensionless(units, &of::OSCILLATOR_AMPLITUDE);
+    let oscillations = AxisOf::dimensionless(units, &of::TIME).counting(TAU);
+    let amplitude = AxisOf::dimensionless(units, &of::OSCILLATOR_AMPLITUDE);
     let lowest = 0.5 * study.level;
     let line = |mut points: Vec<[f64; 2]>| {
         points.retain(|one| one[0] <= shown && one[1] >= lowest);
@@ -47,7 +47,7 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
         let time = shown * k as f64 / POINTS as f64;
         [time, study.from * libm::exp(-decay * time)]
     });
-    let y = amplitude.axis([lowest, 1.2 * study.from]).with_scale(Scale::Log);
+    let y = amplitude.axis([lowest, 1.2 * study.from]).with_scale(AxisScale::Log);
     let mut panel = Panel::new(oscillations.axis([0.0, shown]), y)
         .with(Layer::horizontal(study.level, Role::Guide).labelled("at rest"))
         .with(

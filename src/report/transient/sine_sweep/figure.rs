@@ -5,8 +5,8 @@ use serde_json::Value;
 use crate::case::Case;
 use crate::excitation::SweepRate;
 use crate::quantity::catalogue as of;
-use crate::report::chart::{FITTED, Shown};
-use crate::report::figure::{Color, Dash, Figure, Layer, Panel, Role, Scale, Style};
+use crate::report::chart::{AxisOf, FITTED};
+use crate::report::figure::{AxisScale, Color, Dash, Figure, Layer, Panel, Role, Style};
 use crate::report::transient::DAMPER;
 use crate::transient::SweepStudy;
 
@@ -27,7 +27,7 @@ pub fn figures(case: &Case, study: &SweepStudy, facts: &Value) -> Vec<Figure> {
 }
 
 fn envelope(case: &Case, study: &SweepStudy) -> Figure {
-    let shown = |kind| Shown::dimensionless(case.units(), kind);
+    let shown = |kind| AxisOf::dimensionless(case.units(), kind);
     let ends = [study.sweep.from, study.sweep.to];
     let [from, to] = ends.map(|frequency| case.units().frequency_ratio(frequency));
     let peak = |passage: &crate::flights::Passage| passage.peak()[1];
@@ -78,10 +78,10 @@ fn rates(case: &Case, study: &SweepStudy) -> Figure {
     };
     let fastest = study.by_rate.iter().map(|one| size(one.sweep.rate).1).fold(0.0, f64::max);
     let kind = size(study.sweep.rate).0;
-    let x = Shown::si(units, kind).axis_up_to(fastest, FITTED).with_scale(Scale::Log);
+    let x = AxisOf::si(units, kind).axis_up_to(fastest, FITTED).with_scale(AxisScale::Log);
     let largest = study.by_rate.iter().flat_map(|one| one.peaks.map(|peak| peak[1]));
     let largest = largest.fold(0.0, f64::max);
-    let y = Shown::dimensionless(units, &of::PEAK).axis([0.0, 1.1 * largest]);
+    let y = AxisOf::dimensionless(units, &of::PEAK).axis([0.0, 1.1 * largest]);
     let line = |k: usize| -> Vec<[f64; 2]> {
         let rates = study.by_rate.iter();
         rates.map(|one| [size(one.sweep.rate).1, one.peaks[k][1]]).collect()
