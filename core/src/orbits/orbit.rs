@@ -34,7 +34,7 @@ pub struct Orbit {
     /// How well it closes, and in how many steps that was reached.
     pub convergence: Convergence,
     /// Multipliers of the map around [`Orbit::cycle`]: of half the orbit for
-    /// [`Closure::Mirrors`].
+    /// [`Closure::Mirrors`](super::Closure::Mirrors).
     pub multipliers: Multipliers,
     /// Whether it is a motion.
     pub admissibility: Admissibility,
