@@ -2,7 +2,7 @@
 //! print them.
 //!
 //! Results hold at first order in the mass ratio, near 1:1 resonance, for two symmetric impacts per cycle.
-//! What follows from the paper is derived in each file's head, and `tests/equations.rs` proves it against
+//! What follows from the paper is derived in each file's head, and `tests/physics/equations.rs` proves it against
 //! the paper's equations. [`crate::orbits::equations`] holds such motions exactly, at any mass ratio and
 //! frequency.
 //!

@@ -8,7 +8,7 @@
 //! `x'+ - x'- = -2 eps y'+`, so that with `q = (Phi + I)^-1 (0, 1)` the steady motion is linear in the
 //! absorber's amplitude, `X = b - A B`, `V = -D B`, and its squared amplitude a quadratic. Exact; nothing is
 //! expanded in the mass ratio. Valid where a steady motion exists, and a motion only if the absorber stays
-//! between the walls from impact to impact. `tests/orbit_equations.rs` proves what is derived against what is
+//! between the walls from impact to impact. `tests/physics/orbit_equations.rs` proves what is derived against what is
 //! stated.
 //!
 //! For the program itself: this module may change at any time.
