@@ -448,7 +448,7 @@ fn figure(swept: &Swept, name: &str) -> Figure {
     all.into_iter().find(|figure| figure.name == name).expect(name)
 }
 
-/// The points of a layer with a name, finite ones only; several layers may have it.
+/// The points of a layer with a name in the units of the labels, finite ones only; several layers may have it.
 fn drawn(panel: &Panel, name: &str) -> Vec<[f64; 2]> {
     let is = |label: &Option<Label>| label.as_ref().is_some_and(|label| label.text == name);
     let points = panel.layers.iter().flat_map(|layer| match layer {
@@ -458,7 +458,8 @@ fn drawn(panel: &Panel, name: &str) -> Vec<[f64; 2]> {
         }
         _ => Vec::new(),
     });
-    points.filter(|point| point.iter().all(|part| part.is_finite())).collect()
+    let finite = points.filter(|point| point.iter().all(|part| part.is_finite()));
+    finite.map(|[x, y]| [x * panel.x.factor, y * panel.y.factor]).collect()
 }
 
 /// A start that is known to lead to the orbit, or not to, says more than the regime of the main motion.
