@@ -184,7 +184,7 @@ mod tests {
         let number =
             |id: &str, value: f64| serde_json::json!({"id": id, "value": value, "error": 0});
         let text = serde_json::json!({
-            "format": "vinesink/answer@1", "title": "T", "units": units, "notes": [], "figures": [],
+            "format": "vinesink/answer@1", "asked": "report", "title": "T", "units": units, "notes": [], "figures": [],
             "verdict": {"tone": "good", "word": word}, "criteria": null, "band": null,
             "quantities": {"clearance": number("clearance", 0.02), "peak_displacement": number("peak_displacement", peak)},
         });
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn half_a_report_is_refused() {
-        let half = "{\"format\": \"vinesink/answer@1\",\n \"title\": \"T\"}";
+        let half = "{\"format\": \"vinesink/answer@1\", \"asked\": \"report\",\n \"title\": \"T\"}";
         let half = Summary::read("a/report.json", half).expect_err("refused").to_string();
         assert!(half.starts_with("a/report.json") && half.contains("missing field"), "{half}");
         assert!(half.contains("line 2"), "{half}");

@@ -2,9 +2,9 @@
 //!
 //! For the program itself: this module may change at any time.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use super::document::FORMAT;
+use super::document::{Content, FORMAT};
 use crate::quantity::catalogue;
 
 /// Why a file is not a report that can be read.
@@ -67,7 +67,12 @@ pub fn read(place: &str, text: &str) -> Result<Value, ReadError> {
     let report: Value = serde_json::from_str(text)
         .map_err(|cause| error(format!("{place} is not JSON: {cause}"), CONFLICT))?;
     match report["format"].as_str() {
-        Some(FORMAT | EARLIER) => Ok(report),
+        Some(EARLIER) => Ok(report),
+        Some(FORMAT) if report["asked"] == json!(Content::Report) => Ok(report),
+        Some(FORMAT) => {
+            let asked = report["asked"].as_str().unwrap_or("nothing");
+            Err(error(format!("{place} is what was asked with `{asked}`, not a report"), NO_REPORT))
+        }
         Some(found) => {
             let message =
                 format!("{place} has the format `{found}`, and this version reads `{FORMAT}`");
@@ -87,7 +92,9 @@ mod tests {
     #[test]
     fn other_documents_are_refused() {
         let read = |text: &str| read("x/report.json", text);
-        assert!(read(r#"{"format": "vinesink/answer@1"}"#).is_ok());
+        assert!(read(r#"{"format": "vinesink/answer@1", "asked": "report"}"#).is_ok());
+        let other = read(r#"{"format": "vinesink/answer@1", "asked": "analysis"}"#);
+        assert!(other.expect_err("no report").to_string().contains("asked with `analysis`"));
         assert!(read(r#"{"format": "vinesink/report@2"}"#).is_ok());
         let newer = read(r#"{"format": "vinesink/report@1"}"#).expect_err("another version");
         let newer = newer.to_string();
