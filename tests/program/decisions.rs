@@ -85,14 +85,16 @@ fn an_optimum_keeps_its_word_over_the_whole_band() {
     let text = std::fs::read_to_string(&path).expect("written");
     std::fs::write(&path, without_deviations(&text)).expect("written");
     // 8 mm is out of reach, and a tuned mass damper of the same mass would have 12.9 mm.
-    let output = vinesink(&["optimize", &path, "--write", better, "--format", "json"]);
+    let out = folder.path().to_str().expect("UTF-8");
+    let arguments = ["optimize", &path, "--write", better, "--out", out, "--format", "json"];
+    let output = vinesink(&arguments);
     let document = json(&output);
     assert_eq!((output.status.code(), &document["feasible"]), (Some(1), &Value::Bool(false)));
     assert!(!Path::new(better).exists(), "what meets no criterion is not written");
     let damper = number(&document["tuned_mass_damper"]["peak"]["value"]);
     assert!((damper / 0.0129 - 1.0).abs() < 0.01, "{damper}");
-    let output = vinesink(&["optimize", &path]);
-    let told = String::from_utf8_lossy(&output.stdout);
+    let page = Path::new(&path).with_extension("").join("optimize.md");
+    let told = std::fs::read_to_string(page).expect("a page");
     assert!(told.contains("No absorber between the bounds meets all criteria."), "{told}");
     assert!(told.contains("A tuned mass damper of the same mass"), "{told}");
     std::fs::write(&path, within_reach(without_deviations(&text))).expect("written");
@@ -164,7 +166,6 @@ fn no_place_of_a_band_exceeds_its_worst() {
 fn other_optima_keep_their_word() {
     let folder = tempfile::tempdir().expect("a folder");
     let cases = [
-        ("bridge", "\"0.4 %\"", "\"1 %\"", "\"5 mm\", \"300 mm\"", "\"30 mm\", \"70 mm\""),
         ("bridge", "\"0.4 %\"", "\"2 %\"", "\"5 mm\", \"300 mm\"", "\"15 mm\", \"45 mm\""),
         ("board", "\"0.3 %\"", "\"0.3 %\"", "\"0.05 mm\", \"2 mm\"", "\"0.9 mm\", \"2 mm\""),
     ];

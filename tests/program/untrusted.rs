@@ -333,11 +333,12 @@ fn no_text_of_a_report_is_active_in_a_comment_or_an_index() {
         pointers(&whole, "", &mut all);
         assert!(all.len() > 300, "{}", all.len());
         for at in all {
-            for hostile in [HOSTILE.to_owned(), hostile()] {
+            // The second text differs in what it tries, not in how it is told: one direction is enough.
+            for (hostile, directions) in [(HOSTILE.to_owned(), 2), (hostile(), 1)] {
                 let mut changed = whole.clone();
                 *changed.pointer_mut(&at).expect("a text") = json!(hostile);
                 let (old, new) = (whole.to_string(), changed.to_string());
-                for (old, new) in [(&old, &new), (&new, &old)] {
+                for (old, new) in [(&old, &new), (&new, &old)].into_iter().take(directions) {
                     let Some((comment, significant)) = reviewed(old, new) else { continue };
                     told += usize::from(comment.contains("INJECTED"));
                     assert_eq!(active(&comment), [""; 0], "{at}: {comment}");
