@@ -97,9 +97,23 @@ impl Answer {
         effort: Effort,
         on: &dyn Executor,
     ) -> Result<Self, StudyError> {
-        if case.design.scene() != Scene::Steady {
-            return Self::transient(case, asked, effort, on);
+        match case.design.scene() {
+            Scene::Steady => Self::steady(case, asked, plan, effort, on),
+            _ => Self::transient(case, asked, effort, on),
         }
+    }
+
+    /// That of a case that is driven steadily; who calls this links nothing of what is not steady, as the live page.
+    ///
+    /// # Errors
+    /// As [`Answer::of`].
+    pub fn steady(
+        case: &Case,
+        asked: Asked,
+        plan: Option<&LayerPlan>,
+        effort: Effort,
+        on: &dyn Executor,
+    ) -> Result<Self, StudyError> {
         let system = case.system();
         let studies = matches!(asked, Asked::Study | Asked::Report);
         let judges = matches!(asked, Asked::Criteria | Asked::Report) && !case.criteria.is_empty();

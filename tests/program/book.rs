@@ -375,10 +375,11 @@ fn every_page_is_listed_short_and_says_what_it_is_for() {
         let first = first.unwrap_or_default();
         assert!(first.starts_with("After this page you "), "{name} begins with: {first}");
         let written = generated.replace_all(text, "");
-        let lines = fenced(&written).filter(|(line, inside)| !inside && !line.is_empty()).count();
-        // The case file has a line for each key.
-        let most = if name == "case-file.md" { 250 } else { 150 };
-        assert!(lines <= most, "{name} has {lines} lines of text");
+        // The case file has a row for each key, however many there are.
+        let is_row = |line: &str| name == "case-file.md" && line.starts_with('|');
+        let text = fenced(&written).filter(|(line, inside)| !inside && !line.is_empty());
+        let lines = text.filter(|(line, _)| !is_row(line)).count();
+        assert!(lines <= 150, "{name} has {lines} lines of text");
     }
 }
 

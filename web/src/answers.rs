@@ -186,7 +186,7 @@ fn map(case: &Case) -> Result<Value, Value> {
 /// A study at the case's own excitation, without what would spoil it: its document, the first screen of the report,
 /// and the figures.
 fn study(case: &Case) -> Result<Value, Value> {
-    let answer = Answer::of(case, Asked::Study, None, &Serial).map_err(words)?;
+    let answer = Answer::steady(case, Asked::Study, None, case.effort(), &Serial).map_err(words)?;
     let study = answer.studied().map_err(words)?;
     let figures = drawn(case, study, &Plot::usual(study).map_err(words)?)?;
     let document = document::document(&Source {
