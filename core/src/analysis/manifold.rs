@@ -44,7 +44,7 @@ impl ManifoldBranch {
 ///
 /// ```
 /// use std::f64::consts::PI;
-/// use vinesink_core::analysis::{ManifoldBranch, Manifold};
+/// use vinesink_core::analysis::{Manifold, ManifoldBranch};
 ///
 /// let manifold = Manifold::of(0.6);
 /// // rho = 0.4 / 1.6 = 1/4, R = 4 rho^2 / pi^2, and the fold is at B = b / (1 + R), C = b sqrt(R / (1 + R)).
@@ -53,7 +53,7 @@ impl ManifoldBranch {
 /// assert!((manifold.fold.oscillator_amplitude - (curvature / (1.0 + curvature)).sqrt()).abs() < 1e-15);
 /// // At B = b equation (16) leaves C = b sqrt(R).
 /// assert!((manifold.point(0.0).oscillator_amplitude - curvature.sqrt()).abs() < 1e-15);
-/// assert_eq!(manifold.branch(0.0), Branch::Stable);
+/// assert_eq!(manifold.branch(0.0), ManifoldBranch::Stable);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -155,9 +155,9 @@ const BESIDE: f64 = 2.0;
 ///     let found = branch.specials.iter().find(|special| special.kind == wanted);
 ///     Ok::<f64, Box<dyn std::error::Error>>(7.5 * found.ok_or("no such bifurcation")?.value)
 /// };
-/// let breaking = clearance_mm(Direction::Down, Bifurcation::SymmetryBreaking)?;
+/// let breaking = clearance_mm(BranchDirection::Down, Bifurcation::SymmetryBreaking)?;
 /// assert!((breaking / 4.687 - 1.0).abs() < 0.04, "{breaking} mm");
-/// let collision = clearance_mm(Direction::Up, Bifurcation::SaddleNode)?;
+/// let collision = clearance_mm(BranchDirection::Up, Bifurcation::SaddleNode)?;
 /// assert!((collision / 16.259 - 1.0).abs() < 0.04, "{collision} mm");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
