@@ -8,7 +8,8 @@ use std::thread;
 use std::time::Duration;
 
 use parquet::basic::{Compression, GzipLevel, LogicalType, Repetition, Type as Physical};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::column::page::{Page, PageMetadata, PageReader};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
@@ -172,9 +173,46 @@ fn read_group<R: ChunkReader + 'static>(
         return Err(ParquetError::General("the file has other columns or too many rows".into()));
     }
     let column = |(index, storage): (usize, &Storage)| {
-        cells(group.get_column_reader(index)?, *storage, rows)
+        let pages = Bounded { pages: group.get_column_page_reader(index)?, rows };
+        let description = group.metadata().schema_descr().column(index);
+        cells(get_column_reader(description, Box::new(pages)), *storage, rows)
     };
     storages.iter().enumerate().map(column).collect()
+}
+
+/// Pages of a column that has so many rows: none has more values, whatever its head says, for which the library would take
+/// memory.
+struct Bounded {
+    pages: Box<dyn PageReader>,
+    rows: usize,
+}
+
+impl Iterator for Bounded {
+    type Item = Result<Page, ParquetError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.get_next_page().transpose()
+    }
+}
+
+impl PageReader for Bounded {
+    fn get_next_page(&mut self) -> Result<Option<Page>, ParquetError> {
+        let page = self.pages.get_next_page()?;
+        match &page {
+            Some(page) if page.num_values() as usize > self.rows => {
+                Err(ParquetError::General("a page has more values than the file has rows".into()))
+            }
+            _ => Ok(page),
+        }
+    }
+
+    fn peek_next_page(&mut self) -> Result<Option<PageMetadata>, ParquetError> {
+        self.pages.peek_next_page()
+    }
+
+    fn skip_next_page(&mut self) -> Result<(), ParquetError> {
+        self.pages.skip_next_page()
+    }
 }
 
 fn cells(

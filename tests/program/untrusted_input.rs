@@ -467,6 +467,10 @@ fn a_chunk_of_a_sweep_that_takes_for_ever_is_given_up() {
         parquet::read(fs::File::open(&path).expect("a file"), &mut read, most)
     };
     read(&file).expect("what the program wrote");
+    // A dictionary of 600 million words in 1,700 bytes, for which the library would take 10 GB.
+    let dictionary = fs::read("fuzz/corpus/results/dictionary.parquet").expect("a chunk");
+    let error = read(&dictionary).expect_err("refused");
+    assert!(error.to_string().contains("more values than the file has rows"), "{error}");
     // After the magic number: fields that nobody knows, each a list of two billion flags that have no bytes of their own.
     let endless = [0xf9, 0xf1, 0xff, 0xff, 0xff, 0xff, 0x07].repeat(100);
     file.splice(4..4, endless);
