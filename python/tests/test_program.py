@@ -115,7 +115,12 @@ def test_slips_are_warned_of(program, tmp_path):
 def test_keywords_make_the_case_of_the_file(printed):
     """The shipped case has the same numbers, so that all results are the same."""
     found = vinesink.Case(**TABLE_1).analyze().to_dict()
-    assert found == printed("analyze", CASES / "li2016-8hz-b7p5mm.toml")
+    shipped = printed("analyze", CASES / "li2016-8hz-b7p5mm.toml")
+    for document in (found, shipped):
+        # What says which text it is of.
+        for key in ("title", "source", "provenance"):
+            document.pop(key)
+    assert found == shipped
 
 
 def test_a_simulation_that_is_not_to_be_trusted_warns(program, tmp_path):
