@@ -95,7 +95,7 @@ impl Study {
                 Device::Absorber,
                 Measure::PeakFrequency | Measure::Impacts | Measure::ImpactEnergyShare,
             ) => [self.of_worst(of)?, 0.0],
-            _ => over_records(&self.conditions(&|condition| condition.ask(of, by))?),
+            _ => over_records(&self.of_conditions(of, by)?),
         };
         let method = if by == Device::Absorber { Method::Simulation } else { Method::ClosedForm };
         let value = if of == Measure::DecayTime { time(value) } else { value };
@@ -125,29 +125,26 @@ impl Study {
     }
 
     /// What each condition says.
-    fn conditions(
-        &self,
-        asked: &dyn Fn(&Compared<'_>) -> Option<WithError>,
-    ) -> Option<Vec<WithError>> {
-        let only = |runs: &dyn Fn(Measure) -> Option<WithError>,
-                    [without, damper]: [&dyn Run; 2]| {
-            asked(&Compared { largest: runs, without, damper })
+    fn of_conditions(&self, of: Measure, by: Device) -> Option<Vec<WithError>> {
+        let one = |largest: &dyn Fn(Measure) -> Option<WithError>,
+                   [without, damper]: [&dyn Run; 2]| {
+            Compared { largest, without, damper }.ask(of, by)
         };
         match self {
             Self::Release(study) => {
-                let largest = |of| study.starts.largest(of);
-                only(&largest, [&Alone(study.bare), &study.damped.1]).map(|one| vec![one])
+                let damper: &dyn Run = &study.damped.1;
+                Some(vec![one(&|of| study.starts.largest(of), [&Alone(study.bare), damper])?])
             }
             Self::Sweep(study) => {
-                let largest = |of| study.starts.largest(of);
-                only(&largest, [&study.alone, &study.damped.1]).map(|one| vec![one])
+                let damper: &dyn Run = &study.damped.1;
+                Some(vec![one(&|of| study.starts.largest(of), [&study.alone, damper])?])
             }
             Self::Record(study) => {
-                let each = study.realisations.iter().map(|one| {
-                    let largest = |of| one.places.largest(of);
-                    only(&largest, [&one.bare, &one.damped])
-                });
-                each.collect()
+                let each = study.realisations.iter();
+                each.map(|of_one| {
+                    one(&|of| of_one.places.largest(of), [&of_one.bare, &of_one.damped])
+                })
+                .collect()
             }
         }
     }

@@ -33,7 +33,12 @@ pub struct Runs<R> {
 impl<R: Run> Runs<R> {
     /// Those that count: any, where the absorber hits a wall in none.
     pub fn counting(&self) -> Vec<&(f64, R)> {
-        let counts = |one: &&(f64, R)| self.count_inactive || one.1.wakes();
+        self.with(self.count_inactive)
+    }
+
+    /// The same where those in which the absorber never hits a wall count, or do not.
+    fn with(&self, inactive: bool) -> Vec<&(f64, R)> {
+        let counts = |one: &&(f64, R)| inactive || one.1.wakes();
         let some: Vec<&(f64, R)> = self.all.iter().filter(counts).collect();
         if some.is_empty() { self.all.iter().collect() } else { some }
     }
@@ -60,9 +65,9 @@ impl<R: Run> Runs<R> {
         self.counting().into_iter().max_by(|a, b| value(a).total_cmp(&value(b)))
     }
 
-    /// From the largest value on, whether they count or not.
-    pub fn sorted(&self, of: Measure) -> Vec<&(f64, R)> {
-        let mut all: Vec<&(f64, R)> = self.all.iter().collect();
+    /// From the largest value on, those in which the absorber never hits a wall among them if they count.
+    pub fn sorted(&self, of: Measure, inactive: bool) -> Vec<&(f64, R)> {
+        let mut all = self.with(inactive);
         let value = |one: &(f64, R)| one.1.get(of).unwrap_or(f64::NEG_INFINITY);
         all.sort_by(|a, b| value(b).total_cmp(&value(a)));
         all
@@ -118,5 +123,23 @@ impl Run for Response {
 
     fn wakes(&self) -> bool {
         self.impacts > 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Measure, Response, Runs};
+
+    /// What does not count is no row above what the verdict says.
+    #[test]
+    fn the_worst_rows_are_those_that_count() {
+        let run =
+            |peak: f64, impacts: u64| (0.0, Response { peak, impacts, ..Response::default() });
+        let runs = Runs { all: vec![run(3.0, 0), run(2.0, 5)], even: 2, count_inactive: false };
+        let peaks = |inactive: bool| -> Vec<f64> {
+            runs.sorted(Measure::Peak, inactive).iter().map(|(_, found)| found.peak).collect()
+        };
+        assert_eq!((peaks(true), peaks(false)), (vec![3.0, 2.0], vec![2.0]));
+        assert_eq!(runs.largest(Measure::Peak), Some([2.0, 0.0]));
     }
 }

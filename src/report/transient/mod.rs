@@ -164,9 +164,14 @@ fn sample<R>(runs: &Runs<R>) -> Value {
 /// Starts that a page lists.
 const LISTED: usize = 10;
 
-/// The worst starts, as rows, from the worst on.
-fn worst_rows<R: Run>(runs: &Runs<R>, of: Measure, row: impl Fn(&(f64, R)) -> Value) -> Value {
-    runs.sorted(of).into_iter().take(LISTED).map(row).collect()
+/// The worst starts that count, as rows, from the worst on.
+fn worst_rows<R: Run>(
+    case: &Case,
+    runs: &Runs<R>,
+    of: Measure,
+    row: impl Fn(&(f64, R)) -> Value,
+) -> Value {
+    runs.sorted(of, case.count_inactive).into_iter().take(LISTED).map(row).collect()
 }
 
 /// What the case says of its absorber.

@@ -35,7 +35,7 @@ pub(super) fn add(case: &Case, all: &Study, study: &RecordStudy, facts: &mut Val
     facts["records"] = study.realisations.len().into();
     // Under the first record.
     if let Some(first) = study.first() {
-        facts["worst"] = worst_rows(&first.places, Measure::Peak, place);
+        facts["worst"] = worst_rows(case, &first.places, Measure::Peak, place);
         facts["sample"] = sample(&first.places);
         facts["places"] = first.places.by_place().into_iter().map(place).collect();
     }

@@ -46,7 +46,7 @@ pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
     };
     // One for each place of the absorber.
     document["starts"] = study.starts.by_place().into_iter().map(start).collect();
-    document["worst"] = worst_rows(&study.starts, Measure::Peak, start);
+    document["worst"] = worst_rows(case, &study.starts, Measure::Peak, start);
     document["sample"] = sample(&study.starts);
     document["places_beside"] = study.starts.even.min(SweepStudy::STARTS_BESIDE.into()).into();
     document["down"] = (study.sweep.from > study.sweep.to).into();
