@@ -302,3 +302,9 @@ fn case_error(py: Python<'_>, error: &case::CaseError) -> PyErr {
         Err(other) => other,
     }
 }
+
+/// The JSON Schema of a case file.
+#[pyfunction]
+pub fn schema() -> String {
+    vinesink::case::schema().to_string()
+}

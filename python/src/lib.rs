@@ -17,6 +17,7 @@ fn _vinesink(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("CaseError", module.py().get_type::<case::CaseError>())?;
     module.add("InternalError", module.py().get_type::<work::InternalError>())?;
     module.add_class::<case::Case>()?;
+    module.add_function(wrap_pyfunction!(case::schema, module)?)?;
     module.add_function(wrap_pyfunction!(many::simulate_many, module)?)?;
     module.add_function(wrap_pyfunction!(many::regimes, module)?)?;
     module.add_function(wrap_pyfunction!(work::fail, module)?)

@@ -229,6 +229,9 @@ def test_tables_and_other_excitations():
     assert vinesink.Case(**released).simulate().quantities
     swept = {**released, "kind": "sine-sweep", "displacement": None, "of": "base-displacement", "amplitude": "0.25 mm",
              "start": "7.5 Hz", "to": "9 Hz", "rate": "0.5 Hz/s"}  # fmt: skip
+    noise = {**released, "kind": "record", "displacement": None, "quantity": "base-acceleration", "seed": 1,
+             "spectrum": [[5, 0.02], [12, 0.02]], "duration": "20 s", "realisations": 2}  # fmt: skip
+    assert "realisations = 2" in vinesink.Case(**noise).text
     case = vinesink.Case(**swept)
     with pytest.raises(ValueError, match="swept through resonance, and an analysis is about one that is driven steadily"):
         case.analyze()

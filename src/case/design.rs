@@ -11,7 +11,7 @@ use super::physical::{AbsorberTable, OscillatorTable};
 use super::reduced::ReducedTable;
 use super::schema::of_table;
 use super::{Design, physical, reduced};
-use crate::excitation::{Scene, SineSweep, SweepRate, Transient};
+use crate::excitation::{Release, SweepRate, Transient};
 use crate::quantity::Kind;
 use crate::quantity::catalogue as of;
 use crate::system::{Excitation, Parameter};
@@ -117,6 +117,30 @@ static REDUCED: Writing = Writing {
     } },
 };
 
+/// What a parameter is of what is not steady, and its key in the table of the excitation; none where it is no number
+/// of that.
+fn of_transient(
+    transient: &Transient,
+    parameter: Parameter,
+) -> Option<(&'static Kind, &'static str)> {
+    use Parameter as P;
+    Some(match (transient, parameter) {
+        (Transient::Release(Release::LetGo { .. }), P::InitialDisplacement) => {
+            (&of::INITIAL_DISPLACEMENT, "displacement")
+        }
+        (Transient::Release(Release::LetGo { .. }), P::InitialVelocity)
+        | (Transient::Release(Release::BaseMoves { .. }), P::Amplitude) => {
+            (&of::INITIAL_VELOCITY, "velocity")
+        }
+        (Transient::Release(Release::Struck { .. }), P::Amplitude) => (&of::IMPULSE, "impulse"),
+        (Transient::Sweep(sweep), P::Rate) => match sweep.rate {
+            SweepRate::Linear(_) => (&of::SWEEP_RATE, "rate"),
+            SweepRate::Octaves(_) => (&of::OCTAVE_RATE, "rate"),
+        },
+        _ => return None,
+    })
+}
+
 /// What both kinds of design hold under one name.
 macro_rules! held {
     ($design:expr, $of:ident => $what:expr) => {
@@ -161,17 +185,15 @@ impl Design {
         use Parameter as P;
         let forced = self.excitation() == Excitation::Force;
         let other = || Writing::rows().find(|row| row.parameter == parameter);
-        match (parameter, self.transient()) {
-            (P::Amplitude, Some(Transient::Release(shock))) if shock.impulse > 0.0 => &of::IMPULSE,
-            (P::Amplitude, Some(Transient::Release(_))) => &of::INITIAL_VELOCITY,
-            (P::Amplitude, _) if forced && self.is_physical() => &of::FORCE_AMPLITUDE,
-            (P::Rate, Some(Transient::Sweep(SineSweep { rate: SweepRate::Octaves(_), .. }))) => {
-                &of::OCTAVE_RATE
-            }
-            (P::Rate, _) => &of::SWEEP_RATE,
-            (P::InitialDisplacement, _) => &of::INITIAL_DISPLACEMENT,
-            (P::InitialVelocity, _) => &of::INITIAL_VELOCITY,
-            (P::InitialAbsorberDisplacement, _) => &of::INITIAL_ABSORBER_DISPLACEMENT,
+        if let Some((kind, _)) = self.transient().and_then(|of| of_transient(&of, parameter)) {
+            return kind;
+        }
+        match parameter {
+            P::Amplitude if forced && self.is_physical() => &of::FORCE_AMPLITUDE,
+            P::Rate => &of::SWEEP_RATE,
+            P::InitialDisplacement => &of::INITIAL_DISPLACEMENT,
+            P::InitialVelocity => &of::INITIAL_VELOCITY,
+            P::InitialAbsorberDisplacement => &of::INITIAL_ABSORBER_DISPLACEMENT,
             _ => {
                 let row = self.row(parameter).or_else(other);
                 row.map_or(&of::INITIAL_ABSORBER_VELOCITY, |row| row.kind)
@@ -182,16 +204,11 @@ impl Design {
     /// The key in which a design has a parameter; `None` where it has no such number.
     pub(super) fn schema(&self, parameter: Parameter) -> Option<&'static Value> {
         use Parameter as P;
-        let excitation = *self.writing().tables.last()?;
-        let [table, key] = match parameter {
-            P::Amplitude | P::InitialVelocity if self.scene() == Scene::Release => {
-                let struck = self.kind(parameter).id == of::IMPULSE.id;
-                [excitation, if struck { "impulse" } else { "velocity" }]
-            }
-            P::InitialDisplacement => [excitation, "displacement"],
-            P::Rate => [excitation, "rate"],
+        let own = self.transient().and_then(|of| of_transient(&of, parameter));
+        let [table, key] = match (own, parameter) {
+            (Some((_, key)), _) => [*self.writing().tables.last()?, key],
             // The key of the excitation's has no example.
-            P::Frequency if self.is_physical() => ["oscillator", "frequency"],
+            (_, P::Frequency) if self.is_physical() => ["oscillator", "frequency"],
             _ => self.row(parameter)?.place,
         };
         let schema = match table {

@@ -199,27 +199,10 @@ const STEADY_TABLES: [&str; 4] = ["accuracy", "band", "report", "uncertainty"];
 
 const STARTING_CASE: &str = include_str!("starting_case.toml");
 
-/// The excitation of the starting case.
-const STEADY_KEYS: &str = "kind = \"base-displacement\"    # or \"force\" on the oscillator, with an amplitude such as \
-    \"2.9 N\"\namplitude = \"0.25 mm\"\nfrequency = \"8.5 Hz\"\n";
-
-/// Other kinds of excitation that a case may begin with, and the lines of each.
-pub const STARTING_KINDS: [(&str, &str); 5] = [
-    ("force", "amplitude = \"2.9 N\"\nfrequency = \"8.5 Hz\""),
-    ("free", "displacement = \"15 mm\"        # and velocity, or one of both"),
-    ("impulse", "impulse = \"6 N s\"             # or the velocity that the base gets at once"),
-    (
-        "sine-sweep",
-        "of = \"base-displacement\"      # or \"force\"\namplitude = \"0.25 mm\"\nfrom = \"7.5 Hz\"\nto = \"9 Hz\"\n\
-         rate = \"0.1 Hz/s\"            # or \"1 oct/min\"",
-    ),
-    (
-        "record",
-        "quantity = \"base-acceleration\" # or \"base-displacement\", \"force\"\n\
-         spectrum = [[5, 0.02], [12, 0.02]] # (m/s²)²/Hz over Hz; or a file = \"quake.csv\" and none of what follows\n\
-         duration = \"60 s\"\nseed = 1",
-    ),
-];
+/// The kinds of excitation that a case may begin with; the first is what it has unless asked.
+pub fn excitation_kinds() -> impl Iterator<Item = &'static str> {
+    excitation::KINDS.iter().map(excitation::KindRow::name)
+}
 
 impl Case {
     /// Reads a case from its text; `name`, usually the file's path, is for messages only.
@@ -302,20 +285,24 @@ impl Case {
 
     /// The text of a commented case to start from, with the given title.
     pub fn starting_text(title: &str) -> String {
-        let quoted = toml::Value::from(title).to_string();
-        STARTING_CASE.replacen("\"TITLE\"", &quoted, 1)
+        Self::starting_text_of(title, excitation::KINDS[0].name())
     }
 
-    /// The same with another kind of excitation, one of [`STARTING_KINDS`]; as it is for any other name.
+    /// The same with another kind of excitation, one of [`excitation_kinds`]; the other kinds are comments.
     pub fn starting_text_of(title: &str, kind: &str) -> String {
-        let text = Self::starting_text(title);
-        let keys = STARTING_KINDS.into_iter().find(|(name, _)| *name == kind);
-        match (keys, text.split_once(STEADY_KEYS)) {
-            (Some((name, keys)), Some((before, after))) => {
-                format!("{before}kind = \"{name}\"\n{keys}\n{after}")
-            }
-            _ => text,
-        }
+        let (own, others): (Vec<_>, _) =
+            excitation::KINDS.iter().partition(|row| row.name() == kind);
+        let lines =
+            |row: &&excitation::KindRow| format!("kind = \"{}\"\n{}", row.name(), row.lines);
+        let commented = |row: &&excitation::KindRow| {
+            lines(row).lines().map(|line| format!("# {line}\n")).collect::<String>()
+        };
+        let own: String = own.iter().map(lines).collect();
+        let others: Vec<String> = others.iter().map(commented).collect();
+        let quoted = toml::Value::from(title).to_string();
+        let text = STARTING_CASE.replacen("EXCITATION\n", &own, 1);
+        let text = text.replacen("OTHER_KINDS\n", &others.join("#\n"), 1);
+        text.replacen("\"TITLE\"", &quoted, 1)
     }
 }
 

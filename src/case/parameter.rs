@@ -16,7 +16,7 @@ impl Design {
         if self.holds(parameter) {
             return (self.row(parameter)?.get)(self);
         }
-        self.transient()?.numbers(parameter).pop().copied()
+        self.transient()?.number(parameter).copied()
     }
 
     /// The design with another value; unchanged by what is a part of the start, or what it has not. A
@@ -25,9 +25,9 @@ impl Design {
     pub fn with(mut self, parameter: Parameter, value: f64) -> Self {
         if let Some(row) = self.row(parameter).filter(|_| self.holds(parameter)) {
             (row.set)(&mut self, value);
-        } else if let Some(transient) = self.transient_mut() {
-            // None are numbers of the design itself.
-            transient.numbers(parameter).into_iter().for_each(|number| *number = value);
+        } else if let Some(number) = self.transient_mut().and_then(|of| of.number(parameter)) {
+            // It is no number of the design itself.
+            *number = value;
         }
         // What has no frequency of its own is counted in the structure's.
         if let (Scene::Release | Scene::Record, Self::Physical(p)) = (self.scene(), &mut self) {
@@ -126,7 +126,7 @@ impl Design {
     /// such number.
     pub(super) fn form(&self, parameter: Parameter) -> Option<Form> {
         let of_system = self.is_of_system(parameter);
-        let says = |mut of: Transient| !of.numbers(parameter).is_empty();
+        let says = |mut of: Transient| of.number(parameter).is_some();
         if !of_system && !self.transient().is_some_and(says) {
             return None;
         }

@@ -156,6 +156,12 @@ impl<'t> Reader<'t> {
     /// Reads the values of a table, but for those that are tables themselves; quantities become numbers
     /// in SI units. `None` where something that must be there is not, or not as it should be.
     pub fn read<T: DeserializeOwned>(&mut self, table: &Table) -> Option<T> {
+        let values = self.values(table);
+        serde_json::from_value(Value::Object(values)).ok()
+    }
+
+    /// The same before they become a struct: those that are as they should be.
+    pub fn values(&mut self, table: &Table) -> Map<String, Value> {
         for group in table.groups() {
             self.exactly_one(table, &group);
         }
@@ -176,7 +182,7 @@ impl<'t> Reader<'t> {
             let read = self.item(self.place(table, key, value), table.schema_of(key));
             found.extend(read.map(|read| (key.to_owned(), read)));
         }
-        serde_json::from_value(Value::Object(found)).ok()
+        found
     }
 
     /// Reports that there is none of some keys, or more than one.
@@ -331,7 +337,7 @@ fn homes_of(key: &str) -> String {
 }
 
 /// The keys of a table in the order in which its struct declares them.
-fn fields<T: DeserializeOwned>() -> &'static [&'static str] {
+pub(super) fn fields<T: DeserializeOwned>() -> &'static [&'static str] {
     let mut keys: &[&str] = &[];
     // It ends with an error as soon as it has the keys.
     let _ = T::deserialize(Fields(&mut keys));

@@ -4,17 +4,18 @@ use std::f64::consts::TAU;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use super::excitation::{ExcitationKind, ExcitationTable, keys_by_kind};
+use super::excitation::{ExcitationKind, ExcitationTable, add_keys, keys_by_kind};
 use super::reader::{Reader, Table};
 use super::restitution::{Restitution, one_or_each};
-use crate::excitation::{RecordQuantity, Transient};
+use crate::excitation::Transient;
 use crate::system::{Cavity, Excitation};
 
+// Beside these it has the keys of an excitation.
 /// A dimensionless design, lengths in a unit of its own.
 #[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields, extend("oneOf" = keys_by_kind(true)))]
+#[schemars(deny_unknown_fields, extend("oneOf" = keys_by_kind(true)), transform = add_keys)]
 pub(super) struct ReducedTable {
     /// epsilon = m2 / m1, above 0.
     #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\varepsilon"), example = 0.0076775)]
@@ -44,35 +45,6 @@ pub(super) struct ReducedTable {
     /// sigma, where Omega = 1 + epsilon sigma; or give frequency_ratio.
     #[schemars(extend("x-symbol" = r"\sigma"), example = -5.446)]
     detuning: Option<f64>,
-    /// How the oscillator is set in motion; base-displacement unless given.
-    #[serde(default)]
-    kind: ExcitationKind,
-    /// What is swept: "base-displacement" or "force".
-    of: Option<Excitation>,
-    /// Frequency ratio at which a sweep begins, from rest, above 0; with one above `to` it goes down.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\Omega_1"), example = 0.9)]
-    from: Option<f64>,
-    /// Frequency ratio at which it ends, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\Omega_2"), example = 1.1)]
-    to: Option<f64>,
-    /// Change of the frequency ratio in a fast time tau = omega0 t, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\dot{\Omega}"), example = 0.0002)]
-    rate: Option<f64>,
-    /// Displacement from which the oscillator is let go, in the unit of the clearance, 0 or more.
-    #[schemars(extend("minimum" = 0, "x-symbol" = "x_0"), example = 5.0)]
-    displacement: Option<f64>,
-    /// Velocity when it is let go, or that which a shock gives the base, in that unit times omega0; 0 or more.
-    #[schemars(extend("minimum" = 0, "x-symbol" = r"\dot{x}_0"), example = 5.0)]
-    velocity: Option<f64>,
-    /// Impulse on the oscillator over m1 omega0, in that unit, above 0; or give the velocity of the base.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = "J"), example = 5.0)]
-    impulse: Option<f64>,
-    /// What a record is of: in the unit of the clearance, times omega0^2 an acceleration, times k1 a force.
-    #[schemars(example = "base-acceleration")]
-    quantity: Option<RecordQuantity>,
-    /// The record: a CSV file beside the case, a fast time and a value a line below a head without units.
-    #[schemars(example = "quake.csv")]
-    file: Option<String>,
 }
 
 // `Case::parse` proves every value finite and in its range.
@@ -119,20 +91,12 @@ pub(super) const TABLE: &str = "reduced";
 
 /// Reads the table; `None` when there is none or something was reported.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Reduced> {
-    let (table, read) = reader.optional::<ReducedTable>(root, TABLE)?;
-    let excitation = ExcitationTable {
-        kind: read.kind,
-        quantity: read.quantity,
-        file: read.file,
-        of: read.of,
-        from: read.from,
-        to: read.to,
-        rate: read.rate,
-        displacement: read.displacement,
-        velocity: read.velocity,
-        impulse: read.impulse,
-        ..ExcitationTable::default()
-    };
+    let table = reader.table::<ReducedTable>(root, TABLE)?;
+    let mut values = reader.values(&table);
+    values.entry("kind").or_insert_with(|| json!(ExcitationKind::default()));
+    let values = Value::Object(values);
+    let excitation = ExcitationTable::deserialize(&values).ok()?;
+    let read = ReducedTable::deserialize(&values).ok()?;
     // Frequency ratios over the fast time are angles.
     let transient = excitation.transient(reader, &table, TAU)?;
     let read = Reduced {
@@ -149,7 +113,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Reduced> {
             None | Some(Transient::Sweep(_)) => read.forcing?,
             _ => 0.0,
         },
-        frequency_ratio: read.from.or(read.frequency_ratio),
+        frequency_ratio: excitation.from.or(read.frequency_ratio),
         detuning: read.detuning,
         excitation: excitation.enters(),
         transient,

@@ -3,7 +3,8 @@
 //! `reader.rs` reads by the same schema: which keys there are, how their values are written, and within
 //! which bounds. What JSON Schema has no word for begins with `x-`, and is left out of what is printed:
 //! `x-measurand` what a text with a unit measures, `x-parameter` whose units the case's design decides,
-//! `x-symbol` the symbol in LaTeX, `x-plain` an example beside `[reduced]`, `x-keys` the order of keys.
+//! `x-symbol` the symbol in LaTeX, `x-plain` an example beside `[reduced]`, `x-reduced` what a key of
+//! `[excitation]` is in `[reduced]`, `x-keys` the order of keys.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -72,11 +73,16 @@ pub(super) fn add_names<T: JsonSchema>(schema: &mut Schema, of: impl Fn(&str) ->
         let key = name["const"].as_str().unwrap_or_default();
         let mut property = of(key);
         property["description"] = name["description"].clone();
-        let object = schema.ensure_object();
-        object["properties"][key] = property;
-        let keys = object.entry("x-keys").or_insert_with(|| json!([]));
-        keys.as_array_mut().into_iter().for_each(|keys| keys.push(key.into()));
+        add_key(schema, key, property);
     }
+}
+
+/// Gives a table one more key, behind those of its struct.
+pub(super) fn add_key(schema: &mut Schema, key: &str, property: Value) {
+    let object = schema.ensure_object();
+    object["properties"][key] = property;
+    let keys = object.entry("x-keys").or_insert_with(|| json!([]));
+    keys.as_array_mut().into_iter().for_each(|keys| keys.push(key.into()));
 }
 
 /// The number of a parameter, with the unit that it has in the case's own design: none beside

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use miette::{Result, miette};
-use vinesink::case::{Case, STARTING_KINDS};
+use vinesink::case::{Case, excitation_kinds};
 use vinesink::program::output;
 use vinesink::store;
 
@@ -20,7 +20,7 @@ pub struct Arguments {
     #[arg(value_name = "NAME")]
     path: PathBuf,
     /// What drives the structure, or sets it in motion [default: base-displacement]
-    #[arg(long, value_name = "KIND", value_parser = PossibleValuesParser::new(STARTING_KINDS.map(|(kind, _)| kind)))]
+    #[arg(long, value_name = "KIND", value_parser = PossibleValuesParser::new(excitation_kinds()))]
     kind: Option<String>,
 }
 
@@ -43,8 +43,11 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             arguments.path.display()
         )
     })?;
-    let kind = arguments.kind.as_deref().unwrap_or_default();
-    let text = Case::starting_text_of(&title.to_string_lossy(), kind);
+    let title = title.to_string_lossy();
+    let text = match &arguments.kind {
+        Some(kind) => Case::starting_text_of(&title, kind),
+        None => Case::starting_text(&title),
+    };
     store::write_new(&path, text.as_bytes())?;
     output::print_path(&path)?;
     Ok(true)

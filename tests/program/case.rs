@@ -1,7 +1,7 @@
 //! What a case file means, and what is said about one that is wrong.
 
 use vinesink::case::{
-    BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding, STARTING_KINDS,
+    BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding, excitation_kinds,
 };
 use vinesink::quantity::catalogue::{
     ABSORBER_MASS, DAMPING, EXCITATION_FREQUENCY, IMPACT_SPEED, PEAK, STIFFNESS,
@@ -764,8 +764,12 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
     let text = Case::starting_text("x");
     let plain = parsed(&text);
     assert!(plain.band.is_none() && plain.criteria.is_empty() && !plain.uncertainty.is_any());
-    let lines: Vec<&str> = text.lines().map(|line| uncommented(line).unwrap_or(line)).collect();
-    let full = lines.join("\n");
+    // The other kinds of excitation are read by the next test.
+    let (before, kinds) = text.split_once("# Or another kind").expect("kinds");
+    let (kinds, after) = kinds.split_once("\n\n").expect("their end");
+    let own = [before, after].concat();
+    let lines: Vec<&str> = own.lines().map(|line| uncommented(line).unwrap_or(line)).collect();
+    let full = lines.join("\n") + kinds;
     // Areas of the theory, and what asks for them, are those of an ideal cavity: its keys are read apart.
     let keys = ["inclination = \"0.5 deg\"", "friction = 0.003"];
     let of_cavity = |line: &&str| keys.iter().any(|key| line.starts_with(key));
@@ -812,10 +816,14 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
 #[test]
 fn a_starting_case_of_any_kind_is_valid() {
     let mut scenes = std::collections::BTreeSet::new();
-    for (kind, _) in STARTING_KINDS {
+    for kind in excitation_kinds() {
         let text = Case::starting_text_of("x", kind);
         assert!(text.contains(&format!("\nkind = \"{kind}\"\n")), "{text}");
-        assert!(!text.contains("kind = \"base-displacement\""), "{text}");
+        assert_eq!(text.matches("\nkind = ").count(), 1, "{text}");
+        // The others are one mark of a comment away from being valid.
+        for other in excitation_kinds().filter(|other| *other != kind) {
+            assert!(text.contains(&format!("\n# kind = \"{other}\"\n")), "{text}");
+        }
         scenes.insert(parsed(&text).design.scene().words());
     }
     assert_eq!(scenes.len(), 4, "{scenes:?}");

@@ -50,25 +50,15 @@ impl Transient {
         }
     }
 
-    /// The numbers that a parameter is in it: how far and how fast a structure is let go, how hard it is struck, how
+    /// The number that a parameter is in it: how far and how fast a structure is let go, how hard it is struck, how
     /// fast it is swept.
-    pub fn numbers(&mut self, parameter: Parameter) -> Vec<&mut f64> {
-        use Parameter as P;
-        let (struck, shock) = match self {
-            Self::Release(of) => (of.impulse > 0.0, of.impulse > 0.0 || of.absorber_velocity > 0.0),
-            _ => (false, false),
-        };
-        match (self, parameter, struck, shock) {
-            (Self::Release(of), P::Amplitude, true, _) => vec![&mut of.impulse],
-            (Self::Release(of), P::Amplitude, _, true) => {
-                vec![&mut of.velocity, &mut of.absorber_velocity]
-            }
-            (Self::Release(of), P::InitialDisplacement, _, false) => vec![&mut of.displacement],
-            (Self::Release(of), P::InitialVelocity, _, false) => vec![&mut of.velocity],
-            (Self::Sweep(of), P::Rate, ..) => match &mut of.rate {
-                SweepRate::Linear(rate) | SweepRate::Octaves(rate) => vec![rate],
+    pub const fn number(&mut self, parameter: Parameter) -> Option<&mut f64> {
+        match (self, parameter) {
+            (Self::Release(of), parameter) => of.number(parameter),
+            (Self::Sweep(of), Parameter::Rate) => match &mut of.rate {
+                SweepRate::Linear(rate) | SweepRate::Octaves(rate) => Some(rate),
             },
-            _ => Vec::new(),
+            _ => None,
         }
     }
 }

@@ -18,24 +18,30 @@ from ._results import Analysis, Branch, Motions, Orbits, Simulation, Table
 
 Progress = Callable[[int, int], object]
 
-_TABLES = {
-    "oscillator": ("mass", "stiffness", "natural_frequency", "damping", "damping_ratio"),
-    "absorber": ("absorber_mass", "mass_ratio", "clearance", "restitution", "inclination", "friction"),
-    "excitation": (
-        *("kind", "amplitude", "frequency", "displacement", "velocity", "impulse", "of", "start", "to", "rate"),
-        *("file", "quantity", "spectrum", "duration", "seed"),
-    ),
+_SCHEMA = json.loads(_vinesink.schema())["properties"]
+# Where one word is a key of two tables, or of Python: the keyword instead.
+_RENAMED = {
+    ("oscillator", "frequency"): "natural_frequency",
+    ("absorber", "mass"): "absorber_mass",
+    ("excitation", "from"): "start",
+    ("reduced", "from"): "start",
 }
-_REDUCED = (
-    *("mass_ratio", "damping", "restitution", "clearance", "gravity_along", "friction_acceleration", "forcing"),
-    *("frequency_ratio", "detuning", "kind", "displacement", "velocity", "impulse", "of", "start", "to", "rate"),
-    *("file", "quantity"),
-)
+
+
+def _keywords(table: str) -> dict[str, str]:
+    """The keywords of a table, each with its key in the case file."""
+    return {_RENAMED.get((table, key), key): key for key in _SCHEMA[table]["properties"]}
+
+
+_PHYSICAL = {table: _keywords(table) for table in ("oscillator", "absorber", "excitation")}
+_REDUCED = {"reduced": _keywords("reduced")}
 # What only a reduced design has.
-_ONLY_REDUCED = {"forcing", "frequency_ratio", "detuning", "gravity_along", "friction_acceleration"}
-# Keywords whose key in the case file is another word in its table.
-_KEYS = {"natural_frequency": "frequency", "absorber_mass": "mass", "start": "from"}
-_SETTINGS = ("simulation", "report", "accuracy", "band", "criteria", "optimize", "uncertainty", "sweep")
+_ONLY_REDUCED = _REDUCED["reduced"].keys() - {keyword for keywords in _PHYSICAL.values() for keyword in keywords}
+_SETTINGS = [
+    name
+    for name, table in _SCHEMA.items()
+    if table.get("type") == "object" and name not in _PHYSICAL and name not in _REDUCED
+]
 
 
 class CaseWarning(UserWarning):
@@ -84,7 +90,7 @@ def _toml(value: Any) -> str:
 
 def _text_of(title: str, source: str, given: dict[str, Any]) -> str:
     reduced = not _ONLY_REDUCED.isdisjoint(given)
-    tables = {"reduced": _REDUCED} if reduced else _TABLES
+    tables = _REDUCED if reduced else _PHYSICAL
     lines = [f"title = {_toml(title)}", f"source = {_toml(source)}"]
     known = {keyword for keywords in tables.values() for keyword in keywords}
     for name in given:
@@ -92,9 +98,9 @@ def _text_of(title: str, source: str, given: dict[str, Any]) -> str:
             what = "a reduced case" if reduced else "a case in physical units"
             raise TypeError(f"{what} has no `{name}`; it has {', '.join((*sorted(known), *_SETTINGS))}")
     for table, keywords in tables.items():
-        present = [keyword for keyword in keywords if keyword in given]
+        present = [f"{key} = {_toml(given[keyword])}" for keyword, key in keywords.items() if keyword in given]
         if present:
-            lines += ["", f"[{table}]", *(f"{_KEYS.get(one, one)} = {_toml(given[one])}" for one in present)]
+            lines += ["", f"[{table}]", *present]
     for table in _SETTINGS:
         if table in given:
             lines += ["", f"[{table}]", *(f"{json.dumps(key)} = {_toml(one)}" for key, one in given[table].items())]
@@ -116,7 +122,7 @@ class Case:
       `inclination`, `friction`;
     - excitation: `kind` ("base-displacement", "force", "free", "impulse", "sine-sweep", "record") and the keys of
       that kind: `amplitude`, `frequency`; `displacement`, `velocity`; `impulse`; `of`, `start` (`from` in a file), `to`,
-      `rate`; `file`, `quantity`, `spectrum`, `duration`, `seed`.
+      `rate`; `quantity`, and `file` or `spectrum`, `duration`, `seed`, `realisations`.
 
     Reduced, with pure numbers: `mass_ratio`, `damping`, `restitution`, `clearance`, `forcing`, `frequency_ratio` or
     `detuning`, `gravity_along`, `friction_acceleration`, and `kind`.

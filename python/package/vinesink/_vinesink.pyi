@@ -71,6 +71,7 @@ class Case:
         self, parameter: str, range: Sequence[float], orbit: int | None, most_points: int
     ) -> tuple[_Columns, str]: ...
 
+def schema() -> str: ...
 def simulate_many(
     case: Case,
     names: Sequence[str],
