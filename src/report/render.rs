@@ -51,7 +51,7 @@ pub fn files(
 ) -> Result<Files, RenderError> {
     let drawings = drawings(figures)?;
     let page = |name: &str| template::render(name, units, document);
-    let (report, validation) = (page("report.md")?, page("validation.md")?);
+    let (report, validation) = (page("steady.md")?, page("validation.md")?);
     let equations = json!({
         "title": document["title"], "length_unit": units.length_symbol(), "equations": equations,
     });
