@@ -236,7 +236,9 @@ impl Input {
 
 #[cfg(test)]
 mod tests {
-    use crate::case::Case;
+    use super::of_transient;
+    use crate::case::{Case, excitation_kinds};
+    use crate::system::Parameter;
 
     /// A key that is misspelt here would be found in no table.
     #[test]
@@ -251,5 +253,27 @@ mod tests {
                 assert!((set.expect("a number") / 0.25 - 1.0).abs() < 1e-12, "{:?}", row.place);
             }
         }
+    }
+
+    /// What core holds as a number of an excitation has a name, a unit and a key here.
+    #[test]
+    fn every_number_of_an_excitation_has_its_key() {
+        let mut numbers = 0;
+        for kind in excitation_kinds() {
+            let text = Case::starting_text_of("t", kind);
+            let design = Case::parse("a case", &text).expect("valid").design;
+            let Some(mut transient) = design.transient() else { continue };
+            for parameter in Parameter::ALL {
+                let held = transient.number(parameter).is_some();
+                assert_eq!(
+                    held,
+                    of_transient(&transient, parameter).is_some(),
+                    "{kind} {parameter:?}"
+                );
+                assert!(!held || design.schema(parameter).is_some(), "{kind} {parameter:?}");
+                numbers += usize::from(held);
+            }
+        }
+        assert!(numbers >= 4, "{numbers}");
     }
 }

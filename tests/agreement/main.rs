@@ -22,7 +22,7 @@ use designs::Design;
 const SEED: u64 = 33;
 /// Generated designs of a whole run, and those of them that are optimised, which takes longest.
 const GENERATED: usize = 40;
-const OPTIMISED: usize = 10;
+const OPTIMISED: usize = 5;
 /// The same of a usual run, and the designs of its other kinds: one on which commands used to contradict one another of
 /// every so many.
 const FEW: usize = 4;

@@ -117,7 +117,7 @@ fn a_narrow_resonance_is_found_and_none_without_limit_is_compared() {
              stiffness = \"30.32 kN/m\"\ndamping_ratio = {damping_ratio:?}\n[absorber]\nmass_ratio = 0.03\n\
              clearance = \"{clearance}\"\nrestitution = 0.6\n[excitation]\nkind = \"base-displacement\"\n\
              amplitude = \"0.03 mm\"\nfrequency = \"8 Hz\"\n[band]\nfrom = \"7.8 Hz\"\nto = \"8.41 Hz\"\n\
-             [criteria]\n{criteria}\n"
+             [simulation]\nstarts = 4\n[criteria]\n{criteria}\n"
         );
         let case = Case::parse("sharp.toml", &text).unwrap_or_else(|error| panic!("{error:?}"));
         let judged = judge(&case)[0].clone();

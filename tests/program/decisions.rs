@@ -83,7 +83,9 @@ fn an_optimum_keeps_its_word_over_the_whole_band() {
     let bounds = ("clearance = [\"5 mm\", \"300 mm\"]", "clearance = [\"60 mm\", \"150 mm\"]");
     let path = changed(folder.path(), "bridge", bounds.0, bounds.1);
     let text = std::fs::read_to_string(&path).expect("written");
-    std::fs::write(&path, without_deviations(&text)).expect("written");
+    // What no absorber meets is told after few starts as after many.
+    let few = format!("{}[simulation]\nstarts = 2\n", without_deviations(&text));
+    std::fs::write(&path, few).expect("written");
     // 8 mm is out of reach, and a tuned mass damper of the same mass would have 12.9 mm.
     let out = folder.path().to_str().expect("UTF-8");
     let arguments = ["optimize", &path, "--write", better, "--out", out, "--format", "json"];
@@ -165,8 +167,9 @@ fn no_place_of_a_band_exceeds_its_worst() {
 #[test]
 fn other_optima_keep_their_word() {
     let folder = tempfile::tempdir().expect("a folder");
+    // Close around the best: the whole range is looked at by the agreement of all commands.
     let cases = [
-        ("bridge", "\"0.4 %\"", "\"2 %\"", "\"5 mm\", \"300 mm\"", "\"15 mm\", \"45 mm\""),
+        ("bridge", "\"0.4 %\"", "\"2 %\"", "\"5 mm\", \"300 mm\"", "\"20 mm\", \"35 mm\""),
         ("board", "\"0.3 %\"", "\"0.3 %\"", "\"0.05 mm\", \"2 mm\"", "\"0.9 mm\", \"2 mm\""),
     ];
     for (name, damping, other, bounds, around) in cases {

@@ -78,7 +78,7 @@ fn every_verdict_is_a_sentence() {
                     [json!(null), json!("lowers-resonance"), json!("grows-between-captures")]
                 {
                     facts["verdict"]["reason"] = reason;
-                    let text = page("report.md", &facts);
+                    let text = page("steady.md", &facts);
                     assert!(text.lines().nth(2).is_some_and(|line| line.ends_with('.')), "{text}");
                 }
             }
@@ -105,7 +105,7 @@ fn every_motion_is_named_with_its_evidence() {
                 motion["dynamics"] = dynamics.clone();
                 motion["proof"] = proof;
                 motion["settled"] = json!(dynamics["kind"] != "transient-not-over");
-                let text = page("report.md", &facts);
+                let text = page("steady.md", &facts);
                 assert!(text.contains("| two") || !regime.starts_with("two"), "{regime}: {text}");
                 page("validation.md", &facts);
             }
@@ -131,7 +131,7 @@ fn no_part_is_needed_by_another() {
             facts["main"] = json!(null);
             facts["simulated"] = json!(false);
         }
-        let text = page("report.md", &facts) + &page("validation.md", &facts);
+        let text = page("steady.md", &facts) + &page("validation.md", &facts);
         // A report without claims says so, and has no table of none.
         assert_eq!(part == "claims", text.contains("claim anything about this case"), "{part}");
         assert!(
@@ -146,14 +146,14 @@ fn no_part_is_needed_by_another() {
     for part in ["limits", "kept", "lost", "best", "attracting", "amplitude_error"] {
         facts["theory"][part] = json!(null);
     }
-    page("report.md", &facts);
+    page("steady.md", &facts);
 }
 
 /// Numbers of the cavity that a reduced case has in units of bω₀² say so.
 #[test]
 fn inputs_have_their_units() {
     let input = |name: &str| json!({"table": "reduced", "name": name, "symbol": "a", "as_written": "0.004"});
-    let facts = json!({ "inputs": [input("gravity_along"), input("friction_acceleration"), input("forcing")] });
+    let facts = json!({ "also": [], "inputs": [input("gravity_along"), input("friction_acceleration"), input("forcing")] });
     let text = page("inputs.md", &facts);
     for row in ["gravity along, over bω₀² |", "friction acceleration, over bω₀² |", "forcing |"]
     {
@@ -178,7 +178,7 @@ fn every_note_is_a_sentence() {
         {"kind": "limit", "limit": "damping", "value": share(0.4)},
         {"kind": "not-admissible", "point": 0},
     ]);
-    let text = page("report.md", &facts);
+    let text = page("steady.md", &facts);
     let notes = text.lines().filter(|line| line.starts_with("- **")).count();
     assert_eq!(notes, 10, "{text}");
 }
@@ -204,7 +204,7 @@ fn every_claim_is_told() {
             let part = part.as_str().expect("text");
             assert!(text.contains(part), "{part} in\n{text}");
         }
-        let note = page("report.md", &facts);
+        let note = page("steady.md", &facts);
         assert!(note.contains("- **Refuted**: ") && note.contains(". Judged by: "), "{note}");
     }
 }
@@ -212,7 +212,7 @@ fn every_claim_is_told() {
 #[test]
 fn markdown_becomes_a_page() {
     let facts = shipped("li2016-band");
-    let markdown = page("report.md", &facts);
+    let markdown = page("steady.md", &facts);
     let drawings = std::collections::BTreeMap::new();
     let html = html::page("bad", &markdown, &drawings).expect("a page");
     assert!(html.contains("<section class=\"verdict bad\">") && html.contains("<table>"));

@@ -332,9 +332,10 @@ fn no_text_of_a_report_is_active_in_a_comment_or_an_index() {
         let mut all = Vec::new();
         pointers(&whole, "", &mut all);
         assert!(all.len() > 300, "{}", all.len());
-        for at in all {
-            // The second text differs in what it tries, not in how it is told: one direction is enough.
-            for (hostile, directions) in [(HOSTILE.to_owned(), 2), (hostile(), 1)] {
+        for (k, at) in all.into_iter().enumerate() {
+            // The second text differs in what it tries, not in how it is told: one direction of every third is enough.
+            let texts = [(HOSTILE.to_owned(), 2), (hostile(), 1)];
+            for (hostile, directions) in texts.into_iter().take(if k % 3 == 0 { 2 } else { 1 }) {
                 let mut changed = whole.clone();
                 *changed.pointer_mut(&at).expect("a text") = json!(hostile);
                 let (old, new) = (whole.to_string(), changed.to_string());
