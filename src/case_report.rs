@@ -39,7 +39,8 @@ pub enum ReportError {
 }
 
 impl Report {
-    /// Studies a case and draws its figures: by the layers that `plan` needs, or all of them.
+    /// Studies a case and draws its figures: by the layers that `plan` needs, or all of them; `decides` with what else could
+    /// be done and how far criteria hold.
     ///
     /// # Errors
     /// [`ReportError`] where theory or simulation cannot be carried out.
@@ -47,15 +48,18 @@ impl Report {
         name: &str,
         case: &Case,
         plan: Option<&LayerPlan>,
+        decides: bool,
         executor: &dyn Executor,
     ) -> Result<Self, ReportError> {
         let answer = Answer::of(case, Asked::Report, plan, executor)?;
+        let answer = if decides { answer.decided(case, executor)? } else { answer };
         if let Some(study) = &answer.transient {
-            let (document, figures) = transient::drawn(name, case, study, &answer.judged)?;
+            let (mut document, figures) = transient::drawn(name, case, study, &answer.judged)?;
+            document::decide(&mut document, case, &answer);
             return Ok(Self { answer, figures, document });
         }
         let figures = drawn(case, answer.studied()?)?;
-        let document = document::document(&Source {
+        let mut document = document::document(&Source {
             name,
             case,
             study: answer.studied()?,
@@ -63,6 +67,7 @@ impl Report {
             answers: answer.answers.as_ref(),
             figures: &figures,
         });
+        document::decide(&mut document, case, &answer);
         Ok(Self { answer, figures, document })
     }
 

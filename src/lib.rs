@@ -18,15 +18,18 @@
 #![warn(missing_docs)]
 #![forbid(unsafe_code)]
 
+pub mod alternatives;
 pub mod answer;
 pub mod band;
 pub mod case;
 pub mod case_input;
 pub mod case_report;
 pub mod criteria;
+pub mod dampers;
 pub mod diff;
 pub mod digest;
 pub mod measure;
+pub mod operating_range;
 pub mod optimize;
 #[cfg(feature = "cli")]
 pub mod program;

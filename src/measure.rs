@@ -18,6 +18,17 @@ pub enum Device {
     Damper,
 }
 
+impl Device {
+    /// Its word in a document.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Absorber => "absorber",
+            Self::Without => "none",
+            Self::Damper => "tuned-mass-damper",
+        }
+    }
+}
+
 /// Something that has a number, a word or a yes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {

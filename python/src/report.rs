@@ -15,7 +15,7 @@ use crate::work::{WorkState, refused};
 /// The files, and whether simulations are to be trusted and what was asked of accuracy holds.
 pub fn rendered(case: &Case, name: &str, work: &WorkState) -> PyResult<(Files, bool)> {
     let plan = LayerPlan::of_case(case, None).map_err(refused)?;
-    let report = Report::of(name, case, plan.as_ref(), work).map_err(refused)?;
+    let report = Report::of(name, case, plan.as_ref(), true, work).map_err(refused)?;
     let holds = report.answer.trusted() && report.answer.exact_enough();
     Ok((report.files(case).map_err(refused)?, holds))
 }

@@ -7,6 +7,7 @@
 pub mod branch;
 pub mod trajectory;
 
+use crate::alternatives::Alternatives;
 use crate::analysis::Analysis;
 use crate::band::Survey;
 use crate::case::{Case, ExtraFigure};
@@ -14,6 +15,7 @@ use crate::criteria::{self, Judged};
 use crate::excitation::Scene;
 use crate::executor::Executor;
 use crate::motions::{Effort, Measured, Motions, Place, measured, motions};
+use crate::operating_range::{HoldsFor, holds_for};
 use crate::orbits::FullSystem;
 use crate::simulation::ImpactLog;
 use crate::study::fidelity::{Answers, LayerPlan};
@@ -30,6 +32,8 @@ pub enum Asked {
     Analysis,
     /// Whether its criteria hold.
     Criteria,
+    /// The same, with all motions that can happen along its range.
+    Decision,
     /// Everything at its own excitation alone, but for what only some cases ask for.
     Study,
     /// Everything.
@@ -64,6 +68,10 @@ pub struct Answer {
     pub answers: Option<Answers>,
     /// What becomes of a structure that is not driven steadily, and nothing above but its criteria; none of another.
     pub transient: Option<Study>,
+    /// What else could be done; none where it was not asked for.
+    pub alternatives: Option<Alternatives>,
+    /// How far each number of the case may change before a criterion fails; empty where one does, or nobody asked.
+    pub holds_for: Vec<HoldsFor>,
 }
 
 impl Theory {
@@ -103,6 +111,16 @@ impl Answer {
         }
     }
 
+    /// The same with what decides whether the absorber is taken: its alternatives, and how far its criteria hold.
+    ///
+    /// # Errors
+    /// As [`Answer::of`].
+    pub fn decided(self, case: &Case, on: &dyn Executor) -> Result<Self, StudyError> {
+        let alternatives = Alternatives::of(case, &self, on)?;
+        let holds_for = holds_for(case, &self, on)?;
+        Ok(Self { alternatives, holds_for, ..self })
+    }
+
     /// That of a case that is driven steadily; who calls this links nothing of what is not steady, as the live page.
     ///
     /// # Errors
@@ -116,7 +134,8 @@ impl Answer {
     ) -> Result<Self, StudyError> {
         let system = case.system();
         let studies = matches!(asked, Asked::Study | Asked::Report);
-        let judges = matches!(asked, Asked::Criteria | Asked::Report) && !case.criteria.is_empty();
+        let judges = matches!(asked, Asked::Criteria | Asked::Decision | Asked::Report)
+            && !case.criteria.is_empty();
         let layers = plan.is_none_or(LayerPlan::needs_simulation);
         let simulates = layers || judges && criteria::needs_simulation(&case.criteria);
         let found = match simulates {
@@ -133,12 +152,12 @@ impl Answer {
             None => None,
         };
         let along = asked == Asked::Report && case.band.is_some();
-        let survey = (judges || along).then(|| {
+        let compares = matches!(asked, Asked::Decision | Asked::Report);
+        let survey = (judges || compares).then(|| {
             let mut settings = criteria::settings(case);
-            let along = along && layers;
-            settings.effort = (along || settings.effort.is_some()).then_some(effort);
-            let survey = Survey::of(&case.range(), &settings, found.as_ref(), on)?;
-            if along { survey.with_detuned(&settings, on) } else { Ok(survey) }
+            let flown = compares && layers || settings.effort.is_some();
+            settings.effort = flown.then_some(effort);
+            Survey::of(&case.range(), &settings, found.as_ref(), on)
         });
         let survey = survey.transpose()?;
         let judged = survey.as_ref().filter(|_| judges);
@@ -149,9 +168,19 @@ impl Answer {
         });
         let theory = (asked == Asked::Analysis).then(|| Theory::of(&system)).transpose()?;
         let motions = found;
-        let (answers, transient) = (None, None);
-        let mut answer =
-            Self { effort, motions, survey, judged, theory, study, answers, transient };
+        let (answers, transient, alternatives) = (None, None, None);
+        let mut answer = Self {
+            effort,
+            motions,
+            survey,
+            judged,
+            theory,
+            study,
+            answers,
+            transient,
+            alternatives,
+            holds_for: Vec::new(),
+        };
         if let Some(plan) = plan {
             let found = answer.motions.as_ref().filter(|_| plan.needs_simulation());
             let doubts = match answer.main(case, &mut Measured::log())? {
@@ -175,11 +204,22 @@ impl Answer {
             _ => Study::of_case(case, on).transpose()?,
         };
         let found = found.ok_or(StudyError::NotSteady(case.design.scene().words()))?;
-        let judges = matches!(asked, Asked::Criteria | Asked::Report);
+        let judges = matches!(asked, Asked::Criteria | Asked::Decision | Asked::Report);
         let judged = if judges { criteria::judge_transient(case, &found) } else { Vec::new() };
         let (motions, survey, theory, study, answers) = (None, None, None, None, None);
-        let transient = Some(found);
-        Ok(Self { effort, motions, survey, judged, theory, study, answers, transient })
+        let (transient, alternatives) = (Some(found), None);
+        Ok(Self {
+            effort,
+            motions,
+            survey,
+            judged,
+            theory,
+            study,
+            answers,
+            transient,
+            alternatives,
+            holds_for: Vec::new(),
+        })
     }
 
     /// The main motion measured in full, its impacts kept in `log`; none where nothing was simulated.
@@ -217,7 +257,8 @@ fn further(mut study: CaseStudy, case: &Case, on: &dyn Executor) -> Result<CaseS
     if case.report.figures.contains(&ExtraFigure::Dissipation) {
         study = study.with_averages()?;
     }
-    if case.report.deviations {
+    // With criteria it is said over the whole range how far they hold.
+    if case.report.deviations && case.criteria.is_empty() {
         study = study.with_deviations(case, on)?;
     }
     Ok(study)

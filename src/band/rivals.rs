@@ -1,62 +1,8 @@
 //! What else could be done along a band: nothing, or a tuned mass damper of the same mass, with the best design of it.
 
-use argmin::core::{CostFunction, Error, Executor, State as _};
-use argmin::solver::neldermead::NelderMead;
-
 use super::Band;
+use crate::dampers;
 use crate::linear::{BandSystems, Damped, TunedMassDamper, bare_amplitude};
-
-/// Size of the first simplex of a design, in the logarithms of tuning and damping ratio.
-const SIMPLEX: [f64; 2] = [0.02, 0.3];
-/// Steps of a simplex, and how often it begins again where it ended: the largest of two resonances has
-/// a kink where they are equal, at which a simplex may collapse early.
-const STEPS: u64 = 120;
-const RESTARTS: u32 = 3;
-
-/// The damper of the absorber's mass whose largest amplitude along a band is smallest, with the damping of
-/// the structure and the kind of its excitation. For a single excitation that of Den Hartog: the best
-/// for one frequency alone would be undamped and of no use beside it.
-fn designed(along: &BandSystems) -> TunedMassDamper {
-    let start = TunedMassDamper::den_hartog(along.band.base.mass_ratio());
-    if along.band.is_point() {
-        return start;
-    }
-    let mut best = vec![libm::log(start.tuning), libm::log(start.damping_ratio)];
-    for _ in 0..RESTARTS {
-        let mut simplex = vec![best.clone(); 3];
-        simplex[1][0] += SIMPLEX[0];
-        simplex[2][1] += SIMPLEX[1];
-        let solver = NelderMead::new(simplex);
-        let run = Executor::new(LargestAmplitude(along), solver)
-            .configure(|state| state.max_iters(STEPS))
-            .timer(false)
-            .run();
-        let found = run.ok().and_then(|run| run.state().get_best_param().cloned());
-        best = found.unwrap_or(best);
-    }
-    of_logarithms(&best)
-}
-
-/// A damper of the logarithms of its tuning and damping ratio.
-fn of_logarithms(logarithms: &[f64]) -> TunedMassDamper {
-    TunedMassDamper { tuning: libm::exp(logarithms[0]), damping_ratio: libm::exp(logarithms[1]) }
-}
-
-/// What the simplex makes small: the largest amplitude along a band.
-struct LargestAmplitude<'a>(&'a BandSystems<'a>);
-
-impl CostFunction for LargestAmplitude<'_> {
-    type Param = Vec<f64>;
-    type Output = f64;
-    fn cost(&self, logarithms: &Vec<f64>) -> Result<f64, Error> {
-        let damper = of_logarithms(logarithms);
-        Ok(self.0.largest(|system| damper.amplitude(system)).1)
-    }
-}
-
-/// By how much the structure's natural frequency may be off, to either side, where a tuned device is
-/// compared with one that is not.
-pub const DETUNED: [f64; 2] = [0.97, 1.03];
 
 /// What can be done without the absorber. Lengths over the clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,24 +13,14 @@ pub struct Rivals {
     pub damper: TunedMassDamper,
     /// Its largest amplitude and stroke.
     pub damped: Damped,
-    /// The same where the structure's natural frequency is off by [`DETUNED`] and the damper as designed.
-    pub detuned: [Damped; 2],
 }
 
 impl Rivals {
     /// Those along a band.
     pub fn along(band: &Band) -> Self {
         let along = BandSystems::of(band);
-        let damper = designed(&along);
-        Self {
-            bare: along.largest(bare_amplitude),
-            damper,
-            damped: along.damped(damper),
-            detuned: DETUNED.map(|factor| match band.with_structure_detuned(factor) {
-                Some(band) => BandSystems::of(&band).damped(damper.on_detuned(factor)),
-                None => Damped { amplitude: f64::NAN, at: f64::NAN, stroke: f64::NAN },
-            }),
-        }
+        let damper = dampers::for_band(&along);
+        Self { bare: along.largest(bare_amplitude), damper, damped: along.damped(damper) }
     }
 }
 
@@ -131,12 +67,12 @@ mod tests {
     }
 
     #[test]
-    fn no_neighbour_of_the_design_is_better_and_detuning_costs_what_it_costs() {
+    fn no_neighbour_of_the_design_is_better() {
         for (mu, zeta, excitation) in
             [(0.015, 0.004, Excitation::Force), (0.01, 0.02, Excitation::BaseDisplacement)]
         {
             let band = around_resonance(system(mu, zeta, excitation));
-            let Rivals { damper, damped, detuned, .. } = Rivals::along(&band);
+            let Rivals { damper, damped, .. } = Rivals::along(&band);
             for (tuning, damping) in
                 [(0.99, 1.0), (1.01, 1.0), (1.0, 0.9), (1.0, 1.1), (0.995, 1.05)]
             {
@@ -146,15 +82,6 @@ mod tests {
                 };
                 let (_, height) = BandSystems::of(&band).largest(|system| other.amplitude(system));
                 assert!(height > damped.amplitude, "{mu} {tuning} {damping}");
-            }
-            // A damper off by 3 % on the same structure, in the structure's own units.
-            for (factor, off) in DETUNED.into_iter().zip(detuned) {
-                let other = TunedMassDamper { tuning: damper.tuning / factor, ..damper };
-                let (_, height) = BandSystems::of(&band).largest(|system| other.amplitude(system));
-                let scale = if excitation == Excitation::Force { factor * factor } else { 1.0 };
-                // The damping ratio of the structure changes with its frequency, by 3 %.
-                assert!((off.amplitude * scale / height - 1.0).abs() < 0.03, "{mu} {factor}");
-                assert!(off.amplitude > damped.amplitude);
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use std::sync::OnceLock;
 
-use super::rivals::{DETUNED, Rivals};
+use super::rivals::Rivals;
 use super::{Band, Stretch, margin, theory};
 use crate::analysis::{Strip, Zone};
 use crate::executor::Executor;
@@ -35,9 +35,6 @@ pub struct Survey {
     bare: OnceLock<(f64, f64)>,
     rivals: OnceLock<Rivals>,
     smallest_gap: OnceLock<(f64, f64)>,
-    /// The worst motion where the structure's natural frequency is off by [`super::rivals::DETUNED`]; empty
-    /// where that was not asked for.
-    pub detuned: Vec<Option<Worst>>,
 }
 
 /// The motion with the largest displacement along a band.
@@ -73,26 +70,7 @@ impl Survey {
             bare: OnceLock::new(),
             rivals: OnceLock::new(),
             smallest_gap: OnceLock::new(),
-            detuned: Vec::new(),
         })
-    }
-
-    /// The same with what happens where the structure's natural frequency is off.
-    ///
-    /// # Errors
-    /// As [`Survey::of`].
-    pub fn with_detuned(
-        mut self,
-        settings: &SurveySettings,
-        executor: &dyn Executor,
-    ) -> Result<Self, StartError> {
-        for factor in DETUNED {
-            let band = self.band().with_structure_detuned(factor);
-            let found =
-                band.map(|band| along(&band, &[], None, settings.effort.as_ref(), executor));
-            self.detuned.push(found.transpose()?.and_then(|one| Worst::of(&one, self.count_rest)));
-        }
-        Ok(self)
     }
 
     /// The band.

@@ -50,7 +50,9 @@ pub use record::{RecordSource, Recording};
 pub use reduced::Reduced;
 pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
-pub use settings::{AccuracySettings, ExtraFigure, ReportSettings, SimulationSettings};
+pub use settings::{
+    AccuracySettings, AlternativesSettings, ExtraFigure, ReportSettings, SimulationSettings,
+};
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
@@ -58,7 +60,7 @@ use crate::digest::sha256;
 use crate::excitation::Scene;
 use crate::motions::{BandEffort, Effort};
 use crate::quantity::Units;
-use crate::system::{Band, System};
+use crate::system::{Band, Excitation, Parameter, System};
 use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.
@@ -110,6 +112,8 @@ pub struct Case {
     pub report: ReportSettings,
     /// The table `[accuracy]`, if there is one.
     pub accuracy: Option<AccuracySettings>,
+    /// The table `[alternatives]`; its defaults where there is none.
+    pub alternatives: AlternativesSettings,
     /// The table `[band]`, if there is one.
     pub band: Option<BandSettings>,
     /// The table `[criteria]`, in the order of a report; empty where there is none.
@@ -179,6 +183,7 @@ struct Tables {
     simulation: Option<SimulationSettings>,
     report: Option<ReportSettings>,
     accuracy: Option<AccuracySettings>,
+    alternatives: Option<AlternativesSettings>,
     band: Option<band::BandTable>,
     criteria: Option<criteria::CriteriaTable>,
     optimize: Option<OptimizeSettings>,
@@ -271,6 +276,54 @@ impl Case {
         Some(Self { design, system, ..self.clone() })
     }
 
+    /// The same with another value of a parameter, and its band where it is, in the case's own unit; none where it leaves
+    /// nothing that could happen.
+    pub(crate) fn varied(&self, parameter: Parameter, value: f64) -> Option<Self> {
+        let design = self.design.with(parameter, value);
+        design.possible_system()?;
+        let frequency = |design: &Design| design.units().natural_frequency;
+        let ratio = frequency(&self.design) / frequency(&design);
+        Some(self.with_design(design)?.with_band_scaled(ratio))
+    }
+
+    /// The same of a structure with so many times the natural frequency, by its stiffness: mass and damping constant stay.
+    /// None where there is none, as of a reduced case that is not driven steadily, whose time is that of its structure.
+    pub(crate) fn with_natural_frequency(&self, factor: f64) -> Option<Self> {
+        let mut design = self.design;
+        match &mut design {
+            Design::Physical(of) => {
+                let stiffness = factor * factor * of.stiffness_n_per_m;
+                return self.varied(Parameter::Stiffness, stiffness);
+            }
+            Design::Reduced(of) if of.transient.is_none() => {
+                of.frequency_ratio = Some(of.frequency_ratio() / factor);
+                of.detuning = None;
+                of.damping /= factor;
+                of.cavity = of.cavity.with_clearance_scaled(factor * factor);
+                if of.excitation == Excitation::Force {
+                    of.forcing /= factor * factor;
+                }
+            }
+            Design::Reduced(_) => return None,
+        }
+        Some(self.with_design(design)?.with_band_scaled(1.0 / factor))
+    }
+
+    /// Whether its cavity is level and its ends are alike: mirrored it is the same.
+    pub(crate) fn has_ideal_walls(&self) -> bool {
+        let cavity = self.system.cavity();
+        cavity.gravity_along == 0.0 && cavity.restitution_difference == 0.0
+    }
+
+    fn with_band_scaled(mut self, ratio: f64) -> Self {
+        let band = self.band.as_mut().filter(|band| band.over == BandOver::Frequency);
+        if let Some(band) = band {
+            band.range = band.range.map(|end| ratio * end);
+            band.spectrum.iter_mut().for_each(|corner| corner[0] *= ratio);
+        }
+        self
+    }
+
     /// What turns the system's results back into the case's units.
     pub fn units(&self) -> Units {
         self.design.units()
@@ -327,6 +380,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
     let report = reader.settings::<ReportSettings>(&root, "report");
     let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
+    let alternatives = reader.settings::<AlternativesSettings>(&root, "alternatives");
     let band = band::read(reader, &root);
     let criteria = criteria::read(reader, &root);
     let optimize = optimize::read(reader, &root);
@@ -344,6 +398,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         simulation: simulation.unwrap_or_default(),
         report: report.unwrap_or_default(),
         accuracy,
+        alternatives: alternatives.unwrap_or_default(),
         band,
         criteria: criteria.all,
         count_inactive: criteria.count_inactive,

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::{Value, json};
 
 use vinesink_core::names;
 
@@ -40,6 +41,38 @@ impl Default for ReportSettings {
     fn default() -> Self {
         Self { figures: Vec::new(), deviations: true }
     }
+}
+
+/// What the absorber is held against. Each key may be left out.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[serde(default)]
+pub struct AlternativesSettings {
+    /// Shares by which the structure's natural frequency is off, either way, that no device was told; 5, 10 and 20 %
+    /// unless given.
+    #[schemars(extend("items" = share_off(), "minItems" = 1, "maxItems" = 4, "x-ascending" = true), example = vec!["5 %", "10 %"])]
+    pub drift: Vec<f64>,
+    /// Damping ratio of a tuned mass damper without a damping medium, a metal spring; 0.2 % unless given.
+    #[schemars(extend("x-measurand" = "a share", "exclusiveMinimum" = 0, "maximum" = 1, "x-symbol" = r"\zeta_\mathrm{d}"), example = "0.2 %")]
+    pub damper_damping: f64,
+    /// Factor by which the damper's own frequency is another than designed: that of an elastomer that is cold.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-symbol" = r"\varphi_\mathrm{d}"), example = 1.41)]
+    pub damper_frequency_factor: Option<f64>,
+}
+
+impl Default for AlternativesSettings {
+    fn default() -> Self {
+        let drift = vec![0.05, 0.1, 0.2];
+        Self { drift, damper_damping: 0.002, damper_frequency_factor: None }
+    }
+}
+
+/// A share that a frequency may be off by.
+fn share_off() -> Value {
+    json!({
+        "type": "number", "x-measurand": "a share", "exclusiveMinimum": 0, "maximum": 0.5,
+        "examples": ["5 %"], "x-symbol": r"\Delta f_0/f_0",
+    })
 }
 
 names! { name:

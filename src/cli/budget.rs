@@ -22,6 +22,9 @@ use vinesink::transient::{DecayStudy, RELEASES, RecordStudy, SweepStudy, looked_
 
 /// Seconds that are ordinary: every shipped case takes a few.
 const ORDINARY: f64 = 60.0;
+/// Cases beside a case: where its frequency is another, and with criteria where each of its numbers is.
+const DRIFTS: u64 = 8;
+const VARIANTS: u64 = 160;
 /// Seconds of which it does not matter how many more they are.
 const HOPELESS: f64 = 1e6;
 /// Seconds of a whole sweep that are ordinary, on all processors of this machine: the largest that is shipped takes a
@@ -84,6 +87,21 @@ impl Long {
         }
         let longest = work.iter().max_by(|a, b| a.seconds().total_cmp(&b.seconds()));
         self.refused(path, case, seconds, &longest.map(Work::to_string).unwrap_or_default())
+    }
+
+    /// Whether what else could be done, and how far criteria hold, is looked at beside so much work; where that takes too
+    /// long it is left out, and said.
+    pub fn decides(self, path: &Path, case: &Case, work: &[Work]) -> bool {
+        let seconds = seconds(&Work::decision(case));
+        let decides = self.long || seconds + self::seconds(work) <= ORDINARY;
+        if !decides {
+            vinesink::program::output::complain(&format!(
+                "{}: alternatives and ranges are left out, as they would take about {}; add --long for them",
+                path.display(),
+                duration(seconds)
+            ));
+        }
+        decides
     }
 
     /// The same of a whole sweep, so many seconds on all processors, which was measured or is `what`.
@@ -237,6 +255,19 @@ impl Work {
     /// A case's criteria, over its band if it has one.
     pub fn criteria(case: &Case) -> [Self; 2] {
         [Self::band(case, Vec::new()), Self::slowest(case)]
+    }
+
+    /// What else could be done, and how far criteria hold.
+    pub fn decision(case: &Case) -> Vec<Self> {
+        let variants = if case.criteria.is_empty() { DRIFTS } else { VARIANTS };
+        if let Some(Flown { records, periods }) = Flown::of(case) {
+            let places = case.absorber_places().unwrap_or_default();
+            let places =
+                if case.design.release().is_some() { with_closer(places) } else { places.min(16) };
+            let factors = vec![(variants, "variants"), (places * records as u64, "flights")];
+            return vec![Self::flights(case, factors, periods)];
+        }
+        vec![Self::band(case, vec![(variants / 4, "variants")])]
     }
 
     /// The motions that may not repeat where the excitation of the band is slowest.

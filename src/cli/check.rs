@@ -30,6 +30,9 @@ pub struct Arguments {
     /// How the result is printed
     #[arg(long, value_enum, default_value = "text")]
     format: CheckFormat,
+    /// Judge the criteria alone: no tuned mass damper beside the absorber, no range over which they hold
+    #[arg(long)]
+    criteria_only: bool,
     #[command(flatten)]
     long: Long,
     #[command(flatten)]
@@ -107,10 +110,13 @@ fn checked(path: &Path, arguments: &Arguments, failures: &mut Vec<Report>) -> Ch
 fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
     let Arguments { long, reading, .. } = *arguments;
     let case = case_file::read(path, reading)?;
-    let work = Work::of(&case, Asked::Criteria, None);
+    let asked = if arguments.criteria_only { Asked::Criteria } else { Asked::Decision };
+    let work = Work::of(&case, asked, None);
     long.allows(path, &case, &work)?;
     let _progress = budget::progress("check", &case, &work, 0.0);
-    let answer = Answer::of(&case, Asked::Criteria, None, &Parallel).into_diagnostic()?;
+    let decides = asked == Asked::Decision && long.decides(path, &case, &work);
+    let answer = Answer::of(&case, asked, None, &Parallel).into_diagnostic()?;
+    let answer = if decides { answer.decided(&case, &Parallel).into_diagnostic()? } else { answer };
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));
     }

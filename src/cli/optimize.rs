@@ -131,7 +131,9 @@ impl Arguments {
         let written =
             case.rewritten(&name, text, &best.design, Rounding::Down).into_diagnostic()?;
         self.one.long.allows(path, &written.case, &Work::of(&written.case, Asked::Report, None))?;
-        let report = Report::of(&case_file::name(path)?, &written.case, None, &Parallel);
+        let decides = self.one.long.decides(path, &written.case, &[]);
+        let name = case_file::name(path)?;
+        let report = Report::of(&name, &written.case, None, decides, &Parallel);
         let report = report.into_diagnostic()?;
         let document = clearance::optimum(case, &best, &report.document);
         self.one.print(|| clearance::optimum_text(case, &document), || &document)?;

@@ -173,7 +173,8 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
     let work = Work::of(case, Asked::Report, plan.as_ref());
     arguments.long.allows(path, case, &work)?;
     let _progress = budget::progress(name, case, &work, ORDINARY);
-    let report = Report::of(name, case, plan.as_ref(), &Parallel).into_diagnostic()?;
+    let decides = arguments.long.decides(path, case, &work);
+    let report = Report::of(name, case, plan.as_ref(), decides, &Parallel).into_diagnostic()?;
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
     let trusted = report.answer.trusted();
     if !trusted {

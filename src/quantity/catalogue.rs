@@ -120,6 +120,8 @@ catalogue! {
     FORCE_AMPLITUDE = "force_amplitude", "P", "amplitude of the force", Force, Significant(4), Interval;
     AMPLITUDE_OVER_OWN = "amplitude_over_own", "", "amplitude over the case's", Number, Significant(3), Interval;
     EXCITATION_FREQUENCY = "excitation_frequency", "f", "excitation frequency", Frequency, Significant(4), Interval;
+    NATURAL_FREQUENCY = "natural_frequency", "f₀", "natural frequency", Frequency, Significant(4), Interval;
+    FREQUENCY_DRIFT = "frequency_drift", "", "share by which the natural frequency is off", Share, Significant(2), Interval;
     FREQUENCY_RATIO = "frequency_ratio", "Ω", "frequency ratio", Number, Significant(4), Interval;
     DETUNING = "detuning", "σ", "detuning", Number, Significant(4), Interval;
     REDUCED_DAMPING = "reduced_damping", "λ", "reduced damping", Number, Significant(4), Interval;

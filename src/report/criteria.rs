@@ -48,9 +48,12 @@ impl Checked {
         if !warnings.is_empty() {
             document["warnings"] = json!(warnings);
         }
+        document::decide(&mut document, case, answer);
+        let choice = document.as_object_mut().and_then(|of| of.remove("choice"));
+        let ranges = document.as_object_mut().and_then(|of| of.remove("ranges"));
         let page = json!({
             "path": path, "case": name, "warnings": warnings, "criteria": criteria(case, judged),
-            "outside": outside,
+            "outside": outside, "choice": choice, "ranges": ranges,
         });
         Self { document, page, units }
     }

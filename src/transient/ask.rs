@@ -24,7 +24,7 @@ pub struct AskedValue {
 struct Compared<'a> {
     largest: &'a dyn Fn(Measure) -> Option<WithError>,
     without: &'a dyn Run,
-    damper: &'a dyn Run,
+    damper: &'a dyn Fn() -> &'a dyn Run,
 }
 
 /// The structure alone on its way to rest: oscillations in closed form.
@@ -39,7 +39,7 @@ impl Run for Alone {
 impl Compared<'_> {
     /// With the absorber the largest from any place that counts; a reduction is that of the largest displacement.
     fn ask(&self, of: Measure, by: Device) -> Option<WithError> {
-        let linear = |by: Device| if by == Device::Damper { self.damper } else { self.without };
+        let linear = |by: Device| if by == Device::Damper { (self.damper)() } else { self.without };
         match (by, of.against()) {
             (Device::Absorber, Some(other)) => {
                 let against = linear(other).get(Measure::Peak)?;
@@ -126,23 +126,30 @@ impl Study {
 
     /// What each condition says.
     fn of_conditions(&self, of: Measure, by: Device) -> Option<Vec<WithError>> {
-        let one = |largest: &dyn Fn(Measure) -> Option<WithError>,
-                   [without, damper]: [&dyn Run; 2]| {
+        fn one<'a>(
+            (of, by): (Measure, Device),
+            largest: &'a dyn Fn(Measure) -> Option<WithError>,
+            without: &'a dyn Run,
+            damper: &'a dyn Fn() -> &'a dyn Run,
+        ) -> Option<WithError> {
             Compared { largest, without, damper }.ask(of, by)
-        };
+        }
+        let asked = (of, by);
         match self {
             Self::Release(study) => {
-                let damper: &dyn Run = &study.damped.1;
-                Some(vec![one(&|of| study.starts.largest(of), [&Alone(study.bare), damper])?])
+                let alone = Alone(study.bare);
+                let damper = || &study.damped().1 as &dyn Run;
+                Some(vec![one(asked, &|of| study.starts.largest(of), &alone, &damper)?])
             }
             Self::Sweep(study) => {
-                let damper: &dyn Run = &study.damped.1;
-                Some(vec![one(&|of| study.starts.largest(of), [&study.alone, damper])?])
+                let damper = || &study.damped().1 as &dyn Run;
+                Some(vec![one(asked, &|of| study.starts.largest(of), &study.alone, &damper)?])
             }
             Self::Record(study) => {
                 let each = study.realisations.iter();
-                each.map(|of_one| {
-                    one(&|of| of_one.places.largest(of), [&of_one.bare, &of_one.damped])
+                each.map(|here| {
+                    let damper = || &here.damped as &dyn Run;
+                    one(asked, &|of| here.places.largest(of), &here.bare, &damper)
                 })
                 .collect()
             }

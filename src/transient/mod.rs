@@ -22,8 +22,8 @@ pub use flight::OneFlight;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record_study::{Realisation, RecordStudy, SpectrumPoint};
 pub use runs::{Run, Runs, WithError};
-pub(crate) use study::followed;
 pub use study::{Decay, DecayStudy, DecayTime};
+pub(crate) use study::{followed, longest};
 
 use crate::case::Case;
 use crate::excitation::{Record, Transient};
@@ -79,7 +79,7 @@ impl Study {
                     true => Predicted::of(system, study.from, study.level),
                     false => Predicted::none(system),
                 };
-                Self::Release(Box::new(DecayStudy { count_inactive: inactive, predicted, ..study }))
+                Self::Release(Box::new(study.counting(inactive, predicted)))
             }
             Transient::Sweep(sweep) => {
                 let study = SweepStudy::brief(system, units, sweep, places, inactive)?;

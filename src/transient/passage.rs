@@ -2,9 +2,11 @@
 //! directions, at other rates, beside its alternatives and the steady motions.
 
 use std::f64::consts::TAU;
+use std::sync::OnceLock;
 
 use super::Runs;
 use crate::case::Case;
+use crate::dampers;
 use crate::excitation::SineSweep;
 use crate::executor::{Executor, map};
 use crate::flights::{Passage, Places, even, survey};
@@ -55,8 +57,9 @@ pub struct SweepStudy {
     pub back: Passage,
     /// The structure alone.
     pub alone: Passage,
-    /// With the tuned mass damper of Den Hartog.
-    pub damped: (TunedMassDamper, Passage),
+    units: Units,
+    /// With the tuned mass damper, once somebody asks.
+    damped: OnceLock<(TunedMassDamper, Passage)>,
     /// Frequency ratio, amplitude of the structure alone, peak of the symmetric 1:1 orbit, NaN where none attracts: of
     /// steady motion.
     pub steady: Vec<[f64; 3]>,
@@ -123,15 +126,14 @@ impl SweepStudy {
         places: Places<'_>,
         inactive: bool,
     ) -> Result<Self, StartError> {
-        let damper = TunedMassDamper::den_hartog(system.mass_ratio());
-        let linear = |damper: Option<&TunedMassDamper>| swept(system, damper, units, sweep);
         Ok(Self {
             system: *system,
             sweep: *sweep,
             starts: Self::starts(system, units, sweep, places, inactive)?,
             back: Passage::new(0, 0.0),
-            alone: linear(None),
-            damped: (damper, linear(Some(&damper))),
+            alone: swept(system, None, units, sweep),
+            units: *units,
+            damped: OnceLock::new(),
             steady: Vec::new(),
             jumps: Default::default(),
             differ: None,
@@ -168,7 +170,7 @@ impl SweepStudy {
             of.worst(Measure::Peak).map(|(_, found)| found.clone())
         };
         let there = study.worst().map(|(_, found)| found.clone());
-        let damper = study.damped.0;
+        let damper = study.damped().0;
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
             swept(system, damper, units, sweep)
         };
@@ -195,6 +197,15 @@ impl SweepStudy {
             by_rate,
             back,
             ..study
+        })
+    }
+
+    /// The tuned mass damper of the absorber's mass that is best in it, and the structure with it.
+    pub fn damped(&self) -> &(TunedMassDamper, Passage) {
+        self.damped.get_or_init(|| {
+            let Self { system, units, sweep, .. } = self;
+            let damper = dampers::for_sweep(system, units, sweep);
+            (damper, swept(system, Some(&damper), units, sweep))
         })
     }
 

@@ -2,7 +2,10 @@
 //! alternatives and theory.
 
 use super::{Run, Runs, WithError};
+use std::sync::OnceLock;
+
 use crate::case::Case;
+use crate::dampers;
 use crate::excitation::{Release, amplitude};
 use crate::executor::{Executor, Serial};
 use crate::flights::{Inactive, Places, Predicted, Ringdown, inactive, survey, worst_of_places};
@@ -10,7 +13,7 @@ use crate::linear::{Linear, STEPS, TunedMassDamper, bare_decay, released};
 use crate::measure::Measure;
 use crate::quantity::Units;
 use crate::simulation::StartError;
-use crate::system::System;
+use crate::system::{State, System};
 
 /// How fast a structure comes to a level from one place of the absorber.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,8 +51,10 @@ pub struct DecayStudy {
     pub inactive: Inactive,
     /// Whether such a start counts.
     pub count_inactive: bool,
-    /// The structure with the tuned mass damper.
-    pub damped: (TunedMassDamper, Linear),
+    /// Where it begins, the absorber in the middle.
+    start: State,
+    /// The structure with the tuned mass damper, once somebody asks.
+    damped: OnceLock<(TunedMassDamper, Linear)>,
     /// Theory.
     pub predicted: Predicted,
 }
@@ -87,8 +92,6 @@ impl DecayStudy {
         let from = amplitude(&middle);
         let level = share * from;
         let bare = bare_decay(system, share);
-        let damper = TunedMassDamper::for_free_decay(system.mass_ratio());
-        let linear = released(system, Some(&damper), middle, level, longest(bare));
         let inactive = inactive(system, &middle);
         let starts = Self::starts(system, units, release, share, places)?;
         let follow = |(w, _): &(f64, Decay)| {
@@ -103,8 +106,23 @@ impl DecayStudy {
             bare,
             inactive,
             count_inactive: true,
-            damped: (damper, linear),
+            start: middle,
+            damped: OnceLock::new(),
             predicted: Predicted::none(system),
+        })
+    }
+
+    /// The same where an absorber that no wall reaches counts or not, with what theory predicts.
+    pub(super) fn counting(self, count_inactive: bool, predicted: Predicted) -> Self {
+        Self { count_inactive, predicted, ..self }
+    }
+
+    /// The tuned mass damper of the absorber's mass that comes down to the level fastest, and the structure with it.
+    pub fn damped(&self) -> &(TunedMassDamper, Linear) {
+        self.damped.get_or_init(|| {
+            let (system, longest) = (&self.system, longest(self.bare));
+            let damper = dampers::for_release(system, self.start, self.level / self.from, longest);
+            (damper, released(system, Some(&damper), self.start, self.level, longest))
         })
     }
 

@@ -80,7 +80,7 @@ fn a_release_is_the_same_without_units() {
             close(a.impact_speed, b.impact_speed, "impact speed");
         }
         close(a.bare, b.bare, "without absorber");
-        close(a.damped.1.settles, b.damped.1.settles, "tuned mass damper");
+        close(a.damped().1.settles, b.damped().1.settles, "tuned mass damper");
         let theory = |study: &DecayStudy| study.predicted.oscillations.expect("near enough");
         close(theory(&a), theory(&b), "theory");
         let judge = |case: &Case, study: &DecayStudy| {

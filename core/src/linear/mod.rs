@@ -15,7 +15,7 @@ mod settling;
 pub use along::BandSystems;
 pub use along::{Damped, bare_along};
 pub use damper::TunedMassDamper;
-pub use motion::{Linear, driven, released, swept};
+pub use motion::{Linear, driven, released, released_between, swept};
 pub use passage::Passage;
 pub use response::Meter;
 pub use response::Response;

@@ -33,8 +33,22 @@ pub fn released(
     level: f64,
     oscillations: u64,
 ) -> Linear {
+    released_between(system, damper, None, start, level, oscillations)
+}
+
+/// The same where the damper's mass has no more room than so much to either side, over the clearance: it hits stops with
+/// the restitution of the system. Impacts within a step are where a cubic between its ends meets the stop, `h^4/384`.
+pub fn released_between(
+    system: &System,
+    damper: Option<&TunedMassDamper>,
+    room: Option<f64>,
+    start: State,
+    level: f64,
+    oscillations: u64,
+) -> Linear {
     let duration = TAU / f64::from(STEPS_OF_PERIOD);
-    let step = exponential(matrix(system, damper) * duration);
+    let rates = matrix(system, damper);
+    let step = exponential(rates * duration);
     let mut state: LinearState =
         [start.x, start.x_velocity, start.x, start.y_velocity, 0.0, 0.0].into();
     let (amplitudes, settles) = (vec![amplitude(&start)], f64::INFINITY);
@@ -43,8 +57,12 @@ pub fn released(
     settling.see(0.0, amplitude(&start));
     let last = oscillations.saturating_mul(STEPS_OF_PERIOD.into());
     for k in 1..=last {
-        let after = step * state;
-        let [x, stroke] = largest(duration, [&state, &after]);
+        let mut after = step * state;
+        let [mut x, mut stroke] = largest(duration, [&state, &after]);
+        if let Some(room) = room.filter(|room| stroke > *room) {
+            after = stopped(system, &rates, duration, state, room);
+            (x, stroke) = (state[0].abs().max(after[0].abs()), room);
+        }
         (found.peak, found.stroke) = (found.peak.max(x), found.stroke.max(stroke));
         state = after;
         let time = k as f64 / f64::from(STEPS_OF_PERIOD);
@@ -59,6 +77,33 @@ pub fn released(
     }
     found.settles = settling.time;
     found
+}
+
+/// Impacts in a step after which the mass of a damper is taken to move with its stop.
+const MOST_IMPACTS: u32 = 64;
+
+/// The end of a step in which the mass of a damper meets its stops.
+fn stopped(
+    system: &System,
+    rates: &Square,
+    duration: f64,
+    mut state: LinearState,
+    room: f64,
+) -> LinearState {
+    let (mu, mut left) = (system.mass_ratio(), duration);
+    for k in 0..=MOST_IMPACTS {
+        let after = exponential(rates * left) * state;
+        let ends = [&state, &after].map(|at| [at[0] - at[2], at[1] - at[3]]);
+        let Some(time) = Cubic::of(left, ends).leaves(room) else { return after };
+        state = exponential(rates * time) * state;
+        left -= time;
+        // Momentum stays, and the relative velocity turns.
+        let restitution = if k < MOST_IMPACTS { system.restitution() } else { 0.0 };
+        let impulse = (1.0 + restitution) * (state[1] - state[3]) / (1.0 + mu);
+        state[1] -= mu * impulse;
+        state[3] += impulse;
+    }
+    exponential(rates * left) * state
 }
 
 /// The structure with a damper, or alone, at rest until it is driven. A straight line of the excitation is a state

@@ -56,6 +56,26 @@ impl Cubic {
         at_ends.max((x0 + p * (h * v0 + p * (c + p * d))).abs())
     }
 
+    /// When it first goes beyond a size outwards; none where it stays within.
+    pub fn leaves(&self, size: f64) -> Option<f64> {
+        const PARTS: u32 = 16;
+        let h = self.duration;
+        let [[x0, v0], [x1, v1]] = self.ends;
+        let (d, c) = (h * (v0 + v1) - 2.0 * (x1 - x0), 3.0 * (x1 - x0) - h * (2.0 * v0 + v1));
+        let at = |p: f64| x0 + p * (h * v0 + p * (c + p * d));
+        // At a stop it may be beyond by rounding, and comes back.
+        let is_out =
+            |p: f64| at(p).abs() > size && at(p) * (h * v0 + p * (2.0 * c + 3.0 * p * d)) > 0.0;
+        let part = |k: u32| f64::from(k) / f64::from(PARTS);
+        let out = (0..=PARTS).find(|k| is_out(part(*k)))?;
+        let (mut inside, mut outside) = (part(out.saturating_sub(1)), part(out));
+        while outside - inside > WIDTH {
+            let middle = 0.5 * (inside + outside);
+            if is_out(middle) { outside = middle } else { inside = middle }
+        }
+        Some(h * outside)
+    }
+
     /// Its integral.
     pub fn integral(&self) -> f64 {
         let h = self.duration;

@@ -4,7 +4,6 @@ use serde_json::{Value, json};
 
 use super::scale::{ROOT_OF_ROUNDING, Scale};
 use crate::analysis::Strip;
-use crate::band::rivals::DETUNED;
 use crate::band::{Band, Rivals, Survey, Worst};
 use crate::case::BandOver;
 use crate::criteria::{method, of_stability};
@@ -44,32 +43,18 @@ pub(in crate::report) struct AbsorberAlong<'a> {
     pub over: BandOver,
     /// The absorber's worst motion, where anything was simulated.
     pub worst: Option<&'a Worst>,
-    /// The same with the structure's frequency off.
-    pub detuned: &'a [Option<Worst>],
 }
 
-/// A tuned mass damper of the absorber's mass: at a single excitation, or along a band, where both devices are
-/// also held against a structure whose frequency is off.
+/// A tuned mass damper of the absorber's mass: at a single excitation, or along a band.
 pub(in crate::report) fn damper(
     scale: &Scale,
     rivals: &Rivals,
     along: Option<&AbsorberAlong>,
 ) -> Value {
     let length = |kind, value| scale.units.quantity(kind, value, ClosedForm);
-    let Rivals { damper, damped, detuned, .. } = rivals;
-    let absorber = |k: usize| along.and_then(|one| one.detuned.get(k)?.as_ref());
+    let Rivals { damper, damped, .. } = rivals;
     let reach = |worst: &Worst| worst.peak.value + worst.peak.error;
-    let off = [0, 1].into_iter().filter_map(absorber).map(reach).reduce(f64::max);
-    let damper_off = detuned.iter().map(|one| one.amplitude).fold(0.0, f64::max);
     let worst = along.and_then(|one| one.worst);
-    let off_tune = |k: usize| {
-        json!({
-            "change": Quantity::new(&of::MARGIN, DETUNED[k] - 1.0, ClosedForm),
-            "absorber": absorber(k).map(|worst| peak(scale, worst)),
-            "peak": length(&of::DAMPER_PEAK, detuned[k].amplitude),
-            "stroke": length(&of::DAMPER_STROKE, detuned[k].stroke),
-        })
-    };
     let frequency = match scale.frequency(damper.tuning, ClosedForm) {
         hertz if hertz.kind == &of::EXCITATION_FREQUENCY => {
             Quantity { kind: &of::DAMPER_FREQUENCY, ..hertz }
@@ -85,9 +70,6 @@ pub(in crate::report) fn damper(
         "needs_more_room": damped.stroke > 1.0,
         // By the absorber's worst motion, where anything was simulated.
         "absorber_is_better": worst.map(|worst| reach(worst) < damped.amplitude),
-        // The same with the structure's frequency off, at the worse end.
-        "absorber_is_better_detuned": off.map(|off| off < damper_off),
-        "detuned": along.map_or_else(Vec::new, |_| (0..DETUNED.len()).map(off_tune).collect()),
     })
 }
 
@@ -129,8 +111,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
     let resting = motions.rest_at().and_then(|at| Some((at, motions.at(at)?.rest()?)));
     let resting =
         resting.and_then(|(at, one)| inactive(scale, one, Some(place(at)), survey.count_rest));
-    let (worst_motion, detuned) = (worst_motion.as_ref(), survey.detuned.as_slice());
-    let absorber = AbsorberAlong { over: band.over, worst: worst_motion, detuned };
+    let absorber = AbsorberAlong { over: band.over, worst: worst_motion.as_ref() };
     let bare_peak = scale.units.quantity(&of::BARE_PEAK, bare, ClosedForm);
     let (gap_at, gap) = survey.smallest_gap();
     let gap = Quantity::new(&of::GAP, gap, ExactOrbit).with_error(ROOT_OF_ROUNDING * gap);

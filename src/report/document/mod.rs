@@ -5,6 +5,7 @@ pub mod motions;
 pub mod place;
 pub mod theory;
 
+mod alternatives;
 mod band;
 mod cavity;
 mod claims;
@@ -29,6 +30,7 @@ use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
 use crate::system::Parameter;
 
+pub use alternatives::decide;
 pub(super) use band::{AbsorberAlong, damper, outside};
 pub use notes::theory_limits;
 pub use scale::{Scale, cavity};

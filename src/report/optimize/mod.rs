@@ -41,7 +41,7 @@ pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
         robust["optimum_worst_corner"] = json!(of_best.worst_corner);
         robust
     });
-    let along = AbsorberAlong { over: over(task), worst: best.worst.as_ref(), detuned: &[] };
+    let along = AbsorberAlong { over: over(task), worst: best.worst.as_ref() };
     let mut page = json!({
         "format": "vinesink/optimization@3",
         "title": case.title,

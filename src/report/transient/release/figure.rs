@@ -54,7 +54,8 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
             Layer::curve(Role::BareOscillator, line(alone.collect())).labelled("without absorber"),
         )
         .with(
-            Layer::curve(DAMPER, sampled(&study.damped.1.amplitudes)).labelled("tuned mass damper"),
+            Layer::curve(DAMPER, sampled(&study.damped().1.amplitudes))
+                .labelled("tuned mass damper"),
         )
         .with(
             Layer::curve(Role::Simulation, sampled(&found.amplitudes))

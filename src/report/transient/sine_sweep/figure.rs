@@ -51,7 +51,7 @@ fn envelope(case: &Case, study: &SweepStudy) -> Figure {
     let [own_name, back_name] = if from > to { ["down", "up"] } else { ["up", "down"] };
     let mut panel = Panel::new(x, y)
         .with(Layer::curve(Role::BareOscillator, steady(1)).labelled("steady, without absorber"))
-        .with(Layer::curve(DAMPER, line(&study.damped.1.envelope)).labelled("tuned mass damper"))
+        .with(Layer::curve(DAMPER, line(&study.damped().1.envelope)).labelled("tuned mass damper"))
         .with(Layer::curve(Role::Guide, line(&study.alone.envelope)).labelled("without absorber"))
         .with(Layer::curve(BACK, line(&study.back.envelope)).labelled(back_name));
     if let Some(there) = there {

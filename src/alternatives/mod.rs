@@ -1,0 +1,280 @@
+//! An honest choice: what nothing, the absorber and a tuned mass damper of its mass come to over the band, release, sweep or
+//! record of a case, as designed, in the room of the absorber, without a damping medium, and where the structure's natural
+//! frequency is another than was thought.
+
+mod structure;
+
+use serde::Serialize;
+
+use crate::answer::Answer;
+use crate::band::Worst;
+use crate::case::Case;
+use crate::dampers::{self, Designing};
+use crate::executor::Executor;
+use crate::flights::{DrivenError, Places};
+use crate::linear::TunedMassDamper;
+use crate::measure::{Device, Measure};
+use crate::motions::{BandEffort, Effort, along};
+use crate::transient::{Brief, Study};
+use structure::Structure;
+
+/// Which room a device has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Room {
+    /// As much as it takes.
+    AsDesigned,
+    /// That of the absorber: a damper is designed to stay within.
+    Equal,
+    /// That of the absorber: a damper as designed hits stops with the restitution of the absorber's walls.
+    Stops,
+}
+
+/// A device and what the structure does with it where its natural frequency is off by a share, at the worse end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// The device.
+    pub device: Device,
+    /// Its room.
+    pub room: Room,
+    /// Share by which it was designed to bear a frequency that is off; 0 for one that was told the frequency.
+    pub robust_for: f64,
+    /// Its damping ratio, where that was given and not designed.
+    pub given_damping: Option<f64>,
+    /// Share by which the natural frequency is off, either way.
+    pub drift: f64,
+    /// What was asked, in SI or the units of a reduced case; the error as that of the measure.
+    pub worst: [f64; 2],
+    /// Displacement against the structure, in the same; none of no device.
+    pub stroke: Option<f64>,
+    /// The damper.
+    pub damper: Option<TunedMassDamper>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternatives {
+    /// What is compared: the peak, or what the first criterion asks about.
+    pub measure: Measure,
+    /// One row for each device, room and drift.
+    pub rows: Vec<Row>,
+}
+
+/// Places along a band where its structure is another: the error says what they may miss.
+const BAND: BandEffort =
+    BandEffort { even: 13, starts: 6, starts_between: 2, most: 60, tolerance: 0.05 };
+/// Places of the absorber under a record, each of which is long.
+const PLACES_OF_RECORD: u64 = 8;
+/// How much more than its room a penalty takes the stroke of a damper for: an optimum at the edge stays there.
+const PENALTY: f64 = 20.0;
+
+/// Dampers over the usual one from the best of which one for little room is looked for.
+const TUNINGS: [f64; 3] = [0.95, 1.0, 1.05];
+const DAMPINGS: [f64; 8] = [1.0, 1.5, 2.2, 3.3, 5.0, 8.0, 12.0, 20.0];
+
+impl Alternatives {
+    /// Of a case and what is known of it; none where nothing moves, or nothing was found to compare with.
+    ///
+    /// # Errors
+    /// [`DrivenError`] where a motion cannot be followed.
+    pub fn of(
+        case: &Case,
+        answer: &Answer,
+        on: &dyn Executor,
+    ) -> Result<Option<Self>, DrivenError> {
+        let measure = asked(case);
+        let Some(own) = own(case, answer, measure) else { return Ok(None) };
+        let Some(here) = Structure::of(case, measure, 1.0) else { return Ok(None) };
+        let mut rows = Vec::new();
+        let with = |worst, stroke, drift| Row {
+            device: Device::Absorber,
+            room: Room::AsDesigned,
+            robust_for: 0.0,
+            given_damping: None,
+            drift,
+            worst,
+            stroke,
+            damper: None,
+        };
+        let clearance = Some(case.design.clearance());
+        rows.push(with(own, clearance, 0.0));
+        let mut drifts: Vec<(f64, Vec<Structure>)> = Vec::new();
+        for drift in &case.alternatives.drift {
+            let mut worst: Option<[f64; 2]> = None;
+            let mut ends = Vec::new();
+            for factor in [1.0 - drift, 1.0 + drift] {
+                let Some(there) = Structure::of(case, measure, factor) else { continue };
+                if let Some(found) = absorber(&there.case, measure, &answer.effort, on)? {
+                    let reach = |one: [f64; 2]| one[0] + one[1];
+                    worst = Some(worst.filter(|one| reach(*one) > reach(found)).unwrap_or(found));
+                }
+                ends.push(there);
+            }
+            rows.extend(worst.map(|worst| with(worst, clearance, *drift)));
+            drifts.push((*drift, ends));
+        }
+        let room = 1.0;
+        let usual = as_designed(answer, &here);
+        let equal = here.designed(&[], usual, Some(room), None);
+        let metal = case.alternatives.damper_damping;
+        let plain = here.designed(&[], usual, None, Some(metal));
+        let stiffened = case
+            .alternatives
+            .damper_frequency_factor
+            .map(|factor| TunedMassDamper { tuning: factor * usual.tuning, ..usual });
+        let mut devices = vec![
+            (Device::Without, Room::AsDesigned, None, None),
+            (Device::Damper, Room::AsDesigned, None, Some(usual)),
+            (Device::Damper, Room::Equal, None, Some(equal)),
+        ];
+        devices.extend(here.has_stops().then_some((
+            Device::Damper,
+            Room::Stops,
+            None,
+            Some(usual),
+        )));
+        devices.push((Device::Damper, Room::AsDesigned, Some(metal), Some(plain)));
+        devices.extend(
+            stiffened
+                .map(|one| (Device::Damper, Room::AsDesigned, Some(one.damping_ratio), Some(one))),
+        );
+        for (device, room, given_damping, damper) in devices {
+            let row = |structures: &[Structure], drift: f64| {
+                let all = structures.iter().map(|one| one.told(damper.as_ref(), room));
+                let [worst, stroke] = all.reduce(larger)?;
+                Some(Row {
+                    device,
+                    room,
+                    given_damping,
+                    worst: [worst, 0.0],
+                    stroke: damper.map(|_| stroke),
+                    damper,
+                    ..with([worst, 0.0], None, drift)
+                })
+            };
+            rows.extend(row(std::slice::from_ref(&here), 0.0));
+            rows.extend(drifts.iter().filter_map(|(drift, ends)| row(ends, *drift)));
+        }
+        for (drift, ends) in &drifts {
+            let robust = here.designed(ends, usual, None, None);
+            let all =
+                ends.iter().chain([&here]).map(|one| one.told(Some(&robust), Room::AsDesigned));
+            let Some([worst, stroke]) = all.reduce(larger) else { continue };
+            rows.push(Row {
+                device: Device::Damper,
+                robust_for: *drift,
+                stroke: Some(stroke),
+                damper: Some(robust),
+                ..with([worst, 0.0], None, *drift)
+            });
+        }
+        Ok(Some(Self { measure, rows }))
+    }
+
+    /// The row of a device as told, at a drift.
+    pub fn row(&self, device: Device, room: Room, drift: f64) -> Option<&Row> {
+        let is = |row: &&Row| {
+            (row.device, row.room, row.robust_for, row.given_damping) == (device, room, 0.0, None)
+        };
+        self.rows.iter().filter(is).find(|row| row.drift == drift)
+    }
+}
+
+fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].max(b[0]), a[1].max(b[1])]
+}
+
+/// What devices are compared by.
+fn asked(case: &Case) -> Measure {
+    let first = case.criteria.first().map(|one| one.measure);
+    match (case.design.transient().is_some(), first) {
+        (true, Some(Measure::Rms)) if case.recording.is_some() => Measure::Rms,
+        (_, _) if case.design.release().is_some() => Measure::DecayTime,
+        _ => Measure::Peak,
+    }
+}
+
+/// The absorber as every page tells it.
+fn own(case: &Case, answer: &Answer, measure: Measure) -> Option<[f64; 2]> {
+    let units = case.units();
+    if let Some(study) = &answer.transient {
+        let found = study.quantity(&units, measure, Device::Absorber)?;
+        return Some([found.value, found.error]);
+    }
+    let worst = answer.survey.as_ref()?.worst()?;
+    Some([units.length(worst.peak.value), units.length(worst.peak.error)])
+}
+
+/// The absorber in another structure.
+fn absorber(
+    case: &Case,
+    measure: Measure,
+    effort: &Effort,
+    on: &dyn Executor,
+) -> Result<Option<[f64; 2]>, DrivenError> {
+    let units = case.units();
+    let Some(transient) = case.design.transient() else {
+        let effort = Effort { band: BAND, ..*effort };
+        let found = along(&case.range(), &[], None, Some(&effort), on)?;
+        let worst = Worst::of(&found, case.count_inactive);
+        return Ok(worst.map(|one| [one.peak.value, one.peak.error].map(|one| units.length(one))));
+    };
+    let records = case.recording.as_ref().map(|one| one.records()).unwrap_or_default();
+    let even = case.absorber_places().unwrap_or_default();
+    let even = if records.is_empty() { even } else { even.min(PLACES_OF_RECORD) };
+    let brief = Brief {
+        transient,
+        records: &records,
+        decay_level: case.decay_level,
+        count_inactive: case.count_inactive,
+        theory: false,
+    };
+    let places = Places { even, closer: records.is_empty(), executor: on };
+    let study = Study::brief(&case.system(), &units, &brief, places)?;
+    let found = study.quantity(&units, measure, Device::Absorber);
+    Ok(found.map(|found| [found.value, found.error]))
+}
+
+/// The damper of the same mass that is designed for what is asked, as every page tells it.
+fn as_designed(answer: &Answer, here: &Structure) -> TunedMassDamper {
+    match (&answer.transient, &answer.survey) {
+        (Some(Study::Release(study)), _) => study.damped().0,
+        (Some(Study::Sweep(study)), _) => study.damped().0,
+        (Some(Study::Record(study)), _) => study.damper,
+        (None, Some(survey)) => survey.rivals().damper,
+        (None, None) => TunedMassDamper::den_hartog(here.case.system().mass_ratio()),
+    }
+}
+
+impl Structure {
+    /// The damper whose worst value over this structure and others is smallest, within a room over the clearance, of a
+    /// damping that may be given.
+    fn designed(
+        &self,
+        others: &[Self],
+        from: TunedMassDamper,
+        room: Option<f64>,
+        damping: Option<f64>,
+    ) -> TunedMassDamper {
+        let how = Designing { damping, ..self.designing() };
+        let all: Vec<&Self> = others.iter().chain([self]).collect();
+        let clearance = self.case.design.clearance();
+        let cost = |damper: &TunedMassDamper| {
+            let found = all.iter().map(|one| one.told(Some(damper), Room::AsDesigned));
+            let [worst, stroke] = found.reduce(larger).unwrap_or([f64::INFINITY; 2]);
+            let beyond = room.map_or(0.0, |room| (stroke / (room * clearance) - 1.0).max(0.0));
+            worst * (1.0 + PENALTY * beyond)
+        };
+        // What keeps a damper in little room may be far from what it does with much.
+        let others = TUNINGS.iter().flat_map(|tuning| {
+            DAMPINGS.map(|damping| TunedMassDamper {
+                tuning: tuning * from.tuning,
+                damping_ratio: damping * from.damping_ratio,
+            })
+        });
+        let others = others.filter(|_| room.is_some()).chain([from]);
+        let first = others.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let from = first.unwrap_or(from);
+        dampers::best(from, how, cost)
+    }
+}

@@ -1,0 +1,195 @@
+//! Tuned mass dampers, each designed for what is asked of it: the smallest amplitude along a band, the fastest decay of a
+//! release, the smallest displacement in a sweep. A simplex looks for tuning and damping ratio.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::sync::{Mutex, PoisonError};
+
+use argmin::core::{CostFunction, Error, Executor, State as _};
+use argmin::solver::neldermead::NelderMead;
+
+use crate::excitation::{SineSweep, SweepRate, amplitude};
+use crate::linear::{BandSystems, TunedMassDamper, released, swept};
+use crate::system::{Cavity, Excitation, Parameters, Scales, State, System};
+
+/// Size of the first simplex of a design, in the logarithms of tuning and damping ratio.
+const SIMPLEX: [f64; 2] = [0.02, 0.3];
+/// Steps of a simplex, and how often it begins again where it ended: the largest of two resonances has
+/// a kink where they are equal, at which a simplex may collapse early.
+const STEPS: u64 = 120;
+const RESTARTS: u32 = 3;
+/// The same of a sweep, each of whose passages is many periods.
+const STEPS_OF_SWEEP: u64 = 40;
+
+/// What a design may vary.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Designing {
+    /// Its damping ratio, where it is given.
+    pub damping: Option<f64>,
+    /// Steps of a simplex, and restarts.
+    pub steps: u64,
+    /// See [`Self::steps`].
+    pub restarts: u32,
+}
+
+impl Designing {
+    /// Of tuning and damping.
+    pub const USUAL: Self = Self { damping: None, steps: STEPS, restarts: RESTARTS };
+}
+
+/// The damper with the smallest cost that a simplex finds from one to begin with.
+pub fn best(
+    from: TunedMassDamper,
+    how: Designing,
+    cost: impl Fn(&TunedMassDamper) -> f64,
+) -> TunedMassDamper {
+    let mut best = vec![libm::log(from.tuning)];
+    if how.damping.is_none() {
+        best.push(libm::log(from.damping_ratio));
+    }
+    let of = Cost { damping: how.damping, cost: &cost };
+    for _ in 0..how.restarts {
+        let mut simplex = vec![best.clone(); best.len() + 1];
+        for k in 0..best.len() {
+            simplex[k + 1][k] += SIMPLEX[k];
+        }
+        let run = Executor::new(&of, NelderMead::new(simplex))
+            .configure(|state| state.max_iters(how.steps))
+            .timer(false)
+            .run();
+        let found = run.ok().and_then(|run| run.state().get_best_param().cloned());
+        best = found.unwrap_or(best);
+    }
+    of.damper(&best)
+}
+
+/// What a simplex makes small.
+struct Cost<'a, F> {
+    damping: Option<f64>,
+    cost: &'a F,
+}
+
+impl<F> Cost<'_, F> {
+    /// A damper of the logarithms of its tuning and damping ratio.
+    fn damper(&self, logarithms: &[f64]) -> TunedMassDamper {
+        let damping = logarithms.get(1).map(|one| libm::exp(*one));
+        TunedMassDamper {
+            tuning: libm::exp(logarithms[0]),
+            damping_ratio: damping.or(self.damping).unwrap_or_default(),
+        }
+    }
+}
+
+impl<F: Fn(&TunedMassDamper) -> f64> CostFunction for &Cost<'_, F> {
+    type Param = Vec<f64>;
+    type Output = f64;
+    fn cost(&self, logarithms: &Vec<f64>) -> Result<f64, Error> {
+        Ok((self.cost)(&self.damper(logarithms)))
+    }
+}
+
+/// The damper of the absorber's mass whose largest amplitude along a band is smallest, with the damping of
+/// the structure and the kind of its excitation. For a single excitation that of Den Hartog: the best
+/// for one frequency alone would be undamped and of no use beside it.
+pub fn for_band(along: &BandSystems) -> TunedMassDamper {
+    let start = TunedMassDamper::den_hartog(along.band.base.mass_ratio());
+    if along.band.is_point() {
+        return start;
+    }
+    best(start, Designing::USUAL, |damper| along.largest(|system| damper.amplitude(system)).1)
+}
+
+/// Designs that were found, by the numbers that decide them: those of a sweep over clearances are one.
+static KNOWN: Mutex<BTreeMap<Vec<u64>, TunedMassDamper>> = Mutex::new(BTreeMap::new());
+
+/// The design by some numbers, which it gets to twelve digits: what differs by rounding is one design.
+fn known<const N: usize>(
+    by: [f64; N],
+    design: impl FnOnce([f64; N]) -> TunedMassDamper,
+) -> TunedMassDamper {
+    const LOST: u64 = 1 << 12;
+    let by = by.map(|one| f64::from_bits((one.to_bits() + LOST / 2) & !(LOST - 1)));
+    let key: Vec<u64> = by.iter().map(|one| one.to_bits()).collect();
+    let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let there = lock().get(&key).copied();
+    there.unwrap_or_else(|| {
+        let found = design(by);
+        lock().insert(key, found);
+        found
+    })
+}
+
+/// A structure with nothing but what a linear one has.
+fn linear(mass_ratio: f64, damping: f64, excitation: Excitation) -> Option<System> {
+    let forcing_per_clearance = 1.0 / mass_ratio;
+    let (restitution, frequency_ratio, cavity) = (0.0, 1.0, Cavity::IDEAL);
+    let of = Parameters {
+        mass_ratio,
+        damping,
+        restitution,
+        frequency_ratio,
+        forcing_per_clearance,
+        excitation,
+        cavity,
+    };
+    System::new(of).ok()
+}
+
+/// Tunings and damping ratios, over those of [`TunedMassDamper::for_free_decay`], from whose best a simplex begins: the time
+/// to a level jumps where a beat comes to touch it.
+const TUNINGS: [f64; 5] = [0.94, 0.97, 1.0, 1.03, 1.06];
+const DAMPINGS: [f64; 6] = [0.3, 0.4, 0.5, 0.65, 0.8, 1.0];
+
+/// The damper with which a structure that is released comes down to a share of its first amplitude fastest.
+pub fn for_release(
+    system: &System,
+    start: State,
+    share: f64,
+    oscillations: u64,
+) -> TunedMassDamper {
+    let size = amplitude(&start);
+    if size <= 0.0 {
+        return TunedMassDamper::for_free_decay(system.mass_ratio());
+    }
+    let State { x, x_velocity, y_velocity, .. } = start;
+    let [x, x_velocity, y_velocity] = [x, x_velocity, y_velocity].map(|one| one / size);
+    let by = [system.mass_ratio(), system.damping(), x, x_velocity, y_velocity, share];
+    known(by, |[mass_ratio, damping, x, x_velocity, y_velocity, share]| {
+        let usual = TunedMassDamper::for_free_decay(mass_ratio);
+        let Some(system) = linear(mass_ratio, damping, Excitation::Force) else { return usual };
+        let start = State { x, x_velocity, y: x, y_velocity };
+        let time = |damper: &TunedMassDamper| {
+            released(&system, Some(damper), start, share, oscillations).settles
+        };
+        let all = TUNINGS.iter().flat_map(|tuning| {
+            DAMPINGS.map(|damping| TunedMassDamper {
+                tuning: tuning * usual.tuning,
+                damping_ratio: damping * usual.damping_ratio,
+            })
+        });
+        let first = all.min_by(|a, b| time(a).total_cmp(&time(b)));
+        best(first.unwrap_or(usual), Designing::USUAL, time)
+    })
+}
+
+/// The damper with which a structure moves least in a sweep.
+pub fn for_sweep(system: &System, scales: &Scales, sweep: &SineSweep) -> TunedMassDamper {
+    let second = 1.0 / scales.natural_frequency;
+    let (rate, octaves) = match sweep.rate {
+        SweepRate::Linear(rate) => (scales.frequency_ratio(rate) * second, false),
+        SweepRate::Octaves(rate) => (rate * second, true),
+    };
+    let [from, to] = [sweep.from, sweep.to].map(|one| scales.frequency_ratio(one));
+    let forced = system.excitation() == Excitation::Force;
+    let flags = f64::from(u8::from(forced) + 2 * u8::from(octaves));
+    let by = [system.mass_ratio(), system.damping(), from, to, rate, flags];
+    known(by, |[mass_ratio, damping, from, to, rate, _]| {
+        let usual = TunedMassDamper::den_hartog(mass_ratio);
+        let Some(system) = linear(mass_ratio, damping, system.excitation()) else { return usual };
+        // Frequency ratios over the fast time are angles.
+        let rate = if octaves { SweepRate::Octaves(rate) } else { SweepRate::Linear(rate) };
+        let sweep = SineSweep { from, to, rate, turn: TAU };
+        let how = Designing { steps: STEPS_OF_SWEEP, restarts: 1, ..Designing::USUAL };
+        best(usual, how, |damper| swept(&system, Some(damper), &Scales::REDUCED, &sweep).peak()[1])
+    })
+}

@@ -1,0 +1,372 @@
+//! How far a promise holds: the stretch of each number of a case, around its own, on which no criterion fails when that
+//! number alone changes, over the whole band, release, sweep or record.
+//!
+//! What holds is not monotone in a number, as errors of chaotic peaks come and go: so the search goes outwards in steps and
+//! looks at each, an end is narrowed down between the last step at which nothing fails and the next, and places at which
+//! an error could turn a criterion are told as not decided.
+
+use serde::Serialize;
+
+use crate::answer::Answer;
+use crate::band::Survey;
+use crate::case::Case;
+use crate::criteria::{self, Judged};
+use crate::excitation::Transient;
+use crate::executor::{Executor, map};
+use crate::flights::{DrivenError, Places};
+use crate::motions::{BandEffort, Effort};
+use crate::system::Parameter;
+use crate::transient::{Brief, Study};
+
+/// What all criteria together come to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// Every criterion holds with its error.
+    Holds,
+    /// None fails, and the error could turn one.
+    Undecided,
+    /// One fails by what was found.
+    Fails,
+}
+
+impl Outcome {
+    fn of(judged: &[Judged]) -> Self {
+        let open = |one: &Judged| one.near_limit || one.undecided.is_some();
+        if judged.iter().any(|one| one.holds != Some(true) && !open(one)) {
+            Self::Fails
+        } else if judged.iter().any(open) {
+            Self::Undecided
+        } else {
+            Self::Holds
+        }
+    }
+}
+
+/// A number of a case, and the stretch on which no criterion fails.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HoldsFor {
+    /// What varies, all else as it is.
+    pub parameter: Varied,
+    /// Its value in the case, in SI or the units of a reduced case.
+    pub value: f64,
+    /// The stretch.
+    pub range: [f64; 2],
+    /// Whether the search ended there before anything failed.
+    pub open: [bool; 2],
+    /// Places in it at which an error could turn a criterion: from one that is decided to the next.
+    pub undecided: Vec<[f64; 2]>,
+}
+
+/// What varies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Varied {
+    /// Of the force or the base; of a release its displacement or velocity, or the impulse.
+    Amplitude,
+    /// The structure's, by its stiffness.
+    NaturalFrequency,
+    /// The structure's damping constant.
+    Damping,
+    /// The structure's mass, its stiffness as it is.
+    Mass,
+    /// Restitution.
+    Restitution,
+    /// Clearance.
+    Clearance,
+    /// Inclination, or gravity along the cavity.
+    Inclination,
+    /// Friction.
+    Friction,
+}
+
+/// Steps outwards, as factors.
+const FACTORS: [f64; 13] = [1.02, 1.05, 1.1, 1.15, 1.22, 1.3, 1.4, 1.55, 1.75, 2.0, 2.4, 3.0, 4.0];
+/// The same of the natural frequency, which a resonance makes narrow.
+const OF_FREQUENCY: [f64; 9] = [1.005, 1.01, 1.02, 1.035, 1.055, 1.08, 1.12, 1.18, 1.25];
+/// Steps that are added: of a restitution, of an inclination in rad (0.1 to 20 degrees), of gravity along a reduced cavity
+/// and of friction.
+const OF_RESTITUTION: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6];
+const OF_INCLINATION: [f64; 8] =
+    [0.001_745, 0.003_491, 0.008_727, 0.017_453, 0.034_907, 0.087_266, 0.174_533, 0.349_066];
+const OF_FRICTION: [f64; 8] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2];
+/// How often an end is halved: to an eighth of its step.
+const HALVINGS: u32 = 3;
+/// How often an end that `check` does not confirm is taken back.
+const CONFIRMATIONS: u32 = 4;
+/// How thoroughly a band is looked at on the way, and starts of a place.
+const BAND: BandEffort =
+    BandEffort { even: 9, starts: 3, starts_between: 2, most: 24, tolerance: 0.1 };
+const STARTS: u32 = 8;
+/// Excitation periods of a window on the way.
+const PERIODS: u64 = 300;
+/// Places of the absorber in a sweep, and under a record, each of which is long.
+const PLACES_OF_SWEEP: u64 = 16;
+const PLACES_OF_RECORD: u64 = 4;
+
+impl Varied {
+    /// Every one.
+    pub const ALL: [Self; 8] = [
+        Self::Amplitude,
+        Self::NaturalFrequency,
+        Self::Damping,
+        Self::Mass,
+        Self::Restitution,
+        Self::Clearance,
+        Self::Inclination,
+        Self::Friction,
+    ];
+
+    /// The parameter of a case that it is; none where the case has no such number.
+    pub fn parameter(self, case: &Case) -> Option<Parameter> {
+        let all: &[Parameter] = match self {
+            Self::Amplitude => {
+                &[Parameter::Amplitude, Parameter::InitialDisplacement, Parameter::InitialVelocity]
+            }
+            Self::NaturalFrequency => &[Parameter::Stiffness],
+            Self::Damping => &[Parameter::Damping],
+            Self::Mass => &[Parameter::Mass],
+            Self::Restitution => &[Parameter::Restitution],
+            Self::Clearance => &[Parameter::Clearance],
+            Self::Inclination => &[Parameter::Inclination, Parameter::GravityAlong],
+            Self::Friction => &[Parameter::Friction, Parameter::FrictionAcceleration],
+        };
+        let has = |one: &&Parameter| {
+            case.design.value(**one).is_some_and(|own| own > 0.0 || self.is_added())
+        };
+        all.iter().find(has).copied()
+    }
+
+    /// Whether steps are added, and not factors.
+    fn is_added(self) -> bool {
+        matches!(self, Self::Restitution | Self::Inclination | Self::Friction)
+    }
+
+    /// Values from the case's own outwards, down or up.
+    fn steps(self, own: f64, up: bool) -> Vec<f64> {
+        let sign = if up { 1.0 } else { -1.0 };
+        let added = |steps: &[f64]| steps.iter().map(|step| own + sign * step).collect::<Vec<_>>();
+        let times = |steps: &[f64]| {
+            steps.iter().map(|step| if up { own * step } else { own / step }).collect::<Vec<_>>()
+        };
+        match self {
+            Self::Restitution => {
+                let mut all = added(&OF_RESTITUTION);
+                all.retain(|one| (0.0..=1.0).contains(one));
+                all
+            }
+            Self::Inclination => added(&OF_INCLINATION),
+            Self::Friction => {
+                let mut all = added(&OF_FRICTION);
+                all.retain(|one| *one >= 0.0);
+                all
+            }
+            Self::NaturalFrequency => times(&OF_FREQUENCY),
+            _ => times(&FACTORS),
+        }
+    }
+
+    /// The case with another value.
+    fn with(self, case: &Case, parameter: Parameter, own: f64, value: f64) -> Option<Case> {
+        match self {
+            // Told by the frequency, done by the stiffness.
+            Self::NaturalFrequency => case.with_natural_frequency(value / own),
+            _ => case.varied(parameter, value),
+        }
+    }
+
+    /// Its value in the case.
+    fn own(self, case: &Case, parameter: Parameter) -> Option<f64> {
+        match self {
+            Self::NaturalFrequency => Some(case.units().natural_frequency / std::f64::consts::TAU),
+            _ => case.design.value(parameter),
+        }
+    }
+}
+
+/// The ranges of a case and what is known of it; none where a criterion fails at the case itself, or it has none.
+///
+/// # Errors
+/// [`DrivenError`] where a motion cannot be followed.
+pub fn holds_for(
+    case: &Case,
+    answer: &Answer,
+    on: &dyn Executor,
+) -> Result<Vec<HoldsFor>, DrivenError> {
+    if answer.judged.is_empty() || Outcome::of(&answer.judged) == Outcome::Fails {
+        return Ok(Vec::new());
+    }
+    let own = Outcome::of(&answer.judged);
+    let of = |varied: Varied| {
+        let parameter = varied.parameter(case)?;
+        Some((varied, parameter, varied.own(case, parameter)?))
+    };
+    let all: Vec<_> = Varied::ALL.into_iter().filter_map(of).collect();
+    let side = |k: usize| {
+        let (varied, parameter, value) = all[k / 2];
+        let side = Side { case, effort: &answer.effort, varied, parameter, own: value };
+        let up = k % 2 == 1;
+        // What is level and has ends alike does the mirrored thing at the mirrored inclination.
+        let mirrored = varied == Varied::Inclination && !up && case.has_ideal_walls();
+        if mirrored { Ok(None) } else { side.search(own, up).map(Some) }
+    };
+    let sides = map(on, "ranges", 2 * all.len(), side);
+    let mut sides = sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter();
+    let mut found = Vec::new();
+    for (parameter, _, value) in all {
+        let (Some(below), Some(Some(above))) = (sides.next(), sides.next()) else { break };
+        let below = below.unwrap_or_else(|| above.mirrored());
+        let mut undecided: Vec<[f64; 2]> =
+            below.undecided.into_iter().map(|[a, b]| [b, a]).chain(above.undecided).collect();
+        undecided.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        undecided.dedup_by(|next, before| {
+            let joins = next[0] <= before[1];
+            if joins {
+                before[1] = before[1].max(next[1]);
+            }
+            joins
+        });
+        found.push(HoldsFor {
+            parameter,
+            value,
+            range: [below.end, above.end],
+            open: [below.open, above.open],
+            undecided,
+        });
+    }
+    Ok(found)
+}
+
+/// One direction of one number.
+struct Side<'a> {
+    case: &'a Case,
+    effort: &'a Effort,
+    varied: Varied,
+    parameter: Parameter,
+    own: f64,
+}
+
+/// What was found there.
+struct Reach {
+    end: f64,
+    open: bool,
+    /// From a place that is decided, or the case's own, to the next, in the direction of the search.
+    undecided: Vec<[f64; 2]>,
+}
+
+impl Reach {
+    fn mirrored(&self) -> Self {
+        let undecided = self.undecided.iter().map(|ends| ends.map(|end| -end)).collect();
+        Self { end: -self.end, open: self.open, undecided }
+    }
+}
+
+impl Side<'_> {
+    fn search(&self, own: Outcome, up: bool) -> Result<Reach, DrivenError> {
+        let mut reach = Reach { end: self.own, open: true, undecided: Vec::new() };
+        let mut looked = vec![(self.own, own)];
+        for step in self.varied.steps(self.own, up) {
+            let Some(outcome) = self.outcome(step, Looked::OnTheWay)? else { break };
+            if outcome == Outcome::Fails {
+                reach.open = false;
+                let (mut inside, mut outside) = (reach.end, step);
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (inside + outside);
+                    match self.outcome(middle, Looked::OnTheWay)? {
+                        Some(Outcome::Fails) | None => outside = middle,
+                        Some(found) => {
+                            looked.push((middle, found));
+                            inside = middle;
+                        }
+                    }
+                }
+                reach.end = inside;
+                break;
+            }
+            looked.push((step, outcome));
+            reach.end = step;
+        }
+        // What `check` says of the end decides: with fewer starts something may have been missed.
+        for _ in 0..CONFIRMATIONS {
+            let [.., before, last] = looked[..] else { break };
+            match self.outcome(last.0, Looked::InFull)? {
+                Some(Outcome::Fails) | None => {
+                    looked.pop();
+                    reach.open = false;
+                    let middle = 0.5 * (before.0 + last.0);
+                    let found = self.outcome(middle, Looked::InFull)?;
+                    match found.filter(|found| *found != Outcome::Fails) {
+                        Some(found) => {
+                            looked.push((middle, found));
+                            break;
+                        }
+                        None => continue,
+                    }
+                }
+                Some(found) => {
+                    looked.pop();
+                    looked.push((last.0, found));
+                    break;
+                }
+            }
+        }
+        reach.end = looked.last().map_or(self.own, |last| last.0);
+        for pair in looked.windows(2) {
+            if pair[0].1 == Outcome::Undecided || pair[1].1 == Outcome::Undecided {
+                reach.undecided.push([pair[0].0, pair[1].0]);
+            }
+        }
+        Ok(reach)
+    }
+
+    /// What the criteria come to at a value; none where there is no such case.
+    fn outcome(&self, value: f64, how: Looked) -> Result<Option<Outcome>, DrivenError> {
+        let Some(case) = self.varied.with(self.case, self.parameter, self.own, value) else {
+            return Ok(None);
+        };
+        judged(&case, self.effort, how).map(|judged| Some(Outcome::of(&judged)))
+    }
+}
+
+/// How thoroughly a case is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Looked {
+    /// With fewer starts and places.
+    OnTheWay,
+    /// As `check` does.
+    InFull,
+}
+
+/// The criteria of a case.
+fn judged(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, DrivenError> {
+    let on = &crate::executor::Serial;
+    let Some(transient) = case.design.transient() else {
+        let mut settings = criteria::settings(case);
+        let starts = effort.starts.min(STARTS);
+        let periods = effort.periods.min(PERIODS);
+        let brief = Effort { starts, periods, patience: 0.0, band: BAND, ..*effort };
+        settings.effort =
+            settings.effort.map(|_| if how == Looked::InFull { *effort } else { brief });
+        let survey = Survey::of(&case.range(), &settings, None, on)?;
+        return Ok(criteria::judge(case, &survey));
+    };
+    let records = case.recording.as_ref().map(|one| one.records()).unwrap_or_default();
+    let even = case.absorber_places().unwrap_or_default();
+    let most = match transient {
+        _ if how == Looked::InFull => even,
+        Transient::Release(_) => even,
+        Transient::Sweep(_) => PLACES_OF_SWEEP,
+        Transient::Record(_) => PLACES_OF_RECORD,
+    };
+    let brief = Brief {
+        transient,
+        records: &records,
+        decay_level: case.decay_level,
+        count_inactive: case.count_inactive,
+        theory: false,
+    };
+    let alone = records.len() < 2;
+    let closer = case.design.release().is_some() || how == Looked::InFull && alone;
+    let places = Places { even: even.min(most), closer, executor: on };
+    let study = Study::brief(&case.system(), &case.units(), &brief, places)?;
+    Ok(criteria::judge_transient(case, &study))
+}
