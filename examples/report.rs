@@ -5,6 +5,7 @@
 use std::error::Error;
 use std::path::Path;
 
+use vinesink::answer::Decided;
 use vinesink::case::Case;
 use vinesink::case_report::Report;
 use vinesink::executor::Serial;
@@ -17,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = arguments.next().unwrap_or("target/report".to_owned());
     let case = Case::parse(&path, &store::read_text(Path::new(&path))?)?;
     let name = Path::new(&path).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case");
-    let report = Report::of(name, &case, None, true, &Serial)?;
+    let report = Report::of(name, &case, None, Decided::ALL, &Serial)?;
     let files = report.files(&case)?;
     store::replace_folder(Path::new(&folder), &files, render::is_of_report)?;
     println!("{}: {} files in {folder}", case.title, files.len());

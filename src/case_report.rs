@@ -4,7 +4,7 @@
 
 use serde_json::Value;
 
-use crate::answer::{Answer, Asked};
+use crate::answer::{Answer, Asked, Decided};
 use crate::case::Case;
 use crate::executor::Executor;
 use crate::report::document::{self, Source};
@@ -48,11 +48,11 @@ impl Report {
         name: &str,
         case: &Case,
         plan: Option<&LayerPlan>,
-        decides: bool,
+        decides: Decided,
         executor: &dyn Executor,
     ) -> Result<Self, ReportError> {
         let answer = Answer::of(case, Asked::Report, plan, executor)?;
-        let answer = if decides { answer.decided(case, executor)? } else { answer };
+        let answer = answer.decided(case, decides, executor)?;
         if let Some(study) = &answer.transient {
             let (mut document, figures) = transient::drawn(name, case, study, &answer.judged)?;
             document::decide(&mut document, case, &answer);

@@ -7,7 +7,6 @@
 
 use serde::Serialize;
 
-use crate::answer::Answer;
 use crate::band::Survey;
 use crate::case::Case;
 use crate::criteria::{self, Judged};
@@ -189,13 +188,14 @@ impl Varied {
 /// [`DrivenError`] where a motion cannot be followed.
 pub fn holds_for(
     case: &Case,
-    answer: &Answer,
+    judged: &[Judged],
+    effort: &Effort,
     on: &dyn Executor,
 ) -> Result<Vec<HoldsFor>, DrivenError> {
-    if answer.judged.is_empty() || Outcome::of(&answer.judged) == Outcome::Fails {
+    if judged.is_empty() || Outcome::of(judged) == Outcome::Fails {
         return Ok(Vec::new());
     }
-    let own = Outcome::of(&answer.judged);
+    let own = Outcome::of(judged);
     let of = |varied: Varied| {
         let parameter = varied.parameter(case)?;
         Some((varied, parameter, varied.own(case, parameter)?))
@@ -203,7 +203,7 @@ pub fn holds_for(
     let all: Vec<_> = Varied::ALL.into_iter().filter_map(of).collect();
     let side = |k: usize| {
         let (varied, parameter, value) = all[k / 2];
-        let side = Side { case, effort: &answer.effort, varied, parameter, own: value };
+        let side = Side { case, effort, varied, parameter, own: value };
         let up = k % 2 == 1;
         // What is level and has ends alike does the mirrored thing at the mirrored inclination.
         let mirrored = varied == Varied::Inclination && !up && case.has_ideal_walls();
@@ -323,7 +323,7 @@ impl Side<'_> {
         let Some(case) = self.varied.with(self.case, self.parameter, self.own, value) else {
             return Ok(None);
         };
-        judged(&case, self.effort, how).map(|judged| Some(Outcome::of(&judged)))
+        judge(&case, self.effort, how).map(|judged| Some(Outcome::of(&judged)))
     }
 }
 
@@ -332,20 +332,22 @@ impl Side<'_> {
 enum Looked {
     /// With fewer starts and places.
     OnTheWay,
-    /// As `check` does.
+    /// With those of `check`.
     InFull,
 }
 
 /// The criteria of a case.
-fn judged(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, DrivenError> {
+fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, DrivenError> {
     let on = &crate::executor::Serial;
     let Some(transient) = case.design.transient() else {
         let mut settings = criteria::settings(case);
-        let starts = effort.starts.min(STARTS);
-        let periods = effort.periods.min(PERIODS);
-        let brief = Effort { starts, periods, patience: 0.0, band: BAND, ..*effort };
-        settings.effort =
-            settings.effort.map(|_| if how == Looked::InFull { *effort } else { brief });
+        // Long windows make the errors of irregular peaks smaller, not what is found.
+        let short = Effort { periods: effort.periods.min(PERIODS), patience: 0.0, ..*effort };
+        let effort = match how {
+            Looked::InFull => short,
+            Looked::OnTheWay => Effort { starts: effort.starts.min(STARTS), band: BAND, ..short },
+        };
+        settings.effort = settings.effort.map(|_| effort);
         let survey = Survey::of(&case.range(), &settings, None, on)?;
         return Ok(criteria::judge(case, &survey));
     };

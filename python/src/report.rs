@@ -4,6 +4,7 @@ use std::path::Path;
 
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
+use vinesink::answer::Decided;
 use vinesink::case::Case;
 use vinesink::case_report::Report;
 use vinesink::report::render::{self, Files};
@@ -15,7 +16,7 @@ use crate::work::{WorkState, refused};
 /// The files, and whether simulations are to be trusted and what was asked of accuracy holds.
 pub fn rendered(case: &Case, name: &str, work: &WorkState) -> PyResult<(Files, bool)> {
     let plan = LayerPlan::of_case(case, None).map_err(refused)?;
-    let report = Report::of(name, case, plan.as_ref(), true, work).map_err(refused)?;
+    let report = Report::of(name, case, plan.as_ref(), Decided::ALL, work).map_err(refused)?;
     let holds = report.answer.trusted() && report.answer.exact_enough();
     Ok((report.files(case).map_err(refused)?, holds))
 }

@@ -6,8 +6,7 @@ mod structure;
 
 use serde::Serialize;
 
-use crate::answer::Answer;
-use crate::band::Worst;
+use crate::band::{Survey, Worst};
 use crate::case::Case;
 use crate::dampers::{self, Designing};
 use crate::executor::Executor;
@@ -41,6 +40,8 @@ pub struct Row {
     pub robust_for: f64,
     /// Its damping ratio, where that was given and not designed.
     pub given_damping: Option<f64>,
+    /// Whether its own frequency is another than designed.
+    pub changed: bool,
     /// Share by which the natural frequency is off, either way.
     pub drift: f64,
     /// What was asked, in SI or the units of a reduced case; the error as that of the measure.
@@ -72,6 +73,17 @@ const PENALTY: f64 = 20.0;
 const TUNINGS: [f64; 3] = [0.95, 1.0, 1.05];
 const DAMPINGS: [f64; 8] = [1.0, 1.5, 2.2, 3.3, 5.0, 8.0, 12.0, 20.0];
 
+/// What is known of a case.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    /// Along its band, where it is driven steadily.
+    pub survey: Option<&'a Survey>,
+    /// Where it is not.
+    pub study: Option<&'a Study>,
+    /// How thoroughly motions are searched.
+    pub effort: &'a Effort,
+}
+
 impl Alternatives {
     /// Of a case and what is known of it; none where nothing moves, or nothing was found to compare with.
     ///
@@ -79,11 +91,11 @@ impl Alternatives {
     /// [`DrivenError`] where a motion cannot be followed.
     pub fn of(
         case: &Case,
-        answer: &Answer,
+        known: Known<'_>,
         on: &dyn Executor,
     ) -> Result<Option<Self>, DrivenError> {
         let measure = asked(case);
-        let Some(own) = own(case, answer, measure) else { return Ok(None) };
+        let Some(own) = own(case, known, measure) else { return Ok(None) };
         let Some(here) = Structure::of(case, measure, 1.0) else { return Ok(None) };
         let mut rows = Vec::new();
         let with = |worst, stroke, drift| Row {
@@ -91,6 +103,7 @@ impl Alternatives {
             room: Room::AsDesigned,
             robust_for: 0.0,
             given_damping: None,
+            changed: false,
             drift,
             worst,
             stroke,
@@ -104,7 +117,7 @@ impl Alternatives {
             let mut ends = Vec::new();
             for factor in [1.0 - drift, 1.0 + drift] {
                 let Some(there) = Structure::of(case, measure, factor) else { continue };
-                if let Some(found) = absorber(&there.case, measure, &answer.effort, on)? {
+                if let Some(found) = absorber(&there.case, measure, known.effort, on)? {
                     let reach = |one: [f64; 2]| one[0] + one[1];
                     worst = Some(worst.filter(|one| reach(*one) > reach(found)).unwrap_or(found));
                 }
@@ -114,7 +127,7 @@ impl Alternatives {
             drifts.push((*drift, ends));
         }
         let room = 1.0;
-        let usual = as_designed(answer, &here);
+        let usual = as_designed(known, &here);
         let equal = here.designed(&[], usual, Some(room), None);
         let metal = case.alternatives.damper_damping;
         let plain = here.designed(&[], usual, None, Some(metal));
@@ -134,10 +147,7 @@ impl Alternatives {
             Some(usual),
         )));
         devices.push((Device::Damper, Room::AsDesigned, Some(metal), Some(plain)));
-        devices.extend(
-            stiffened
-                .map(|one| (Device::Damper, Room::AsDesigned, Some(one.damping_ratio), Some(one))),
-        );
+        devices.extend(stiffened.map(|one| (Device::Damper, Room::AsDesigned, None, Some(one))));
         for (device, room, given_damping, damper) in devices {
             let row = |structures: &[Structure], drift: f64| {
                 let all = structures.iter().map(|one| one.told(damper.as_ref(), room));
@@ -146,6 +156,7 @@ impl Alternatives {
                     device,
                     room,
                     given_damping,
+                    changed: damper.is_some() && damper == stiffened,
                     worst: [worst, 0.0],
                     stroke: damper.map(|_| stroke),
                     damper,
@@ -174,7 +185,8 @@ impl Alternatives {
     /// The row of a device as told, at a drift.
     pub fn row(&self, device: Device, room: Room, drift: f64) -> Option<&Row> {
         let is = |row: &&Row| {
-            (row.device, row.room, row.robust_for, row.given_damping) == (device, room, 0.0, None)
+            let told = (row.robust_for, row.given_damping, row.changed);
+            (row.device, row.room, told) == (device, room, (0.0, None, false))
         };
         self.rows.iter().filter(is).find(|row| row.drift == drift)
     }
@@ -195,13 +207,13 @@ fn asked(case: &Case) -> Measure {
 }
 
 /// The absorber as every page tells it.
-fn own(case: &Case, answer: &Answer, measure: Measure) -> Option<[f64; 2]> {
+fn own(case: &Case, known: Known<'_>, measure: Measure) -> Option<[f64; 2]> {
     let units = case.units();
-    if let Some(study) = &answer.transient {
+    if let Some(study) = known.study {
         let found = study.quantity(&units, measure, Device::Absorber)?;
         return Some([found.value, found.error]);
     }
-    let worst = answer.survey.as_ref()?.worst()?;
+    let worst = known.survey?.worst()?;
     Some([units.length(worst.peak.value), units.length(worst.peak.error)])
 }
 
@@ -236,8 +248,8 @@ fn absorber(
 }
 
 /// The damper of the same mass that is designed for what is asked, as every page tells it.
-fn as_designed(answer: &Answer, here: &Structure) -> TunedMassDamper {
-    match (&answer.transient, &answer.survey) {
+fn as_designed(known: Known<'_>, here: &Structure) -> TunedMassDamper {
+    match (known.study, known.survey) {
         (Some(Study::Release(study)), _) => study.damped().0,
         (Some(Study::Sweep(study)), _) => study.damped().0,
         (Some(Study::Record(study)), _) => study.damper,

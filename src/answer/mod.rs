@@ -7,7 +7,7 @@
 pub mod branch;
 pub mod trajectory;
 
-use crate::alternatives::Alternatives;
+use crate::alternatives::{Alternatives, Known};
 use crate::analysis::Analysis;
 use crate::band::Survey;
 use crate::case::{Case, ExtraFigure};
@@ -38,6 +38,22 @@ pub enum Asked {
     Study,
     /// Everything.
     Report,
+}
+
+/// What is looked at beside a case, as it is not too long.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Decided {
+    /// What else could be done.
+    pub alternatives: bool,
+    /// How far each number may change before a criterion fails.
+    pub ranges: bool,
+}
+
+impl Decided {
+    /// Both.
+    pub const ALL: Self = Self { alternatives: true, ranges: true };
+    /// Neither.
+    pub const NOTHING: Self = Self { alternatives: false, ranges: false };
 }
 
 /// Theory and exact orbits of a case.
@@ -115,9 +131,22 @@ impl Answer {
     ///
     /// # Errors
     /// As [`Answer::of`].
-    pub fn decided(self, case: &Case, on: &dyn Executor) -> Result<Self, StudyError> {
-        let alternatives = Alternatives::of(case, &self, on)?;
-        let holds_for = holds_for(case, &self, on)?;
+    pub fn decided(
+        self,
+        case: &Case,
+        what: Decided,
+        on: &dyn Executor,
+    ) -> Result<Self, StudyError> {
+        let (survey, study) = (self.survey.as_ref(), self.transient.as_ref());
+        let known = Known { survey, study, effort: &self.effort };
+        let alternatives = match what.alternatives {
+            true => Alternatives::of(case, known, on)?,
+            false => None,
+        };
+        let holds_for = match what.ranges {
+            true => holds_for(case, &self.judged, &self.effort, on)?,
+            false => Vec::new(),
+        };
         Ok(Self { alternatives, holds_for, ..self })
     }
 

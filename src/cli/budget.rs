@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use clap::Args;
 use miette::{Result, miette};
-use vinesink::answer::Asked;
 use vinesink::answer::trajectory::flown_while;
+use vinesink::answer::{Asked, Decided};
 use vinesink::case::{Case, Objective};
 use vinesink::excitation::Scene;
 use vinesink::flights::{seconds_of, with_closer};
@@ -22,7 +22,7 @@ use vinesink::transient::{DecayStudy, RELEASES, RecordStudy, SweepStudy, looked_
 
 /// Seconds that are ordinary: every shipped case takes a few.
 const ORDINARY: f64 = 60.0;
-/// Cases beside a case: where its frequency is another, and with criteria where each of its numbers is.
+/// Cases beside a case: where its frequency is another, and where each of its numbers is.
 const DRIFTS: u64 = 8;
 const VARIANTS: u64 = 160;
 /// Seconds of which it does not matter how many more they are.
@@ -89,19 +89,26 @@ impl Long {
         self.refused(path, case, seconds, &longest.map(Work::to_string).unwrap_or_default())
     }
 
-    /// Whether what else could be done, and how far criteria hold, is looked at beside so much work; where that takes too
-    /// long it is left out, and said.
-    pub fn decides(self, path: &Path, case: &Case, work: &[Work]) -> bool {
-        let seconds = seconds(&Work::decision(case));
-        let decides = self.long || seconds + self::seconds(work) <= ORDINARY;
-        if !decides {
-            vinesink::program::output::complain(&format!(
-                "{}: alternatives and ranges are left out, as they would take about {}; add --long for them",
-                path.display(),
-                duration(seconds)
-            ));
+    /// What of alternatives and ranges is looked at beside so much work; what takes too long is left out, and said.
+    pub fn decides(self, path: &Path, case: &Case, work: &[Work]) -> Decided {
+        let own = seconds(work);
+        let allowed = |what: &str, variants: u64| {
+            let seconds = seconds(&Work::variants(case, variants));
+            let allowed = self.long || own + seconds <= ORDINARY;
+            if !allowed {
+                vinesink::program::output::complain(&format!(
+                    "{}: {what} left out, which would take about {}; add --long for them",
+                    path.display(),
+                    duration(seconds)
+                ));
+            }
+            allowed
+        };
+        Decided {
+            alternatives: allowed("the tuned mass dampers beside the absorber are", DRIFTS),
+            ranges: !case.criteria.is_empty()
+                && allowed("the ranges over which the criteria hold are", VARIANTS),
         }
-        decides
     }
 
     /// The same of a whole sweep, so many seconds on all processors, which was measured or is `what`.
@@ -129,6 +136,16 @@ impl Long {
 /// About how many seconds work takes.
 pub fn seconds(work: &[Work]) -> f64 {
     work.iter().map(Work::seconds).sum()
+}
+
+/// Seconds for what is looked at beside a case.
+pub fn of_decision(case: &Case, decides: Decided) -> f64 {
+    let variants = match decides {
+        Decided { ranges: true, .. } => VARIANTS,
+        Decided { alternatives: true, .. } => DRIFTS,
+        _ => return 0.0,
+    };
+    seconds(&Work::variants(case, variants))
 }
 
 /// Progress of work on a case that cannot be counted, with so many seconds besides; flights that are not steady can. How long it will be is estimated when it
@@ -257,17 +274,20 @@ impl Work {
         [Self::band(case, Vec::new()), Self::slowest(case)]
     }
 
-    /// What else could be done, and how far criteria hold.
-    pub fn decision(case: &Case) -> Vec<Self> {
-        let variants = if case.criteria.is_empty() { DRIFTS } else { VARIANTS };
-        if let Some(Flown { records, periods }) = Flown::of(case) {
-            let places = case.absorber_places().unwrap_or_default();
-            let places =
-                if case.design.release().is_some() { with_closer(places) } else { places.min(16) };
-            let factors = vec![(variants, "variants"), (places * records as u64, "flights")];
-            return vec![Self::flights(case, factors, periods)];
-        }
-        vec![Self::band(case, vec![(variants / 4, "variants")])]
+    /// Cases beside a case, looked at less thoroughly. A release is followed to its level alone, an eighth of what the
+    /// structure takes without an absorber; under a record dampers are designed as well.
+    pub fn variants(case: &Case, variants: u64) -> Vec<Self> {
+        let Some(Flown { records, periods }) = Flown::of(case) else {
+            return vec![Self::band(case, vec![(variants / 4, "variants")])];
+        };
+        let places = case.absorber_places().unwrap_or_default();
+        let (variants, places) = match case.design.scene() {
+            Scene::Release => (variants / 8, with_closer(places)),
+            Scene::Record => (4 * variants, places.min(16)),
+            _ => (variants, places.min(16)),
+        };
+        let factors = vec![(variants, "variants"), (places * records as u64, "flights")];
+        vec![Self::flights(case, factors, periods)]
     }
 
     /// The motions that may not repeat where the excitation of the band is slowest.

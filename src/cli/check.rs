@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use miette::{IntoDiagnostic, Report, Result};
 use serde_json::json;
-use vinesink::answer::{Answer, Asked};
+use vinesink::answer::{Answer, Asked, Decided};
 use vinesink::case::{Case, CaseError};
 use vinesink::program::case_file::{self, Reading};
 use vinesink::program::output;
@@ -113,10 +113,14 @@ fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
     let asked = if arguments.criteria_only { Asked::Criteria } else { Asked::Decision };
     let work = Work::of(&case, asked, None);
     long.allows(path, &case, &work)?;
-    let _progress = budget::progress("check", &case, &work, 0.0);
-    let decides = asked == Asked::Decision && long.decides(path, &case, &work);
+    let decides = match asked {
+        Asked::Decision => long.decides(path, &case, &work),
+        _ => Decided::NOTHING,
+    };
+    let besides = budget::of_decision(&case, decides);
+    let _progress = budget::progress("check", &case, &work, besides);
     let answer = Answer::of(&case, asked, None, &Parallel).into_diagnostic()?;
-    let answer = if decides { answer.decided(&case, &Parallel).into_diagnostic()? } else { answer };
+    let answer = answer.decided(&case, decides, &Parallel).into_diagnostic()?;
     if case.criteria.is_empty() {
         output::complain(&format!("{}: there is no table [criteria]", path.display()));
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{Context as _, IntoDiagnostic, Result, miette};
-use vinesink::answer::Asked;
+use vinesink::answer::{Asked, Decided};
 use vinesink::case::Case;
 use vinesink::case_report::Report;
 use vinesink::excitation::Scene;
@@ -46,6 +46,9 @@ pub struct Arguments {
     /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program
     #[arg(long, value_name = "PAGE", require_equals = true, conflicts_with = "check")]
     live: Option<Option<PathBuf>>,
+    /// Without tuned mass dampers beside the absorber, and without the ranges over which criteria hold
+    #[arg(long)]
+    criteria_only: bool,
     #[command(flatten)]
     long: Long,
     #[command(flatten)]
@@ -172,8 +175,12 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
     let plan = LayerPlan::of_case(case, arguments.fidelity).into_diagnostic()?;
     let work = Work::of(case, Asked::Report, plan.as_ref());
     arguments.long.allows(path, case, &work)?;
-    let _progress = budget::progress(name, case, &work, ORDINARY);
-    let decides = arguments.long.decides(path, case, &work);
+    let decides = match arguments.criteria_only {
+        true => Decided::NOTHING,
+        false => arguments.long.decides(path, case, &work),
+    };
+    let besides = ORDINARY + budget::of_decision(case, decides);
+    let _progress = budget::progress(name, case, &work, besides);
     let report = Report::of(name, case, plan.as_ref(), decides, &Parallel).into_diagnostic()?;
     // As `simulate`: what is not to be trusted is written down, and does not pass for an answer.
     let trusted = report.answer.trusted();

@@ -12,7 +12,7 @@ use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
-use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind, Value};
+use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
 use crate::transient::Study;
 
 use scope::Scope;
@@ -152,15 +152,6 @@ impl Judged {
         let open = |room| self.criterion.is_open(room, self.error, records);
         Self { records, near_limit: self.margin.is_some_and(open), ..self }
     }
-}
-
-/// Judges the criterion on the peak, if a case has one, by one motion at the case's own excitation.
-pub fn judge_peak(case: &Case, motion: &Motion) -> Option<Judged> {
-    let asked = |one: &&Criterion| one.measure == Measure::Peak;
-    let Value { value, error } = motion.facts().peak;
-    let [peak, error] = [value, error].map(|one| case.units().length(one));
-    let asked = case.criteria.iter().find(asked)?;
-    Some(asked.judged(Some(peak), error, method(motion)))
 }
 
 /// Whether every criterion holds; what could not be measured does not.

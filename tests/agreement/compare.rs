@@ -138,7 +138,7 @@ pub fn compared(design: &Design, more: bool, optimised: bool) -> Tally {
     let documents = [
         bench.json("simulate", &[]),
         bench.json("analyze", &[]),
-        bench.json("check", &[]),
+        bench.json("check", &["--criteria-only"]),
         bench.report(),
     ];
     let [Some(simulated), Some(analysed), Some(checked), Some(report)] = documents else {
@@ -576,7 +576,7 @@ fn optimum(judge: &mut Judge, bench: &Bench) {
     if !written {
         return;
     }
-    let Some(checked) = bench.json_of("check", &file, &[]) else { return };
+    let Some(checked) = bench.json_of("check", &file, &["--criteria-only"]) else { return };
     let checked = &checked["cases"][0];
     judge.same("optimum, holds", &checked["holds"], &found["feasible"]);
     let peak = criterion(checked, "peak_displacement").unwrap_or(&Value::Null);

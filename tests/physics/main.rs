@@ -7,6 +7,7 @@ mod orbit_support;
 #[path = "../reference/mod.rs"]
 mod reference;
 
+mod alternatives;
 mod asymptotic_error;
 mod batch;
 mod cavity;

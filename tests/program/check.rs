@@ -193,7 +193,7 @@ fn every_format_says_what_fails_and_the_exit_code_too() {
     assert_eq!((code, &document["format"]), (Some(1), &"vinesink/check@2".into()));
     assert_eq!(document["cases"][0]["criteria"][1]["holds"], false);
     let (_, markdown) = check(&fails, "markdown");
-    assert!(markdown.contains("| ≥ 90 % |") && markdown.lines().count() == 6, "{markdown}");
+    assert!(markdown.contains("| ≥ 90 % |") && markdown.lines().count() == 8, "{markdown}");
     let (_, annotations) = check(&fails, "github");
     assert_eq!(annotations.lines().count(), 1, "{annotations}");
     assert!(annotations.starts_with("::error file="), "{annotations}");

@@ -58,8 +58,41 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     // What all commands know of a case: the only way from them to a trajectory or a branch of orbits of their own.
     (
+        "alternatives",
+        &[
+            "band",
+            "case",
+            "dampers",
+            "excitation",
+            "executor",
+            "flights",
+            "linear",
+            "measure",
+            "motions",
+            "system",
+            "transient",
+        ],
+    ),
+    ("dampers", &["excitation", "linear", "system"]),
+    (
+        "operating_range",
+        &[
+            "band",
+            "case",
+            "criteria",
+            "excitation",
+            "executor",
+            "flights",
+            "motions",
+            "system",
+            "transient",
+        ],
+    ),
+    (
         "answer",
         &[
+            "alternatives",
+            "operating_range",
             "analysis",
             "band",
             "case",

@@ -15,6 +15,7 @@ mod case_schema;
 mod cavity;
 mod cavity_report;
 mod check;
+mod choice;
 mod cli;
 mod cli_case;
 mod cli_slips;

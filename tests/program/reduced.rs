@@ -48,7 +48,7 @@ fn every_command_answers_for_a_release() {
     assert_eq!(vinesink(&["report", &case, "--out", out]).status.code(), Some(0));
     let page = fs::read_to_string(format!("{out}/case/report.md")).expect("a page");
     assert!(page.contains("instead of 61.1 /ω₀ without it"), "{page}");
-    assert!(page.contains("| This absorber, 0.02 m₁ |"), "{page}");
+    assert!(page.contains("| This absorber | "), "{page}");
     for si in [" mm", " ms", " s ", "Hz"] {
         assert!(!page.contains(si), "{si}: {page}");
     }

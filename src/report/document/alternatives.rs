@@ -83,6 +83,10 @@ fn alternatives(case: &Case, found: &Alternatives) -> Value {
         let damper = found.rows.iter().find(|row| row.robust_for == drift && drift > 0.0)?;
         Some(Winner::of(absorber, damper))
     };
+    let with = |is: fn(&Row) -> bool| {
+        let damper = found.rows.iter().find(|row| row.drift == 0.0 && is(row))?;
+        Some(Winner::of(at(Device::Absorber, Room::AsDesigned, 0.0)?, damper))
+    };
     let drift = |value: f64| Quantity::new(&of::FREQUENCY_DRIFT, value, Method::Given);
     // From the first on from which it wins at all that are further.
     let lost =
@@ -95,6 +99,8 @@ fn alternatives(case: &Case, found: &Alternatives) -> Value {
         "table": table(case, found, &drifts),
         "winner": winner(Room::AsDesigned, 0.0),
         "winner_in_equal_room": winner(Room::Equal, 0.0),
+        "winner_without_medium": with(|row| row.given_damping.is_some()),
+        "winner_changed": with(|row| row.changed),
         // The least drift from which on the absorber is the better one.
         "wins_from": wins_from.map(|one| drift(*one)),
         "robust_winner": drifts.last().and_then(|last| robust(*last)),
@@ -132,6 +138,7 @@ fn table(case: &Case, found: &Alternatives, drifts: &[f64]) -> Vec<Value> {
             row.room as u8,
             row.robust_for > 0.0,
             row.given_damping.map(f64::to_bits),
+            row.changed,
         )
     };
     let mut keys = Vec::new();
@@ -154,7 +161,7 @@ fn table(case: &Case, found: &Alternatives, drifts: &[f64]) -> Vec<Value> {
             "room": first.room,
             "robust": first.robust_for > 0.0,
             "given_damping": first.given_damping,
-            "stiffened": first.given_damping.is_some_and(|one| one != case.alternatives.damper_damping),
+            "changed": first.changed,
             "stroke": stroke,
             "cells": drifts.iter().map(cell).collect::<Vec<_>>(),
         })

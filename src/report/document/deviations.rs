@@ -3,10 +3,8 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::criteria::badge;
 use super::scale::Scale;
-use crate::case::Case;
-use crate::criteria::{self, method};
+use crate::criteria::method;
 use crate::method::Method::{Given, Simulation};
 use crate::motions::Motion;
 use crate::quantity::Quantity;
@@ -33,7 +31,7 @@ enum DeviationsOutcome {
 }
 
 /// The rigs, those whose peak is worst first.
-pub fn deviations(scale: &Scale, case: &Case, found: &Deviations) -> Value {
+pub fn deviations(scale: &Scale, found: &Deviations) -> Value {
     let changes = || found.rigs.iter().filter_map(|rig| rig.change);
     let largest = changes().fold(0.0, f64::max);
     let smallest = changes().fold(0.0, f64::min);
@@ -52,7 +50,7 @@ pub fn deviations(scale: &Scale, case: &Case, found: &Deviations) -> Value {
         // The bound in whole per cent that the changes keep.
         "most": 0.01 * (100.0 * most).ceil(),
         "own_peak": peak(scale, &found.own),
-        "rows": found.rigs.iter().map(|rig| row(scale, case, rig)).collect::<Vec<_>>(),
+        "rows": found.rigs.iter().map(|rig| row(scale, rig)).collect::<Vec<_>>(),
     })
 }
 
@@ -61,7 +59,7 @@ fn peak(scale: &Scale, motion: &Motion) -> Quantity {
     scale.units.quantity_with(&of::PEAK, [peak.value, peak.error], method(motion))
 }
 
-fn row(scale: &Scale, case: &Case, rig: &Rig) -> Value {
+fn row(scale: &Scale, rig: &Rig) -> Value {
     let (kind, size) = match rig.deviation {
         Deviation::Tilt => (&of::INCLINATION, TILT),
         Deviation::Friction => (&of::FRICTION, FRICTION),
@@ -73,7 +71,6 @@ fn row(scale: &Scale, case: &Case, rig: &Rig) -> Value {
     };
     // It follows from the peaks, which have errors.
     let change = |change| Quantity::new(&of::RELATIVE_CHANGE, change, Simulation);
-    let judged = criteria::judge_peak(case, &rig.motion);
     json!({
         "deviation": rig.deviation,
         // Whichever way it is.
@@ -83,7 +80,5 @@ fn row(scale: &Scale, case: &Case, rig: &Rig) -> Value {
         "change": rig.change.map(|one| change(one).with_error(f64::NAN)),
         "regime": rig.motion.regime(),
         "settled": rig.motion.settled(),
-        // Whether the criterion on the peak holds at the case's own excitation; none where there is none.
-        "criterion": badge(judged.as_slice()),
     })
 }

@@ -134,7 +134,7 @@ pub fn document(source: &Source) -> Value {
             motions::places(&scale, &survey.motions, survey.count_rest)
         }),
         // The case in rigs that differ from it by a little, the worst first.
-        "deviations": study.deviations.as_ref().map(|one| deviations::deviations(&scale, case, one)),
+        "deviations": study.deviations.as_ref().map(|one| deviations::deviations(&scale, one)),
         // Which layer answered what.
         "answers": source.answers,
         "claims": study.claims.iter().map(|one| claims::claim(&scale, one)).collect::<Vec<_>>(),

@@ -1,0 +1,180 @@
+//! Tuned mass dampers beside an absorber, against Runge and Kutta: nothing is shared with `vinesink::linear`.
+
+use std::f64::consts::TAU;
+
+use vinesink::alternatives::{Alternatives, Room, Row};
+use vinesink::answer::{Answer, Asked, Decided};
+use vinesink::case::Case;
+use vinesink::executor::Serial;
+use vinesink::linear::TunedMassDamper;
+use vinesink::measure::Device;
+
+fn found(name: &str) -> (Case, Alternatives) {
+    let text = std::fs::read_to_string(format!("cases/{name}.toml")).expect("a case");
+    let case = Case::parse(name, &text).expect("valid");
+    let answer = Answer::of(&case, Asked::Decision, None, &Serial).expect("answered");
+    let what = Decided { alternatives: true, ranges: false };
+    let answer = answer.decided(&case, what, &Serial).expect("flown");
+    (case, answer.alternatives.expect("compared"))
+}
+
+/// A structure with a damper in SI: displacement and velocity of both.
+struct Rig {
+    mass: f64,
+    stiffness: f64,
+    damping: f64,
+    damper_mass: f64,
+    damper_stiffness: f64,
+    damper_damping: f64,
+}
+
+impl Rig {
+    fn of(case: &Case, natural_frequency: f64, damper: &TunedMassDamper, drift: f64) -> Self {
+        let scales = case.units();
+        let (mass, system) = (scales.oscillator_mass, case.system());
+        let omega = TAU * natural_frequency;
+        let own = damper.tuning * omega;
+        let damper_mass = system.mass_ratio() * mass;
+        Self {
+            mass,
+            stiffness: mass * (omega * (1.0 + drift)).powi(2),
+            damping: damper_mass * system.damping() * omega,
+            damper_mass,
+            damper_stiffness: damper_mass * own * own,
+            damper_damping: 2.0 * damper.damping_ratio * damper_mass * own,
+        }
+    }
+
+    fn rates(&self, [x, v, y, u]: [f64; 4], force: f64) -> [f64; 4] {
+        let pull = self.damper_stiffness * (y - x) + self.damper_damping * (u - v);
+        let acceleration = (force - self.stiffness * x - self.damping * v + pull) / self.mass;
+        [v, acceleration, u, -pull / self.damper_mass]
+    }
+
+    /// A step of Runge and Kutta.
+    fn step(&self, at: [f64; 4], time: f64, h: f64, force: &dyn Fn(f64) -> f64) -> [f64; 4] {
+        let plus = |rates: [f64; 4], part: f64| {
+            let mut sum = at;
+            sum.iter_mut().zip(rates).for_each(|(one, rate)| *one += part * h * rate);
+            sum
+        };
+        let a = self.rates(at, force(time));
+        let b = self.rates(plus(a, 0.5), force(time + 0.5 * h));
+        let c = self.rates(plus(b, 0.5), force(time + 0.5 * h));
+        let d = self.rates(plus(c, 1.0), force(time + h));
+        let mut next = at;
+        for k in 0..4 {
+            next[k] += h / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]);
+        }
+        next
+    }
+
+    /// Largest displacement and stroke once a steady force has been there for long.
+    fn steady(&self, amplitude: f64, frequency: f64) -> [f64; 2] {
+        let h = 1.0 / frequency / 400.0;
+        let force = |time: f64| amplitude * (TAU * frequency * time).sin();
+        let (mut at, mut largest) = ([0.0; 4], [0.0_f64; 2]);
+        for k in 0..400 * 260 {
+            at = self.step(at, f64::from(k) * h, h, &force);
+            if k > 400 * 240 {
+                largest = [largest[0].max(at[0].abs()), largest[1].max((at[2] - at[0]).abs())];
+            }
+        }
+        largest
+    }
+
+    /// When the amplitude of the structure stays below a level, with stops that the damper's mass hits or without.
+    fn settles(&self, speed: f64, level: f64, natural: f64, stops: Option<(f64, f64)>) -> f64 {
+        let h = 1.0 / natural / 4000.0;
+        let omega = TAU * natural;
+        let (mut at, mut last) = ([0.0, speed, 0.0, 0.0], 0.0);
+        for k in 0..4000 * 80 {
+            let mut next = self.step(at, 0.0, h, &|_| 0.0);
+            if let Some((room, restitution)) = stops {
+                let out = |at: [f64; 4]| {
+                    (at[0] - at[2]).abs() > room && (at[0] - at[2]) * (at[1] - at[3]) > 0.0
+                };
+                if out(next) {
+                    // A bisection of the step, an impact, and the rest of it.
+                    let (mut inside, mut outside) = (0.0, h);
+                    for _ in 0..60 {
+                        let middle = 0.5 * (inside + outside);
+                        if out(self.step(at, 0.0, middle, &|_| 0.0)) {
+                            outside = middle
+                        } else {
+                            inside = middle
+                        }
+                    }
+                    let mut there = self.step(at, 0.0, outside, &|_| 0.0);
+                    let mu = self.damper_mass / self.mass;
+                    let change = (1.0 + restitution) * (there[1] - there[3]) / (1.0 + mu);
+                    there[1] -= mu * change;
+                    there[3] += change;
+                    next = self.step(there, 0.0, h - outside, &|_| 0.0);
+                }
+            }
+            at = next;
+            if (at[0] * at[0] + (at[1] / omega).powi(2)).sqrt() > level {
+                last = f64::from(k + 1) * h;
+            }
+        }
+        last
+    }
+}
+
+fn close(found: f64, told: f64, within: f64, what: &str) {
+    assert!((found / told - 1.0).abs() < within, "{what}: {found} by Runge and Kutta, {told} told");
+}
+
+/// The dampers of a band: peak and stroke at the worst of 120 frequencies, as it is and off by 10 %.
+#[test]
+fn dampers_along_a_band_are_those_of_runge_and_kutta() {
+    let (case, found) = found("mast-mode-2");
+    let worst = |row: &Row, drifts: &[f64]| {
+        let damper = row.damper.expect("a damper");
+        let mut largest = [0.0_f64; 2];
+        for drift in drifts {
+            let rig = Rig::of(&case, 6.894, &damper, *drift);
+            for k in 0..=120 {
+                let frequency = 5.86 + (7.583 - 5.86) * f64::from(k) / 120.0;
+                let [x, stroke] = rig.steady(14.07, frequency);
+                largest = [largest[0].max(x), largest[1].max(stroke)];
+            }
+        }
+        largest
+    };
+    for (room, drift) in [(Room::AsDesigned, 0.0), (Room::Equal, 0.0), (Room::AsDesigned, 0.1)] {
+        let row = found.row(Device::Damper, room, drift).expect("a row");
+        let drifts = if drift == 0.0 { vec![0.0] } else { vec![-drift, drift] };
+        let [peak, stroke] = worst(row, &drifts);
+        close(peak, row.worst[0], 0.01, "peak");
+        close(stroke, row.stroke.expect("a stroke"), 0.01, "stroke");
+    }
+    let room = found.row(Device::Damper, Room::Equal, 0.0).expect("a row").stroke;
+    assert!(room.expect("a stroke") < 2.7e-3 * 1.002, "{room:?}");
+}
+
+/// Those of a release: the time to the level, in unlimited and in equal room and between stops.
+#[test]
+fn dampers_of_a_release_are_those_of_runge_and_kutta() {
+    let (case, found) = found("arm-empty");
+    let level = 0.1 * 0.12 / (TAU * 8.0);
+    for (room, stops) in
+        [(Room::AsDesigned, None), (Room::Equal, None), (Room::Stops, Some((2.1e-3, 0.5)))]
+    {
+        let row = found.row(Device::Damper, room, 0.0).expect("a row");
+        let rig = Rig::of(&case, 8.0, &row.damper.expect("a damper"), 0.0);
+        close(rig.settles(0.12, level, 8.0, stops), row.worst[0], 0.01, "time to come to rest");
+    }
+    // No other damper is faster: those around it, by the same integration.
+    let best = found.row(Device::Damper, Room::AsDesigned, 0.0).expect("a row");
+    for (tuning, damping) in [(0.97, 1.0), (1.03, 1.0), (1.0, 0.85), (1.0, 1.15)] {
+        let damper = best.damper.expect("a damper");
+        let other = TunedMassDamper {
+            tuning: tuning * damper.tuning,
+            damping_ratio: damping * damper.damping_ratio,
+        };
+        let time = Rig::of(&case, 8.0, &other, 0.0).settles(0.12, level, 8.0, None);
+        assert!(time > 0.999 * best.worst[0], "{tuning} {damping}: {time} {best:?}");
+    }
+}
