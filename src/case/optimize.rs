@@ -12,11 +12,9 @@ use vinesink_core::names;
 
 names! { name:
     /// What a design is chosen for, over the case's band if it has one.
-    #[derive(Default)]
     #[derive(schemars::JsonSchema)]
     pub enum Objective {
         /// The largest share of the band in area Z3 of the theory.
-        #[default]
         Z3Share = "z3-share",
         /// The largest share of the band with a stable symmetric 1:1 orbit.
         StableShare = "stable-share",
@@ -31,9 +29,8 @@ names! { name:
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub struct OptimizeSettings {
-    /// What is looked for; the largest share of the band in area Z3 unless given, or, where the cavity is not ideal, with
-    /// a stable 1:1 orbit. Not for a structure that is not
-    /// driven steadily: released or struck it shall come to rest first, swept or driven by a record it shall have the
+    /// What is looked for; what the first criterion asks unless given, or else the smallest worst amplitude. Not for a
+    /// structure that is not driven steadily: released or struck it shall come to rest first, swept or driven by a record it shall have the
     /// smallest largest displacement.
     pub objective: Option<Objective>,
     /// Bounds of the clearance; 0.025 to 1.5 times the largest at which 1:1 resonance ends by theory along the band unless

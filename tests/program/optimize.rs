@@ -31,7 +31,12 @@ fn band_without_criteria(more: &str) -> String {
     let text = band_text("");
     let (before, rest) = text.split_once("[criteria]").expect("criteria");
     let after = rest.split_once("\n[").map_or(String::new(), |(_, after)| format!("[{after}"));
-    format!("{before}{after}\n{more}")
+    // Of theory, as the case asks it.
+    let objective = "[optimize]\nobjective = \"z3-share\"\n";
+    match more.split_once("[optimize]\n") {
+        Some((_, more)) => format!("{before}{after}\n{objective}{more}"),
+        None => format!("{before}{after}\n{objective}{more}"),
+    }
 }
 
 fn case(text: &str) -> Case {
@@ -532,7 +537,7 @@ fn shares_in_strips_and_winners_on_bounds_are_told() {
             "title = \"t\"\nsource = \"s\"\n[oscillator]\nmass = \"12 kg\"\nstiffness = \"30.32 kN/m\"\n\
              damping_ratio = 0.005\n[absorber]\nmass_ratio = 0.03\nclearance = \"20 mm\"\nrestitution = 0.6\n\
              [excitation]\nkind = \"base-displacement\"\namplitude = \"0.3 mm\"\nfrequency = \"8 Hz\"\n\
-             [band]\nfrom = \"7.8 Hz\"\nto = \"8.4 Hz\"\n[optimize]\n{bounds}"
+             [band]\nfrom = \"7.8 Hz\"\nto = \"8.4 Hz\"\n[optimize]\nobjective = \"z3-share\"\n{bounds}"
         )
     };
     let has = |sentences: &[String], words: &str| {

@@ -163,6 +163,16 @@ fn table(case: &Case, found: &Alternatives, drifts: &[f64]) -> Vec<Value> {
             "given_damping": first.given_damping,
             "changed": first.changed,
             "stroke": stroke,
+            "frequency": first.damper.map(|one| match case.units().physical {
+                true => {
+                    let hertz = case.units().frequency(one.tuning);
+                    Quantity::new(&of::DAMPER_FREQUENCY, hertz, ClosedForm)
+                }
+                false => Quantity::new(&of::DAMPER_FREQUENCY_RATIO, one.tuning, ClosedForm),
+            }),
+            "damping_ratio": first.damper.map(|one| {
+                Quantity::new(&of::DAMPER_DAMPING_RATIO, one.damping_ratio, ClosedForm)
+            }),
             "cells": drifts.iter().map(cell).collect::<Vec<_>>(),
         })
     };
