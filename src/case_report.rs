@@ -10,7 +10,7 @@ use crate::executor::Executor;
 use crate::report::document::{self, Source};
 use crate::report::figure::Figure;
 use crate::report::render::{self, Files, RenderError};
-use crate::report::{equations, figures, template, transient};
+use crate::report::{choice, equations, figures, template, transient};
 use crate::study::fidelity::LayerPlan;
 use crate::study::plots::Plot;
 use crate::study::{CaseStudy, StudyError};
@@ -54,11 +54,11 @@ impl Report {
         let answer = Answer::of(case, Asked::Report, plan, executor)?;
         let answer = answer.decided(case, decides, executor)?;
         if let Some(study) = &answer.transient {
-            let (mut document, figures) = transient::drawn(name, case, study, &answer.judged)?;
-            document::decide(&mut document, case, &answer);
+            let (mut document, mut figures) = transient::drawn(name, case, study, &answer.judged)?;
+            decide(&mut document, &mut figures, case, &answer)?;
             return Ok(Self { answer, figures, document });
         }
-        let figures = drawn(case, answer.studied()?)?;
+        let mut figures = drawn(case, answer.studied()?)?;
         let mut document = document::document(&Source {
             name,
             case,
@@ -67,7 +67,7 @@ impl Report {
             answers: answer.answers.as_ref(),
             figures: &figures,
         });
-        document::decide(&mut document, case, &answer);
+        decide(&mut document, &mut figures, case, &answer)?;
         Ok(Self { answer, figures, document })
     }
 
@@ -83,6 +83,24 @@ impl Report {
         let units = case.units();
         Ok(render::files(&self.document, &equations, &units, &self.figures)?)
     }
+}
+
+/// Gives a document what decides, with its figure.
+fn decide(
+    document: &mut Value,
+    figures: &mut Vec<Figure>,
+    case: &Case,
+    answer: &Answer,
+) -> Result<(), ReportError> {
+    document::decide(document, case, answer);
+    let drawn = answer.alternatives.as_ref();
+    let drawn = drawn.and_then(|found| choice::figure(case, found, document));
+    for figure in template::worded(drawn.into_iter().collect(), &case.units())? {
+        let row = document::figure_row(&figure);
+        document["figures"].as_array_mut().into_iter().for_each(|rows| rows.push(row.clone()));
+        figures.push(figure);
+    }
+    Ok(())
 }
 
 /// All figures of a report, with their words.

@@ -59,6 +59,17 @@ pub struct Alternatives {
     pub measure: Measure,
     /// One row for each device, room and drift.
     pub rows: Vec<Row>,
+    /// What becomes of it as the structure's natural frequency drifts.
+    pub over_drift: OverDrift,
+}
+
+/// What was asked over the share by which the natural frequency is off, negative below.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OverDrift {
+    /// With the absorber, and its error.
+    pub absorber: Vec<(f64, [f64; 2])>,
+    /// With the damper that is best for the case, as designed and in the absorber's room.
+    pub dampers: [Vec<[f64; 2]>; 2],
 }
 
 /// Places along a band where its structure is another: the error says what they may miss.
@@ -69,6 +80,8 @@ const PLACES_OF_RECORD: u64 = 8;
 /// How much more than its room a penalty takes the stroke of a damper for: an optimum at the edge stays there.
 const PENALTY: f64 = 20.0;
 
+/// Points of a line over the drift.
+const POINTS: u32 = 40;
 /// Dampers over the usual one from the best of which one for little room is looked for.
 const TUNINGS: [f64; 3] = [0.95, 1.0, 1.05];
 const DAMPINGS: [f64; 8] = [1.0, 1.5, 2.2, 3.3, 5.0, 8.0, 12.0, 20.0];
@@ -111,6 +124,7 @@ impl Alternatives {
         };
         let clearance = Some(case.design.clearance());
         rows.push(with(own, clearance, 0.0));
+        let mut over_drift = OverDrift { absorber: vec![(0.0, own)], ..OverDrift::default() };
         let mut drifts: Vec<(f64, Vec<Structure>)> = Vec::new();
         for drift in &case.alternatives.drift {
             let mut worst: Option<[f64; 2]> = None;
@@ -118,6 +132,7 @@ impl Alternatives {
             for factor in [1.0 - drift, 1.0 + drift] {
                 let Some(there) = Structure::of(case, measure, factor) else { continue };
                 if let Some(found) = absorber(&there.case, measure, known.effort, on)? {
+                    over_drift.absorber.push((factor - 1.0, found));
                     let reach = |one: [f64; 2]| one[0] + one[1];
                     worst = Some(worst.filter(|one| reach(*one) > reach(found)).unwrap_or(found));
                 }
@@ -179,7 +194,23 @@ impl Alternatives {
                 ..with([worst, 0.0], None, *drift)
             });
         }
-        Ok(Some(Self { measure, rows }))
+        over_drift.absorber.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let furthest = case.alternatives.drift.last().copied().unwrap_or_default();
+        let at = |k: u32| (2.0 * f64::from(k) / f64::from(POINTS) - 1.0) * furthest;
+        // A passage or a record is long: there the dampers are known where the absorber is.
+        let all: Vec<f64> = match here.designing() == Designing::USUAL {
+            true => (0..=POINTS).map(at).collect(),
+            false => over_drift.absorber.iter().map(|(drift, _)| *drift).collect(),
+        };
+        let all = all
+            .iter()
+            .filter_map(|drift| Some((*drift, Structure::of(case, measure, 1.0 + drift)?)));
+        for (drift, there) in all {
+            for (line, damper) in over_drift.dampers.iter_mut().zip([usual, equal]) {
+                line.push([drift, there.told(Some(&damper), Room::AsDesigned)[0]]);
+            }
+        }
+        Ok(Some(Self { measure, rows, over_drift }))
     }
 
     /// The row of a device as told, at a drift.

@@ -2,6 +2,7 @@
 //! print. [`render`] turns it into Markdown, HTML and JSON; figures are data too ([`figure`]).
 
 mod chart;
+pub mod choice;
 pub mod console;
 pub mod criteria;
 pub mod document;
