@@ -80,6 +80,9 @@ const PLACES_OF_RECORD: u64 = 8;
 /// How much more than its room a penalty takes the stroke of a damper for: an optimum at the edge stays there.
 const PENALTY: f64 = 20.0;
 
+/// Damping ratio with which any damper is as good as fixed, and how often the way there is halved.
+const MOST_DAMPING: f64 = 100.0;
+const HALVINGS: u32 = 40;
 /// Points of a line over the drift.
 const POINTS: u32 = 40;
 /// Dampers over the usual one from the best of which one for little room is looked for.
@@ -181,7 +184,7 @@ impl Alternatives {
             rows.extend(row(std::slice::from_ref(&here), 0.0));
             rows.extend(drifts.iter().filter_map(|(drift, ends)| row(ends, *drift)));
         }
-        for (drift, ends) in &drifts {
+        for (drift, ends) in drifts.iter().filter(|_| !here.is_of_one_frequency()) {
             let robust = here.designed(ends, usual, None, None);
             let all =
                 ends.iter().chain([&here]).map(|one| one.told(Some(&robust), Room::AsDesigned));
@@ -290,6 +293,31 @@ fn as_designed(known: Known<'_>, here: &Structure) -> TunedMassDamper {
 }
 
 impl Structure {
+    /// For a single frequency the best damper would be undamped, and of no use beside it: that of Den Hartog keeps its
+    /// tuning, and gets the damping that is given or as much more as its room asks for.
+    fn at_one_frequency(
+        &self,
+        from: TunedMassDamper,
+        room: Option<f64>,
+        damping: Option<f64>,
+    ) -> TunedMassDamper {
+        let with = |damping_ratio: f64| TunedMassDamper { damping_ratio, ..from };
+        if let Some(damping) = damping {
+            return with(damping);
+        }
+        let room = room.map_or(f64::INFINITY, |room| room * self.case.design.clearance());
+        let fits = |ratio: f64| self.told(Some(&with(ratio)), Room::AsDesigned)[1] <= room;
+        let [mut least, mut most] = [from.damping_ratio, MOST_DAMPING];
+        if fits(least) {
+            return from;
+        }
+        for _ in 0..HALVINGS {
+            let middle = (least * most).sqrt();
+            if fits(middle) { most = middle } else { least = middle }
+        }
+        with(most)
+    }
+
     /// The damper whose worst value over this structure and others is smallest, within a room over the clearance, of a
     /// damping that may be given.
     fn designed(
@@ -299,6 +327,9 @@ impl Structure {
         room: Option<f64>,
         damping: Option<f64>,
     ) -> TunedMassDamper {
+        if self.is_of_one_frequency() {
+            return self.at_one_frequency(from, room, damping);
+        }
         let how = Designing { damping, ..self.designing() };
         let all: Vec<&Self> = others.iter().chain([self]).collect();
         let clearance = self.case.design.clearance();

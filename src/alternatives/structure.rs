@@ -45,6 +45,11 @@ impl Structure {
         }
     }
 
+    /// Whether it is driven steadily at one frequency.
+    pub fn is_of_one_frequency(&self) -> bool {
+        self.case.design.transient().is_none() && self.band.is_point()
+    }
+
     /// Whether stops are simulated.
     pub fn has_stops(&self) -> bool {
         self.case.design.release().is_some()

@@ -206,6 +206,7 @@ impl Work {
         }
         let along = match asked {
             Asked::Criteria => !case.criteria.is_empty(),
+            Asked::Decision => !case.criteria.is_empty() || case.band.is_some(),
             Asked::Report => !case.criteria.is_empty() || (simulates && case.band.is_some()),
             _ => false,
         };

@@ -37,7 +37,7 @@ impl Rig {
         let damper_mass = system.mass_ratio() * mass;
         Self {
             mass,
-            stiffness: mass * (omega * (1.0 + drift)).powi(2),
+            stiffness: mass * omega * omega * (1.0 + drift) * (1.0 + drift),
             damping: damper_mass * system.damping() * omega,
             damper_mass,
             damper_stiffness: damper_mass * own * own,
@@ -72,7 +72,7 @@ impl Rig {
     /// Largest displacement and stroke once a steady force has been there for long.
     fn steady(&self, amplitude: f64, frequency: f64) -> [f64; 2] {
         let h = 1.0 / frequency / 400.0;
-        let force = |time: f64| amplitude * (TAU * frequency * time).sin();
+        let force = |time: f64| amplitude * libm::sin(TAU * frequency * time);
         let (mut at, mut largest) = ([0.0; 4], [0.0_f64; 2]);
         for k in 0..400 * 260 {
             at = self.step(at, f64::from(k) * h, h, &force);
@@ -114,7 +114,7 @@ impl Rig {
                 }
             }
             at = next;
-            if (at[0] * at[0] + (at[1] / omega).powi(2)).sqrt() > level {
+            if libm::hypot(at[0], at[1] / omega) > level {
                 last = f64::from(k + 1) * h;
             }
         }

@@ -244,6 +244,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "quantity",
             "simulation",
             "system",
+            "dampers",
         ],
     ),
     (
@@ -277,6 +278,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "regimes",
             "simulation",
             "system",
+            "dampers",
         ],
     ),
     (
@@ -311,6 +313,8 @@ const ROOMS: &[(&str, &[&str])] = &[
             "system",
             "transient",
             "validation",
+            "alternatives",
+            "operating_range",
         ],
     ),
     ("diff", &["motions", "quantity", "regimes", "report"]),

@@ -95,7 +95,8 @@ impl Native {
         let case = folder.path().join("live.toml");
         fs::write(&case, text).expect("writable");
         let mut report = Command::cargo_bin("vinesink").expect("built");
-        report.arg("report").arg(&case).arg("--out").arg(folder.path()).assert().success();
+        report.arg("report").arg(&case).args(["--criteria-only", "--out"]).arg(folder.path());
+        report.assert().success();
         let native = Self { folder, document: Value::Null };
         let document = serde_json::from_str(&native.read("report.json")).expect("JSON");
         Self { document, ..native }
@@ -396,7 +397,7 @@ fn the_page_is_quiet_accessible_and_fits() {
     }
     assert!(script.is_some() || env::var("VINESINK_BROWSER").is_err(), "there is no axe-core");
     let size = fs::metadata(&file).expect("a file").len();
-    assert!(size <= 1_500_000, "{size} bytes");
+    assert!(size <= 1_800_000, "{size} bytes");
 }
 
 /// A report with the live page is still one file, begins with its own case, and needs no network.

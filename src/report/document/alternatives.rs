@@ -54,6 +54,10 @@ impl Alternatives {
 /// Gives a document of a case what decides whether its absorber is taken: rows as CONTRACT.md has them, and the facts of
 /// the templates.
 pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
+    // As it was not asked for.
+    if answer.alternatives.is_none() && answer.holds_for.is_empty() {
+        return;
+    }
     let choice = answer.alternatives.as_ref().map(|one| alternatives(case, one));
     document["alternatives"] = choice.as_ref().map_or(Value::Null, |one| one["rows"].clone());
     document["choice"] = choice.map_or(Value::Null, |mut one| {
