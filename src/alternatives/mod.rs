@@ -113,107 +113,71 @@ impl Alternatives {
         let measure = asked(case);
         let Some(own) = own(case, known, measure) else { return Ok(None) };
         let Some(here) = Structure::of(case, measure, 1.0) else { return Ok(None) };
-        let mut rows = Vec::new();
-        let with = |worst, stroke, drift| Row {
-            device: Device::Absorber,
-            room: Room::AsDesigned,
-            robust_for: 0.0,
-            given_damping: None,
-            changed: false,
-            drift,
-            worst,
-            stroke,
-            damper: None,
-        };
-        let clearance = Some(case.design.clearance());
-        rows.push(with(own, clearance, 0.0));
-        let mut over_drift = OverDrift { absorber: vec![(0.0, own)], ..OverDrift::default() };
-        let mut drifts: Vec<(f64, Vec<Structure>)> = Vec::new();
+        let usual = as_designed(known, &here);
+        let equal = here.designed(&[], usual, Some(1.0), None);
+        let over_drift = OverDrift { absorber: vec![(0.0, own)], ..OverDrift::default() };
+        let rows = vec![Row::of(Device::Absorber, own, 0.0).with_stroke(case.design.clearance())];
+        let mut found = Self { measure, rows, over_drift };
+        let drifts = found.add_absorber(case, known.effort, on)?;
+        for device in linear(case, &here, usual, equal) {
+            found.rows.extend(device.at(std::slice::from_ref(&here), 0.0));
+            found.rows.extend(drifts.iter().filter_map(|(drift, ends)| device.at(ends, *drift)));
+        }
+        for (drift, ends) in drifts.iter().filter(|_| !here.is_of_one_frequency()) {
+            let damper = Some(here.designed(ends, usual, None, None));
+            let all = ends.iter().chain([&here]);
+            let told = Row { robust_for: *drift, damper, ..Row::of(Device::Damper, [0.0; 2], 0.0) };
+            found.rows.extend(told.at(all, *drift));
+        }
+        found.add_lines(case, &here, [usual, equal]);
+        Ok(Some(found))
+    }
+
+    /// Adds what becomes of the absorber where the structure's frequency is off; gives the structures at both ends of each
+    /// drift.
+    fn add_absorber(
+        &mut self,
+        case: &Case,
+        effort: &Effort,
+        on: &dyn Executor,
+    ) -> Result<Vec<(f64, Vec<Structure>)>, DrivenError> {
+        let mut drifts = Vec::new();
         for drift in &case.alternatives.drift {
             let mut worst: Option<[f64; 2]> = None;
             let mut ends = Vec::new();
             for factor in [1.0 - drift, 1.0 + drift] {
-                let Some(there) = Structure::of(case, measure, factor) else { continue };
-                if let Some(found) = absorber(&there.case, measure, known.effort, on)? {
-                    over_drift.absorber.push((factor - 1.0, found));
+                let Some(there) = Structure::of(case, self.measure, factor) else { continue };
+                if let Some(found) = absorber(&there.case, self.measure, effort, on)? {
+                    self.over_drift.absorber.push((factor - 1.0, found));
                     let reach = |one: [f64; 2]| one[0] + one[1];
                     worst = Some(worst.filter(|one| reach(*one) > reach(found)).unwrap_or(found));
                 }
                 ends.push(there);
             }
-            rows.extend(worst.map(|worst| with(worst, clearance, *drift)));
+            let row = |worst| Row::of(Device::Absorber, worst, *drift);
+            let row = worst.map(|worst| row(worst).with_stroke(case.design.clearance()));
+            self.rows.extend(row);
             drifts.push((*drift, ends));
         }
-        let room = 1.0;
-        let usual = as_designed(known, &here);
-        let equal = here.designed(&[], usual, Some(room), None);
-        let metal = case.alternatives.damper_damping;
-        let plain = here.designed(&[], usual, None, Some(metal));
-        let stiffened = case
-            .alternatives
-            .damper_frequency_factor
-            .map(|factor| TunedMassDamper { tuning: factor * usual.tuning, ..usual });
-        let mut devices = vec![
-            (Device::Without, Room::AsDesigned, None, None),
-            (Device::Damper, Room::AsDesigned, None, Some(usual)),
-            (Device::Damper, Room::Equal, None, Some(equal)),
-        ];
-        devices.extend(here.has_stops().then_some((
-            Device::Damper,
-            Room::Stops,
-            None,
-            Some(usual),
-        )));
-        devices.push((Device::Damper, Room::AsDesigned, Some(metal), Some(plain)));
-        devices.extend(stiffened.map(|one| (Device::Damper, Room::AsDesigned, None, Some(one))));
-        for (device, room, given_damping, damper) in devices {
-            let row = |structures: &[Structure], drift: f64| {
-                let all = structures.iter().map(|one| one.told(damper.as_ref(), room));
-                let [worst, stroke] = all.reduce(larger)?;
-                Some(Row {
-                    device,
-                    room,
-                    given_damping,
-                    changed: damper.is_some() && damper == stiffened,
-                    worst: [worst, 0.0],
-                    stroke: damper.map(|_| stroke),
-                    damper,
-                    ..with([worst, 0.0], None, drift)
-                })
-            };
-            rows.extend(row(std::slice::from_ref(&here), 0.0));
-            rows.extend(drifts.iter().filter_map(|(drift, ends)| row(ends, *drift)));
-        }
-        for (drift, ends) in drifts.iter().filter(|_| !here.is_of_one_frequency()) {
-            let robust = here.designed(ends, usual, None, None);
-            let all =
-                ends.iter().chain([&here]).map(|one| one.told(Some(&robust), Room::AsDesigned));
-            let Some([worst, stroke]) = all.reduce(larger) else { continue };
-            rows.push(Row {
-                device: Device::Damper,
-                robust_for: *drift,
-                stroke: Some(stroke),
-                damper: Some(robust),
-                ..with([worst, 0.0], None, *drift)
-            });
-        }
-        over_drift.absorber.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.over_drift.absorber.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(drifts)
+    }
+
+    /// Adds the lines of two dampers over the drift. A passage or a record is long: there they are known where the absorber
+    /// is.
+    fn add_lines(&mut self, case: &Case, here: &Structure, dampers: [TunedMassDamper; 2]) {
         let furthest = case.alternatives.drift.last().copied().unwrap_or_default();
         let at = |k: u32| (2.0 * f64::from(k) / f64::from(POINTS) - 1.0) * furthest;
-        // A passage or a record is long: there the dampers are known where the absorber is.
-        let all: Vec<f64> = match here.designing() == Designing::USUAL {
+        let drifts: Vec<f64> = match here.designing() == Designing::USUAL {
             true => (0..=POINTS).map(at).collect(),
-            false => over_drift.absorber.iter().map(|(drift, _)| *drift).collect(),
+            false => self.over_drift.absorber.iter().map(|(drift, _)| *drift).collect(),
         };
-        let all = all
-            .iter()
-            .filter_map(|drift| Some((*drift, Structure::of(case, measure, 1.0 + drift)?)));
-        for (drift, there) in all {
-            for (line, damper) in over_drift.dampers.iter_mut().zip([usual, equal]) {
-                line.push([drift, there.told(Some(&damper), Room::AsDesigned)[0]]);
+        for drift in drifts {
+            let Some(there) = Structure::of(case, self.measure, 1.0 + drift) else { continue };
+            for (line, damper) in self.over_drift.dampers.iter_mut().zip(&dampers) {
+                line.push([drift, there.told(Some(damper), Room::AsDesigned)[0]]);
             }
         }
-        Ok(Some(Self { measure, rows, over_drift }))
     }
 
     /// The row of a device as told, at a drift.
@@ -224,6 +188,59 @@ impl Alternatives {
         };
         self.rows.iter().filter(is).find(|row| row.drift == drift)
     }
+}
+
+impl Row {
+    /// A device as designed, without any damper's numbers.
+    fn of(device: Device, worst: [f64; 2], drift: f64) -> Self {
+        Self {
+            device,
+            room: Room::AsDesigned,
+            robust_for: 0.0,
+            given_damping: None,
+            changed: false,
+            drift,
+            worst,
+            stroke: None,
+            damper: None,
+        }
+    }
+
+    fn with_stroke(self, stroke: f64) -> Self {
+        Self { stroke: Some(stroke), ..self }
+    }
+
+    /// The same linear device at a drift, on the worst of some structures.
+    fn at<'a>(&self, all: impl IntoIterator<Item = &'a Structure>, drift: f64) -> Option<Self> {
+        let told = all.into_iter().map(|one| one.told(self.damper.as_ref(), self.room));
+        let [worst, stroke] = told.reduce(larger)?;
+        Some(Self { worst: [worst, 0.0], stroke: self.damper.map(|_| stroke), drift, ..*self })
+    }
+}
+
+/// No device, and every damper but those that are designed for a drift.
+fn linear(
+    case: &Case,
+    here: &Structure,
+    usual: TunedMassDamper,
+    equal: TunedMassDamper,
+) -> Vec<Row> {
+    let damper = |of| Row { damper: Some(of), ..Row::of(Device::Damper, [0.0; 2], 0.0) };
+    let mut all = vec![
+        Row::of(Device::Without, [0.0; 2], 0.0),
+        damper(usual),
+        Row { room: Room::Equal, ..damper(equal) },
+    ];
+    if here.has_stops() {
+        all.push(Row { room: Room::Stops, ..damper(usual) });
+    }
+    let metal = case.alternatives.damper_damping;
+    let plain = here.designed(&[], usual, None, Some(metal));
+    all.push(Row { given_damping: Some(metal), ..damper(plain) });
+    let changed = |factor| TunedMassDamper { tuning: factor * usual.tuning, ..usual };
+    let changed = case.alternatives.damper_frequency_factor.map(changed);
+    all.extend(changed.map(|of| Row { changed: true, ..damper(of) }));
+    all
 }
 
 fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
