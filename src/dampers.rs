@@ -93,7 +93,7 @@ impl<F: Fn(&TunedMassDamper) -> f64> CostFunction for &Cost<'_, F> {
 /// for one frequency alone would be undamped and of no use beside it.
 pub fn for_band(along: &BandSystems) -> TunedMassDamper {
     let start = TunedMassDamper::den_hartog(along.band.base.mass_ratio());
-    if along.band.is_point() {
+    if along.band.is_of_one_frequency() {
         return start;
     }
     best(start, Designing::USUAL, |damper| along.largest(|system| damper.amplitude(system)).1)

@@ -75,6 +75,8 @@ pub struct OverDrift {
 /// Places along a band where its structure is another: the error says what they may miss.
 const BAND: BandEffort =
     BandEffort { even: 13, starts: 6, starts_between: 2, most: 60, tolerance: 0.05 };
+/// Excitation periods of a window, and no patience with what has not settled then: without damping nothing does.
+const PERIODS: u64 = 300;
 /// Places of the absorber under a record, each of which is long.
 const PLACES_OF_RECORD: u64 = 8;
 /// How much more than its room a penalty takes the stroke of a damper for: an optimum at the edge stays there.
@@ -111,7 +113,9 @@ impl Alternatives {
         on: &dyn Executor,
     ) -> Result<Option<Self>, DrivenError> {
         let measure = asked(case);
-        let Some(own) = own(case, known, measure) else { return Ok(None) };
+        let Some(own) = own(case, known, measure).filter(|[worst, _]| *worst > 0.0) else {
+            return Ok(None);
+        };
         let Some(here) = Structure::of(case, measure, 1.0) else { return Ok(None) };
         let usual = as_designed(known, &here);
         let equal = here.designed(&[], usual, Some(1.0), None);
@@ -277,7 +281,8 @@ fn absorber(
 ) -> Result<Option<[f64; 2]>, DrivenError> {
     let units = case.units();
     let Some(transient) = case.design.transient() else {
-        let effort = Effort { band: BAND, ..*effort };
+        let periods = effort.periods.min(PERIODS);
+        let effort = Effort { band: BAND, periods, patience: 0.0, ..*effort };
         let found = along(&case.range(), &[], None, Some(&effort), on)?;
         let worst = Worst::of(&found, case.count_inactive);
         return Ok(worst.map(|one| [one.peak.value, one.peak.error].map(|one| units.length(one))));

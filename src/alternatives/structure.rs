@@ -47,7 +47,7 @@ impl Structure {
 
     /// Whether it is driven steadily at one frequency.
     pub fn is_of_one_frequency(&self) -> bool {
-        self.case.design.transient().is_none() && self.band.is_point()
+        self.case.design.transient().is_none() && self.band.is_of_one_frequency()
     }
 
     /// Whether stops are simulated.

@@ -95,6 +95,11 @@ impl Band {
         self.width() <= 4.0 * POINT * self.range[0]
     }
 
+    /// Whether it is of one frequency: a single excitation, or several amplitudes.
+    pub fn is_of_one_frequency(&self) -> bool {
+        self.over == BandOver::Amplitude || self.is_point()
+    }
+
     /// The same excitation of a structure whose natural frequency is `factor` times as high, by its
     /// stiffness: mass and damping constant stay. Lengths stay over the clearance, places are over the new
     /// natural frequency. `None` where no system has such values.
