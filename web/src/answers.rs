@@ -197,7 +197,7 @@ fn study(case: &Case) -> Result<Value, Value> {
         answers: None,
         figures: &figures,
     });
-    let report = template::render("report.md", &case.units(), &document).map_err(words)?;
+    let report = template::render("steady.md", &case.units(), &document).map_err(words)?;
     let first_screen = report.split("<img ").next().unwrap_or_default();
     // The map is the page's own.
     let others = figures.into_iter().filter(|figure| figure.name != "map");
