@@ -7,7 +7,7 @@ from typing import Any, Final, TypedDict, final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["__version__", "CaseError", "InternalError", "Case", "simulate_many", "regimes", "_fail"]
+__all__ = ["__version__", "CaseError", "InternalError", "Case", "simulate_many", "regimes", "_fail", "schema"]
 
 __version__: Final[str]
 
