@@ -9,34 +9,34 @@ use serde::Serialize;
 
 use crate::band::Survey;
 use crate::case::Case;
-use crate::criteria::{self, Judged};
+use crate::criteria::{self, Judged, Outcome};
 use crate::excitation::Transient;
 use crate::executor::{Executor, map};
 use crate::flights::{DrivenError, Places};
 use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
-use crate::transient::{Brief, Study};
+use crate::transient::Study;
 
 /// What all criteria together come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Outcome {
+enum Together {
     /// Every criterion holds with its error.
-    Holds,
-    /// None fails, and the error could turn one.
+    Hold,
+    /// None fails, and an error or a motion that still settles could turn one.
     Undecided,
-    /// One fails by what was found.
-    Fails,
+    /// One fails by what was found, or nothing was.
+    Fail,
 }
 
-impl Outcome {
+impl Together {
     fn of(judged: &[Judged]) -> Self {
-        let open = |one: &Judged| one.near_limit || one.undecided.is_some();
-        if judged.iter().any(|one| one.holds != Some(true) && !open(one)) {
-            Self::Fails
-        } else if judged.iter().any(open) {
+        let any = |of: &[Outcome]| judged.iter().any(|one| of.contains(&one.outcome()));
+        if any(&[Outcome::Fails, Outcome::NotMeasured]) {
+            Self::Fail
+        } else if any(&[Outcome::NotDecided, Outcome::TooCloseToCall]) {
             Self::Undecided
         } else {
-            Self::Holds
+            Self::Hold
         }
     }
 }
@@ -60,7 +60,8 @@ pub struct HoldsFor {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Varied {
-    /// Of the force or the base; of a release its displacement or velocity, or the impulse.
+    /// Of the force or the base, all amplitudes of a band with it; of a release its displacement or velocity, or the
+    /// impulse.
     Amplitude,
     /// The structure's, by its stiffness.
     NaturalFrequency,
@@ -90,14 +91,10 @@ const OF_INCLINATION: [f64; 8] =
 const OF_FRICTION: [f64; 8] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2];
 /// How often an end is halved: to an eighth of its step.
 const HALVINGS: u32 = 3;
-/// How often an end that `check` does not confirm is taken back.
-const CONFIRMATIONS: u32 = 4;
 /// How thoroughly a band is looked at on the way, and starts of a place.
 const BAND: BandEffort =
     BandEffort { even: 9, starts: 3, starts_between: 2, most: 24, tolerance: 0.1 };
 const STARTS: u32 = 8;
-/// Excitation periods of a window on the way.
-const PERIODS: u64 = 300;
 /// Places of the absorber in a sweep, and under a record, each of which is long.
 const PLACES_OF_SWEEP: u64 = 16;
 const PLACES_OF_RECORD: u64 = 4;
@@ -192,10 +189,10 @@ pub fn holds_for(
     effort: &Effort,
     on: &dyn Executor,
 ) -> Result<Vec<HoldsFor>, DrivenError> {
-    if judged.is_empty() || Outcome::of(judged) == Outcome::Fails {
+    if judged.is_empty() || Together::of(judged) == Together::Fail {
         return Ok(Vec::new());
     }
-    let own = Outcome::of(judged);
+    let own = Together::of(judged);
     let of = |varied: Varied| {
         let parameter = varied.parameter(case)?;
         Some((varied, parameter, varied.own(case, parameter)?))
@@ -261,18 +258,18 @@ impl Reach {
 }
 
 impl Side<'_> {
-    fn search(&self, own: Outcome, up: bool) -> Result<Reach, DrivenError> {
+    fn search(&self, own: Together, up: bool) -> Result<Reach, DrivenError> {
         let mut reach = Reach { end: self.own, open: true, undecided: Vec::new() };
         let mut looked = vec![(self.own, own)];
         for step in self.varied.steps(self.own, up) {
             let Some(outcome) = self.outcome(step, Looked::OnTheWay)? else { break };
-            if outcome == Outcome::Fails {
+            if outcome == Together::Fail {
                 reach.open = false;
                 let (mut inside, mut outside) = (reach.end, step);
                 for _ in 0..HALVINGS {
                     let middle = 0.5 * (inside + outside);
                     match self.outcome(middle, Looked::OnTheWay)? {
-                        Some(Outcome::Fails) | None => outside = middle,
+                        Some(Together::Fail) | None => outside = middle,
                         Some(found) => {
                             looked.push((middle, found));
                             inside = middle;
@@ -285,33 +282,25 @@ impl Side<'_> {
             looked.push((step, outcome));
             reach.end = step;
         }
-        // What `check` says of the end decides: with fewer starts something may have been missed.
-        for _ in 0..CONFIRMATIONS {
-            let [.., before, last] = looked[..] else { break };
-            match self.outcome(last.0, Looked::InFull)? {
-                Some(Outcome::Fails) | None => {
-                    looked.pop();
-                    reach.open = false;
-                    let middle = 0.5 * (before.0 + last.0);
-                    let found = self.outcome(middle, Looked::InFull)?;
-                    match found.filter(|found| *found != Outcome::Fails) {
-                        Some(found) => {
-                            looked.push((middle, found));
-                            break;
-                        }
-                        None => continue,
-                    }
-                }
-                Some(found) => {
-                    looked.pop();
-                    looked.push((last.0, found));
-                    break;
-                }
+        // What `check` says of the end decides: with fewer starts something may have been missed. The case itself is known.
+        while let [.., before, last] = looked[..] {
+            looked.pop();
+            let there = self.outcome(last.0, Looked::InFull)?;
+            if let Some(found) = there.filter(|found| *found != Together::Fail) {
+                looked.push((last.0, found));
+                break;
+            }
+            reach.open = false;
+            let middle = 0.5 * (before.0 + last.0);
+            let between = self.outcome(middle, Looked::InFull)?;
+            if let Some(found) = between.filter(|found| *found != Together::Fail) {
+                looked.push((middle, found));
+                break;
             }
         }
         reach.end = looked.last().map_or(self.own, |last| last.0);
         for pair in looked.windows(2) {
-            if pair[0].1 == Outcome::Undecided || pair[1].1 == Outcome::Undecided {
+            if pair[0].1 == Together::Undecided || pair[1].1 == Together::Undecided {
                 reach.undecided.push([pair[0].0, pair[1].0]);
             }
         }
@@ -319,11 +308,11 @@ impl Side<'_> {
     }
 
     /// What the criteria come to at a value; none where there is no such case.
-    fn outcome(&self, value: f64, how: Looked) -> Result<Option<Outcome>, DrivenError> {
+    fn outcome(&self, value: f64, how: Looked) -> Result<Option<Together>, DrivenError> {
         let Some(case) = self.varied.with(self.case, self.parameter, self.own, value) else {
             return Ok(None);
         };
-        judge(&case, self.effort, how).map(|judged| Some(Outcome::of(&judged)))
+        judge(&case, self.effort, how).map(|judged| Some(Together::of(&judged)))
     }
 }
 
@@ -342,7 +331,7 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
     let Some(transient) = case.design.transient() else {
         let mut settings = criteria::settings(case);
         // Long windows make the errors of irregular peaks smaller, not what is found.
-        let short = Effort { periods: effort.periods.min(PERIODS), patience: 0.0, ..*effort };
+        let short = effort.short();
         let effort = match how {
             Looked::InFull => short,
             Looked::OnTheWay => Effort { starts: effort.starts.min(STARTS), band: BAND, ..short },
@@ -351,7 +340,6 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
         let survey = Survey::of(&case.range(), &settings, None, on)?;
         return Ok(criteria::judge(case, &survey));
     };
-    let records = case.recording.as_ref().map(|one| one.records()).unwrap_or_default();
     let even = case.absorber_places().unwrap_or_default();
     let most = match transient {
         _ if how == Looked::InFull => even,
@@ -359,16 +347,9 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
         Transient::Sweep(_) => PLACES_OF_SWEEP,
         Transient::Record(_) => PLACES_OF_RECORD,
     };
-    let brief = Brief {
-        transient,
-        records: &records,
-        decay_level: case.decay_level,
-        count_inactive: case.count_inactive,
-        theory: false,
-    };
-    let alone = records.len() < 2;
-    let closer = case.design.release().is_some() || how == Looked::InFull && alone;
+    let closer = case.design.release().is_some() || how == Looked::InFull;
     let places = Places { even: even.min(most), closer, executor: on };
-    let study = Study::brief(&case.system(), &case.units(), &brief, places)?;
+    let Some(study) = Study::brief_of_case(case, places) else { return Ok(Vec::new()) };
+    let study = study?;
     Ok(criteria::judge_transient(case, &study))
 }

@@ -14,7 +14,7 @@ use crate::flights::{DrivenError, Places};
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::motions::{BandEffort, Effort, along};
-use crate::transient::{Brief, Study};
+use crate::transient::Study;
 use structure::Structure;
 
 /// Which room a device has.
@@ -57,6 +57,8 @@ pub struct Row {
 pub struct Alternatives {
     /// What is compared: the peak, or what the first criterion asks about.
     pub measure: Measure,
+    /// Whether the absorber's worst is that of one which stays at rest, so that the structure is as good as alone.
+    pub inactive: bool,
     /// One row for each device, room and drift.
     pub rows: Vec<Row>,
     /// What becomes of it as the structure's natural frequency drifts.
@@ -75,8 +77,6 @@ pub struct OverDrift {
 /// Places along a band where its structure is another: the error says what they may miss.
 const BAND: BandEffort =
     BandEffort { even: 13, starts: 6, starts_between: 2, most: 60, tolerance: 0.05 };
-/// Excitation periods of a window, and no patience with what has not settled then: without damping nothing does.
-const PERIODS: u64 = 300;
 /// Places of the absorber under a record, each of which is long.
 const PLACES_OF_RECORD: u64 = 8;
 /// How much more than its room a penalty takes the stroke of a damper for: an optimum at the edge stays there.
@@ -113,15 +113,14 @@ impl Alternatives {
         on: &dyn Executor,
     ) -> Result<Option<Self>, DrivenError> {
         let measure = asked(case);
-        let Some(own) = own(case, known, measure).filter(|[worst, _]| *worst > 0.0) else {
-            return Ok(None);
-        };
+        let found = own(case, known, measure).filter(|([worst, _], _)| *worst > 0.0);
+        let Some((own, inactive)) = found else { return Ok(None) };
         let Some(here) = Structure::of(case, measure, 1.0) else { return Ok(None) };
         let usual = as_designed(known, &here);
         let equal = here.designed(&[], usual, Some(1.0), None);
         let over_drift = OverDrift { absorber: vec![(0.0, own)], ..OverDrift::default() };
         let rows = vec![Row::of(Device::Absorber, own, 0.0).with_stroke(case.design.clearance())];
-        let mut found = Self { measure, rows, over_drift };
+        let mut found = Self { measure, inactive, rows, over_drift };
         let drifts = found.add_absorber(case, known.effort, on)?;
         for device in linear(case, &here, usual, equal) {
             found.rows.extend(device.at(std::slice::from_ref(&here), 0.0));
@@ -261,15 +260,17 @@ fn asked(case: &Case) -> Measure {
     }
 }
 
-/// The absorber as every page tells it.
-fn own(case: &Case, known: Known<'_>, measure: Measure) -> Option<[f64; 2]> {
+/// The absorber as every page tells it, and whether that is one which stays at rest.
+fn own(case: &Case, known: Known<'_>, measure: Measure) -> Option<([f64; 2], bool)> {
     let units = case.units();
     if let Some(study) = known.study {
         let found = study.quantity(&units, measure, Device::Absorber)?;
-        return Some([found.value, found.error]);
+        let inactive = matches!(study, Study::Release(of) if of.decay().inactive);
+        return Some(([found.value, found.error], inactive));
     }
     let worst = known.survey?.worst()?;
-    Some([units.length(worst.peak.value), units.length(worst.peak.error)])
+    let peak = [worst.peak.value, worst.peak.error].map(|one| units.length(one));
+    Some((peak, worst.motion.rest().is_some()))
 }
 
 /// The absorber in another structure.
@@ -280,25 +281,17 @@ fn absorber(
     on: &dyn Executor,
 ) -> Result<Option<[f64; 2]>, DrivenError> {
     let units = case.units();
-    let Some(transient) = case.design.transient() else {
-        let periods = effort.periods.min(PERIODS);
-        let effort = Effort { band: BAND, periods, patience: 0.0, ..*effort };
+    if case.design.transient().is_none() {
+        let effort = Effort { band: BAND, ..effort.short() };
         let found = along(&case.range(), &[], None, Some(&effort), on)?;
         let worst = Worst::of(&found, case.count_inactive);
         return Ok(worst.map(|one| [one.peak.value, one.peak.error].map(|one| units.length(one))));
-    };
-    let records = case.recording.as_ref().map(|one| one.records()).unwrap_or_default();
+    }
     let even = case.absorber_places().unwrap_or_default();
-    let even = if records.is_empty() { even } else { even.min(PLACES_OF_RECORD) };
-    let brief = Brief {
-        transient,
-        records: &records,
-        decay_level: case.decay_level,
-        count_inactive: case.count_inactive,
-        theory: false,
-    };
-    let places = Places { even, closer: records.is_empty(), executor: on };
-    let study = Study::brief(&case.system(), &units, &brief, places)?;
+    let even = if case.recording.is_some() { even.min(PLACES_OF_RECORD) } else { even };
+    let places = Places { even, closer: case.recording.is_none(), executor: on };
+    let Some(study) = Study::brief_of_case(case, places) else { return Ok(None) };
+    let study = study?;
     let found = study.quantity(&units, measure, Device::Absorber);
     Ok(found.map(|found| [found.value, found.error]))
 }

@@ -197,19 +197,7 @@ impl Answer {
         });
         let theory = (asked == Asked::Analysis).then(|| Theory::of(&system)).transpose()?;
         let motions = found;
-        let (answers, transient, alternatives) = (None, None, None);
-        let mut answer = Self {
-            effort,
-            motions,
-            survey,
-            judged,
-            theory,
-            study,
-            answers,
-            transient,
-            alternatives,
-            holds_for: Vec::new(),
-        };
+        let mut answer = Self { motions, survey, judged, theory, study, ..Self::nothing(effort) };
         if let Some(plan) = plan {
             let found = answer.motions.as_ref().filter(|_| plan.needs_simulation());
             let doubts = match answer.main(case, &mut Measured::log())? {
@@ -219,6 +207,22 @@ impl Answer {
             answer.answers = Some(plan.answers(found.map(|found| (found, doubts)))?);
         }
         Ok(answer)
+    }
+
+    /// Of which nothing is known yet.
+    const fn nothing(effort: Effort) -> Self {
+        Self {
+            effort,
+            motions: None,
+            survey: None,
+            judged: Vec::new(),
+            theory: None,
+            study: None,
+            answers: None,
+            transient: None,
+            alternatives: None,
+            holds_for: Vec::new(),
+        }
     }
 
     /// That of a case which is not driven steadily; an analysis is of theory alone.
@@ -235,20 +239,7 @@ impl Answer {
         let found = found.ok_or(StudyError::NotSteady(case.design.scene().words()))?;
         let judges = matches!(asked, Asked::Criteria | Asked::Decision | Asked::Report);
         let judged = if judges { criteria::judge_transient(case, &found) } else { Vec::new() };
-        let (motions, survey, theory, study, answers) = (None, None, None, None, None);
-        let (transient, alternatives) = (Some(found), None);
-        Ok(Self {
-            effort,
-            motions,
-            survey,
-            judged,
-            theory,
-            study,
-            answers,
-            transient,
-            alternatives,
-            holds_for: Vec::new(),
-        })
+        Ok(Self { judged, transient: Some(found), ..Self::nothing(effort) })
     }
 
     /// The main motion measured in full, its impacts kept in `log`; none where nothing was simulated.

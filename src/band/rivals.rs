@@ -22,6 +22,13 @@ impl Rivals {
         let damper = dampers::for_band(&along);
         Self { bare: along.largest(bare_amplitude), damper, damped: along.damped(damper) }
     }
+
+    /// What the damper comes to along the same band where the structure's natural frequency is `factor` times as high, and
+    /// nobody told it; none where there is no such structure.
+    pub fn damped_off(&self, band: &Band, factor: f64) -> Option<Damped> {
+        let band = band.with_structure_detuned(factor)?;
+        Some(self.damper.on_detuned(factor).along(&band))
+    }
 }
 
 #[cfg(test)]

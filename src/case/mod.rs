@@ -28,9 +28,12 @@ mod restitution;
 mod rewrite;
 mod schema;
 mod settings;
+mod starting;
+
 mod sweep;
 mod uncertainty;
 mod value;
+mod variant;
 mod warnings;
 
 use schemars::JsonSchema;
@@ -53,6 +56,7 @@ pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use settings::{
     AccuracySettings, AlternativesSettings, ExtraFigure, ReportSettings, SimulationSettings,
 };
+pub use starting::excitation_kinds;
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
@@ -60,7 +64,7 @@ use crate::digest::sha256;
 use crate::excitation::Scene;
 use crate::motions::{BandEffort, Effort};
 use crate::quantity::Units;
-use crate::system::{Band, Excitation, Parameter, System};
+use crate::system::{Band, System};
 use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.
@@ -202,13 +206,6 @@ fn one_design() -> Value {
 /// Tables that are about steady vibration alone.
 const STEADY_TABLES: [&str; 4] = ["accuracy", "band", "report", "uncertainty"];
 
-const STARTING_CASE: &str = include_str!("starting_case.toml");
-
-/// The kinds of excitation that a case may begin with; the first is what it has unless asked.
-pub fn excitation_kinds() -> impl Iterator<Item = &'static str> {
-    excitation::KINDS.iter().map(excitation::KindRow::name)
-}
-
 impl Case {
     /// Reads a case from its text; `name`, usually the file's path, is for messages only.
     ///
@@ -270,60 +267,6 @@ impl Case {
         self.system
     }
 
-    /// The same with another design, of which nothing is written; none where it leaves no system.
-    pub(crate) fn with_design(&self, design: Design) -> Option<Self> {
-        let system = design.system().ok()?;
-        Some(Self { design, system, ..self.clone() })
-    }
-
-    /// The same with another value of a parameter, and its band where it is, in the case's own unit; none where it leaves
-    /// nothing that could happen.
-    pub(crate) fn varied(&self, parameter: Parameter, value: f64) -> Option<Self> {
-        let design = self.design.with(parameter, value);
-        design.possible_system()?;
-        let frequency = |design: &Design| design.units().natural_frequency;
-        let ratio = frequency(&self.design) / frequency(&design);
-        Some(self.with_design(design)?.with_band_scaled(ratio))
-    }
-
-    /// The same of a structure with so many times the natural frequency, by its stiffness: mass and damping constant stay.
-    /// None where there is none, as of a reduced case that is not driven steadily, whose time is that of its structure.
-    pub(crate) fn with_natural_frequency(&self, factor: f64) -> Option<Self> {
-        let mut design = self.design;
-        match &mut design {
-            Design::Physical(of) => {
-                let stiffness = factor * factor * of.stiffness_n_per_m;
-                return self.varied(Parameter::Stiffness, stiffness);
-            }
-            Design::Reduced(of) if of.transient.is_none() => {
-                of.frequency_ratio = Some(of.frequency_ratio() / factor);
-                of.detuning = None;
-                of.damping /= factor;
-                of.cavity = of.cavity.with_clearance_scaled(factor * factor);
-                if of.excitation == Excitation::Force {
-                    of.forcing /= factor * factor;
-                }
-            }
-            Design::Reduced(_) => return None,
-        }
-        Some(self.with_design(design)?.with_band_scaled(1.0 / factor))
-    }
-
-    /// Whether its cavity is level and its ends are alike: mirrored it is the same.
-    pub(crate) fn has_ideal_walls(&self) -> bool {
-        let cavity = self.system.cavity();
-        cavity.gravity_along == 0.0 && cavity.restitution_difference == 0.0
-    }
-
-    fn with_band_scaled(mut self, ratio: f64) -> Self {
-        let band = self.band.as_mut().filter(|band| band.over == BandOver::Frequency);
-        if let Some(band) = band {
-            band.range = band.range.map(|end| ratio * end);
-            band.spectrum.iter_mut().for_each(|corner| corner[0] *= ratio);
-        }
-        self
-    }
-
     /// What turns the system's results back into the case's units.
     pub fn units(&self) -> Units {
         self.design.units()
@@ -334,28 +277,6 @@ impl Case {
         let records = self.recording.as_ref().map_or(1, Recording::count);
         let usual = self.design.transient()?.places(records);
         Some(self.simulation.starts.unwrap_or(usual.into()))
-    }
-
-    /// The text of a commented case to start from, with the given title.
-    pub fn starting_text(title: &str) -> String {
-        Self::starting_text_of(title, excitation::KINDS[0].name())
-    }
-
-    /// The same with another kind of excitation, one of [`excitation_kinds`]; the other kinds are comments.
-    pub fn starting_text_of(title: &str, kind: &str) -> String {
-        let (own, others): (Vec<_>, _) =
-            excitation::KINDS.iter().partition(|row| row.name() == kind);
-        let lines =
-            |row: &&excitation::KindRow| format!("kind = \"{}\"\n{}", row.name(), row.lines);
-        let commented = |row: &&excitation::KindRow| {
-            lines(row).lines().map(|line| format!("# {line}\n")).collect::<String>()
-        };
-        let own: String = own.iter().map(lines).collect();
-        let others: Vec<String> = others.iter().map(commented).collect();
-        let quoted = toml::Value::from(title).to_string();
-        let text = STARTING_CASE.replacen("EXCITATION\n", &own, 1);
-        let text = text.replacen("OTHER_KINDS\n", &others.join("#\n"), 1);
-        text.replacen("\"TITLE\"", &quoted, 1)
     }
 }
 

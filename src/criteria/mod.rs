@@ -17,6 +17,21 @@ use crate::transient::Study;
 
 use scope::Scope;
 
+/// What a criterion came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// It is met, with its error.
+    Holds,
+    /// What was found meets or misses it by less than its error.
+    TooCloseToCall,
+    /// A motion that could decide otherwise was still settling.
+    NotDecided,
+    /// It is missed by what was found.
+    Fails,
+    /// Nothing could be measured.
+    NotMeasured,
+}
+
 /// Distance from a count that still is that count: as regimes are told apart.
 const SAME_COUNT: f64 = 0.01;
 
@@ -147,6 +162,17 @@ impl Criterion {
 }
 
 impl Judged {
+    /// What it came to: it may be so close to its limit that its error could turn it.
+    pub const fn outcome(&self) -> Outcome {
+        match (self.holds, self.near_limit) {
+            (None, _) => Outcome::NotMeasured,
+            _ if self.undecided.is_some() => Outcome::NotDecided,
+            (_, true) => Outcome::TooCloseToCall,
+            (Some(true), _) => Outcome::Holds,
+            (Some(false), _) => Outcome::Fails,
+        }
+    }
+
     /// The same of a value under so many records, whose error may mean something else.
     fn under(self, records: usize) -> Self {
         let open = |room| self.criterion.is_open(room, self.error, records);

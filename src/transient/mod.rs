@@ -92,6 +92,24 @@ impl Study {
         })
     }
 
+    /// The same of a case, without theory; places closer to the worst are those of one condition alone. None for a case that
+    /// is driven steadily.
+    ///
+    /// # Errors
+    /// As [`Self::of_case`].
+    pub fn brief_of_case(case: &Case, places: Places<'_>) -> Option<Result<Self, DrivenError>> {
+        let records = case.recording.as_ref().map(|one| one.records()).unwrap_or_default();
+        let of = Brief {
+            transient: case.design.transient()?,
+            records: &records,
+            decay_level: case.decay_level,
+            count_inactive: case.count_inactive,
+            theory: false,
+        };
+        let places = Places { closer: places.closer && records.len() < 2, ..places };
+        Some(Self::brief(&case.system(), &case.units(), &of, places))
+    }
+
     /// What theory alone says of a case that is released; none for another.
     pub fn by_theory(case: &Case) -> Option<Self> {
         DecayStudy::by_theory(case).map(|study| Self::Release(Box::new(study)))

@@ -98,6 +98,14 @@ impl Default for Effort {
 }
 
 impl Effort {
+    /// The same with short windows and no patience with what has not settled then: what is found stays, errors of irregular
+    /// motions are larger.
+    #[must_use]
+    pub fn short(&self) -> Self {
+        const PERIODS: u64 = 300;
+        Self { periods: self.periods.min(PERIODS), patience: 0.0, ..*self }
+    }
+
     /// Windows of so many periods, all else as usual.
     pub fn over(periods: u64) -> Self {
         Self { periods, ..Self::default() }

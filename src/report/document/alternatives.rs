@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::scale::Scale;
 use crate::alternatives::{Alternatives, Room, Row};
 use crate::answer::Answer;
 use crate::case::Case;
@@ -98,6 +99,7 @@ fn alternatives(case: &Case, found: &Alternatives) -> Value {
     let wins_from = drifts.get(lost.map_or(0, |last| last + 1));
     json!({
         "measure": if found.measure == Measure::DecayTime { "decay-time" } else if found.measure == Measure::Rms { "rms" } else { "peak" },
+        "inactive": found.inactive,
         "rows": found.rows.iter().map(|row| told(case, found, row)).collect::<Vec<_>>(),
         "drifts": drifts.iter().skip(1).map(|one| drift(*one)).collect::<Vec<_>>(),
         "table": table(case, found, &drifts),
@@ -151,6 +153,7 @@ fn table(case: &Case, found: &Alternatives, drifts: &[f64]) -> Vec<Value> {
             keys.push(key(row));
         }
     }
+    let scale = Scale::of(case);
     let of_key = |one| {
         let rows: Vec<&Row> = found.rows.iter().filter(|row| key(row) == one).collect();
         let first = rows[0];
@@ -167,13 +170,7 @@ fn table(case: &Case, found: &Alternatives, drifts: &[f64]) -> Vec<Value> {
             "given_damping": first.given_damping,
             "changed": first.changed,
             "stroke": stroke,
-            "frequency": first.damper.map(|one| match case.units().physical {
-                true => {
-                    let hertz = case.units().frequency(one.tuning);
-                    Quantity::new(&of::DAMPER_FREQUENCY, hertz, ClosedForm)
-                }
-                false => Quantity::new(&of::DAMPER_FREQUENCY_RATIO, one.tuning, ClosedForm),
-            }),
+            "frequency": first.damper.map(|one| scale.damper_frequency(one.tuning)),
             "damping_ratio": first.damper.map(|one| {
                 Quantity::new(&of::DAMPER_DAMPING_RATIO, one.damping_ratio, ClosedForm)
             }),

@@ -55,14 +55,8 @@ pub(in crate::report) fn damper(
     let Rivals { damper, damped, .. } = rivals;
     let reach = |worst: &Worst| worst.peak.value + worst.peak.error;
     let worst = along.and_then(|one| one.worst);
-    let frequency = match scale.frequency(damper.tuning, ClosedForm) {
-        hertz if hertz.kind == &of::EXCITATION_FREQUENCY => {
-            Quantity { kind: &of::DAMPER_FREQUENCY, ..hertz }
-        }
-        ratio => Quantity { kind: &of::DAMPER_FREQUENCY_RATIO, ..ratio },
-    };
     json!({
-        "frequency": frequency,
+        "frequency": scale.damper_frequency(damper.tuning),
         "damping_ratio": Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, ClosedForm),
         "peak": length(&of::DAMPER_PEAK, damped.amplitude),
         "at": along.map(|one| scale.place(one.over, damped.at)),

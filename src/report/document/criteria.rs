@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::scale::Scale;
 use super::word::Word;
 use crate::case::{Case, Criterion, Relation};
-use crate::criteria::Judged;
+use crate::criteria::{Judged, Outcome};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::Motions;
@@ -24,14 +24,14 @@ pub fn badge(judged: &[Judged]) -> Option<Word> {
     }
 }
 
-/// What one criterion came to: it may be so close to its limit that its error could turn it.
+/// The word of what one criterion came to.
 fn outcome(judged: &Judged) -> &'static str {
-    match (judged.holds, judged.near_limit) {
-        (None, _) => "not-measured",
-        _ if judged.undecided.is_some() => "not-decided",
-        (_, true) => "too-close-to-call",
-        (Some(true), _) => "holds",
-        (Some(false), _) => "fails",
+    match judged.outcome() {
+        Outcome::NotMeasured => "not-measured",
+        Outcome::NotDecided => "not-decided",
+        Outcome::TooCloseToCall => "too-close-to-call",
+        Outcome::Holds => "holds",
+        Outcome::Fails => "fails",
     }
 }
 

@@ -66,6 +66,16 @@ impl Scale {
         self.units.quantity(self.frequency, ratio, method)
     }
 
+    /// The frequency of a tuned mass damper, by its tuning.
+    pub fn damper_frequency(&self, tuning: f64) -> Quantity {
+        let found = self.frequency(tuning, Method::ClosedForm);
+        let kind = match self.units.physical {
+            true => &of::DAMPER_FREQUENCY,
+            false => &of::DAMPER_FREQUENCY_RATIO,
+        };
+        Quantity { kind, ..found }
+    }
+
     /// An excitation amplitude over the case's.
     pub fn amplitude(&self, over_own: f64, method: Method) -> Quantity {
         Quantity::new(self.excitation.0, over_own * self.excitation.1, method)

@@ -42,6 +42,16 @@ pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
         robust
     });
     let along = AbsorberAlong { over: over(task), worst: best.worst.as_ref() };
+    let (scale, rivals) = (Scale::of(&best.written.case), best.survey.rivals());
+    let mut beside = damper(&scale, rivals, Some(&along));
+    // Where the structure's frequency is off by the least drift that the case names, either way.
+    let drift = case.alternatives.drift.first().copied().unwrap_or_default();
+    let off = |factor: f64| {
+        let damped = rivals.damped_off(best.survey.band(), factor)?;
+        let peak = |value| scale.units.quantity(&catalogue::DAMPER_PEAK, value, Method::ClosedForm);
+        Some(json!({ "change": factor - 1.0, "peak": peak(damped.amplitude) }))
+    };
+    beside["detuned"] = [1.0 - drift, 1.0 + drift].into_iter().filter_map(off).collect();
     let mut page = json!({
         "format": "vinesink/optimization@3",
         "title": case.title,
@@ -76,7 +86,7 @@ pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
         "plateau": found.plateau,
         "bare": best.survey.bare().1 * best.choice.clearance(),
         // The one of the absorber's mass that is best along the band.
-        "tuned_mass_damper": damper(&Scale::of(&best.written.case), best.survey.rivals(), Some(&along)),
+        "tuned_mass_damper": beside,
         // Pairs of clearance and objective by the cheap layer.
         "landscape": found.landscape,
         // Every absorber that was judged.

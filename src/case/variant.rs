@@ -1,0 +1,60 @@
+//! A case with another number, of which nothing is written.
+
+use super::{BandOver, Case, Design};
+use crate::system::{Excitation, Parameter};
+
+impl Case {
+    /// The same with another design, of which nothing is written; none where it leaves no system.
+    pub(crate) fn with_design(&self, design: Design) -> Option<Self> {
+        let system = design.system().ok()?;
+        Some(Self { design, system, ..self.clone() })
+    }
+
+    /// The same with another value of a parameter: its band of frequencies stays where it is in hertz, and amplitudes along
+    /// it keep their ratio to the case's own. None where it leaves nothing that could happen.
+    pub(crate) fn varied(&self, parameter: Parameter, value: f64) -> Option<Self> {
+        let design = self.design.with(parameter, value);
+        design.possible_system()?;
+        let frequency = |design: &Design| design.units().natural_frequency;
+        let ratio = frequency(&self.design) / frequency(&design);
+        Some(self.with_design(design)?.with_band_scaled(ratio))
+    }
+
+    /// The same of a structure with so many times the natural frequency, by its stiffness: mass and damping constant stay.
+    /// None where there is none, as of a reduced case that is not driven steadily, whose time is that of its structure.
+    pub(crate) fn with_natural_frequency(&self, factor: f64) -> Option<Self> {
+        let mut design = self.design;
+        match &mut design {
+            Design::Physical(of) => {
+                let stiffness = factor * factor * of.stiffness_n_per_m;
+                return self.varied(Parameter::Stiffness, stiffness);
+            }
+            Design::Reduced(of) if of.transient.is_none() => {
+                of.frequency_ratio = Some(of.frequency_ratio() / factor);
+                of.detuning = None;
+                of.damping /= factor;
+                of.cavity = of.cavity.with_clearance_scaled(factor * factor);
+                if of.excitation == Excitation::Force {
+                    of.forcing /= factor * factor;
+                }
+            }
+            Design::Reduced(_) => return None,
+        }
+        Some(self.with_design(design)?.with_band_scaled(1.0 / factor))
+    }
+
+    /// Whether its cavity is level and its ends are alike: mirrored it is the same.
+    pub(crate) fn has_ideal_walls(&self) -> bool {
+        let cavity = self.system.cavity();
+        cavity.gravity_along == 0.0 && cavity.restitution_difference == 0.0
+    }
+
+    fn with_band_scaled(mut self, ratio: f64) -> Self {
+        let band = self.band.as_mut().filter(|band| band.over == BandOver::Frequency);
+        if let Some(band) = band {
+            band.range = band.range.map(|end| ratio * end);
+            band.spectrum.iter_mut().for_each(|corner| corner[0] *= ratio);
+        }
+        self
+    }
+}
