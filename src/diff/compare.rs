@@ -33,14 +33,17 @@ fn explains(path: &str, key: &str) -> bool {
 }
 
 /// What names an element of a list, by the list's key; elements of others are numbered.
-const NATURAL_KEYS: [(&str, &[&str]); 8] = [
+const NATURAL_KEYS: [(&str, &[&str]); 11] = [
+    ("alternatives", &["which", "drift"]),
     ("answers", &["question"]),
     ("boundaries", &["kind", "branch"]),
     ("claims", &["id"]),
     ("doubts", &["kind"]),
     ("figures", &["name"]),
+    ("holds_for", &["parameter"]),
     ("motions", &["regime"]),
     ("notes", &["kind", "limit", "message"]),
+    ("ranges", &["parameter"]),
     ("rows", &["deviation"]),
 ];
 
@@ -343,8 +346,15 @@ fn named<'v>(list: &str, items: &'v [Value]) -> BTreeMap<String, &'v Value> {
     let mut named = BTreeMap::new();
     for (index, item) in items.iter().enumerate() {
         let words = natural.map(|(_, keys)| {
-            let words = keys.iter().filter_map(|key| item[*key].as_str());
-            words.map(without_numbers).collect::<Vec<_>>().join(" ")
+            let words = keys.iter().filter_map(|key| match &item[*key] {
+                Value::String(text) => Some(without_numbers(text)),
+                // The only number that names an element is a share.
+                other => {
+                    let percent = other.as_f64().map(|share| (1e5 * share).round() / 1e3);
+                    percent.filter(|it| *it != 0.0).map(|it| format!("±{it} %"))
+                }
+            });
+            words.collect::<Vec<_>>().join(" ")
         });
         let name = words.unwrap_or_else(|| (index + 1).to_string());
         let later = (2..).map(|count| format!("{name} {count}"));

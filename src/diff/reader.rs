@@ -4,15 +4,21 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
+use super::moved::kind;
 use super::{Change, ReportDifference};
 use crate::quantity::Kind;
+use crate::quantity::catalogue::Dimension;
 
 /// Quantities that a reviewer looks at first, by path, the most important first.
-const HEADLINES: [&str; 18] = [
+const HEADLINES: [&str; 23] = [
     "band/worst/peak",
+    "quantities/decay_time",
+    "quantities/active_decay_time",
     "quantities/peak_displacement",
     "quantities/change_db",
     "quantities/rms_displacement",
+    "ranges/from",
+    "ranges/to",
     "quantities/impacts_per_period",
     "quantities/impact_speed",
     "band/bare/peak",
@@ -21,6 +27,7 @@ const HEADLINES: [&str; 18] = [
     "band/z3_share",
     "quantities/bare_peak",
     "quantities/damper_peak",
+    "alternatives/worst",
     "theory/orbits/peak",
     "theory/orbits/impact_speed",
     "theory/orbits/multiplier",
@@ -30,7 +37,8 @@ const HEADLINES: [&str; 18] = [
 ];
 
 /// The same of what has no size. Those before [`FURTHER_STATES`] are told before the fold.
-const STATES: [&str; 7] = [
+const STATES: [&str; 8] = [
+    "choice/winner",
     "main",
     "theory/area",
     "theory/strip",
@@ -40,12 +48,14 @@ const STATES: [&str; 7] = [
     "theory/fixed_points",
 ];
 /// See [`STATES`].
-const FURTHER_STATES: usize = 4;
+const FURTHER_STATES: usize = 5;
 
 /// What a reader calls the keys of a document; others are called as they are.
-const WORDS: [(&str, &str); 12] = [
+const WORDS: [(&str, &str); 16] = [
+    ("alternatives", ""),
     ("answers", "answer"),
     ("boundaries", "boundary"),
+    ("choice", ""),
     ("claims", "claim"),
     ("deviations", "deviation"),
     ("fixed_points", "fixed point"),
@@ -53,9 +63,11 @@ const WORDS: [(&str, &str); 12] = [
     ("motions", "motion"),
     ("orbits", "exact orbit"),
     ("quantities", ""),
+    ("ranges", "range of"),
     ("rows", ""),
     ("stretches", "stable range"),
     ("theory", ""),
+    ("winner", "better device"),
 ];
 
 /// The most important first; a number that stands in several places is told once.
@@ -67,7 +79,12 @@ pub(super) fn sorted(mut found: ReportDifference) -> ReportDifference {
         };
         order.iter().position(inside).unwrap_or(order.len())
     };
-    found.numbers.sort_by_key(|one| rank(&HEADLINES, &one.path));
+    // What no headline names: theory explains, and its phases come last.
+    let is_phase =
+        |one: &Change| kind(&one.new).is_some_and(|kind| kind.dimension == Dimension::Angle);
+    found.numbers.sort_by_key(|one| {
+        (rank(&HEADLINES, &one.path), one.path.starts_with("theory/"), is_phase(one))
+    });
     found.states.sort_by_key(|one| rank(&STATES, &one.path));
     let numbers = |old: &Value, new: &Value| {
         [&new["id"], &old["value"], &new["value"]].map(ToString::to_string)

@@ -53,7 +53,7 @@ impl Checked {
         let ranges = document.as_object_mut().and_then(|of| of.remove("ranges"));
         let page = json!({
             "path": path, "case": name, "warnings": warnings, "criteria": criteria(case, judged),
-            "outside": outside, "choice": choice, "ranges": ranges,
+            "outside": outside, "choice": choice, "alternatives": document["alternatives"], "ranges": ranges,
         });
         Self { document, page, units }
     }

@@ -412,6 +412,38 @@ fn criteria_that_flip_come_first() {
 
 /// The table says what the reports say of the same criteria, and where that would be the same twice, it
 /// has more digits.
+/// What decides whether the absorber is taken stands before what explains it: worst values, who wins, how far the promise
+/// holds; a phase is last.
+#[test]
+fn what_decides_is_read_before_what_explains() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let reports = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports");
+    for side in ["old", "new"] {
+        copy(&reports.join("mast-mode-2"), &folder.path().join(side).join("mast-mode-2"));
+    }
+    for pointer in [
+        "/theory/fixed_points/0/eta/value",
+        "/theory/fixed_points/0/oscillator_amplitude/value",
+        "/ranges/0/to/value",
+        "/alternatives/9/worst/value",
+        "/band/worst/peak/value",
+    ] {
+        edit(&folder, "mast-mode-2", pointer, scaled(1.5));
+    }
+    edit(&folder, "mast-mode-2", "/choice/winner", |winner| *winner = json!("absorber"));
+    let comment = diff(folder.path(), &["old", "new"], 1);
+    let at = |wanted: &str| comment.find(wanted).unwrap_or_else(|| panic!("{wanted}\n{comment}"));
+    let order = [
+        "| Better device | damper | absorber |",
+        "| Band worst: peak displacement |",
+        "| Range of amplitude to: amplitude of the force | 15.74 N | 23.61 N |",
+        "| Damper ±5 % worst: peak displacement with a tuned mass damper |",
+        "| Fixed point 1: amplitude of the oscillator |",
+        "| Fixed point 1: phase of the oscillator |",
+    ];
+    assert!(order.map(at).is_sorted(), "{comment}");
+}
+
 #[test]
 fn criteria_are_called_as_in_the_report() {
     let folder = two_trees(&[STEADY]);
