@@ -5,6 +5,8 @@
 //! looks at each, an end is narrowed down between the last step at which nothing fails and the next, and places at which
 //! an error could turn a criterion are told as not decided.
 
+mod reliability;
+
 use serde::Serialize;
 
 use crate::band::Survey;
@@ -16,6 +18,8 @@ use crate::flights::{DrivenError, Places};
 use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
 use crate::transient::Study;
+
+pub use reliability::Reliability;
 
 /// What all criteria together come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -321,6 +325,8 @@ impl Side<'_> {
 enum Looked {
     /// With fewer starts and places.
     OnTheWay,
+    /// The same with windows as long as those of `check`: in short ones what has not settled may fail.
+    Longer,
     /// With those of `check`.
     InFull,
 }
@@ -335,6 +341,7 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
         let effort = match how {
             Looked::InFull => short,
             Looked::OnTheWay => Effort { starts: effort.starts.min(STARTS), band: BAND, ..short },
+            Looked::Longer => Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort },
         };
         settings.effort = settings.effort.map(|_| effort);
         let survey = Survey::of(&case.range(), &settings, None, on)?;
