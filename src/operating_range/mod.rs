@@ -87,14 +87,15 @@ pub enum Varied {
 
 /// Steps outwards, as factors.
 const FACTORS: [f64; 13] = [1.02, 1.05, 1.1, 1.15, 1.22, 1.3, 1.4, 1.55, 1.75, 2.0, 2.4, 3.0, 4.0];
+/// The same of what decides less: the structure's damping and mass.
+const COARSE: [f64; 7] = [1.05, 1.12, 1.22, 1.4, 1.75, 2.4, 4.0];
 /// The same of the natural frequency, which a resonance makes narrow.
 const OF_FREQUENCY: [f64; 9] = [1.005, 1.01, 1.02, 1.035, 1.055, 1.08, 1.12, 1.18, 1.25];
-/// Steps that are added: of a restitution, of an inclination in rad (0.1 to 20 degrees), of gravity along a reduced cavity
+/// Steps that are added: of a restitution, of an inclination in rad (0.1 to 10 degrees), of gravity along a reduced cavity
 /// and of friction.
 const OF_RESTITUTION: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6];
-const OF_INCLINATION: [f64; 8] =
-    [0.001_745, 0.003_491, 0.008_727, 0.017_453, 0.034_907, 0.087_266, 0.174_533, 0.349_066];
-const OF_FRICTION: [f64; 8] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2];
+const OF_INCLINATION: [f64; 5] = [0.001_745, 0.005_236, 0.017_453, 0.052_36, 0.174_533];
+const OF_FRICTION: [f64; 5] = [0.002, 0.005, 0.02, 0.05, 0.2];
 /// How often an end is halved: to an eighth of its step.
 const HALVINGS: u32 = 3;
 /// How thoroughly a band is looked at on the way, and starts of a place.
@@ -163,6 +164,7 @@ impl Varied {
                 all
             }
             Self::NaturalFrequency => times(&OF_FREQUENCY),
+            Self::Damping | Self::Mass => times(&COARSE),
             _ => times(&FACTORS),
         }
     }
