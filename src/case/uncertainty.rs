@@ -125,13 +125,20 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
         return Uncertainty::default();
     };
     for parameter in Parameter::ALL.into_iter().filter(|one| table.has(one.key())) {
-        let Some(other) = design.counterpart(parameter) else { continue };
+        let (this, help) = match (design.counterpart(parameter), design.carried(parameter)) {
+            (Some(other), _) => {
+                let help = format!("write {} instead, or remove the line", other.key());
+                (design.writing().words, help)
+            }
+            (None, Some(carried)) => (carried, "remove the line".to_owned()),
+            (None, None) => continue,
+        };
         let key = parameter.key();
         reader.report(
             table.span_of(key),
-            format!("{} has no `{key}` that could be uncertain", design.writing().words),
+            format!("{this} has no `{key}` that could be uncertain"),
             "expected a number that the design has",
-            format!("write {} instead, or remove the line", other.key()),
+            help,
         );
     }
     if read.amplitude.is_some() && design.forcing() == 0.0 {
