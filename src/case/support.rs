@@ -96,7 +96,7 @@ impl Physical {
 /// Shares of gravity along a cavity of an inclination and across it.
 fn shares(inclination_rad: f64) -> [f64; 2] {
     // The cosine of a rounded quarter turn is not 0, and yet nothing presses the absorber on an upright track.
-    let across = Some(cos(inclination_rad)).filter(|share| *share > f64::EPSILON);
+    let across = Some(cos(inclination_rad).abs()).filter(|share| *share > f64::EPSILON);
     [sin(inclination_rad), across.unwrap_or_default()]
 }
 
