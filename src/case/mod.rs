@@ -205,7 +205,7 @@ fn one_design() -> Value {
 }
 
 /// Tables that are about steady vibration alone.
-const STEADY_TABLES: [&str; 4] = ["accuracy", "band", "report", "uncertainty"];
+const STEADY_TABLES: [&str; 3] = ["accuracy", "band", "report"];
 
 impl Case {
     /// Reads a case from its text; `name`, usually the file's path, is for messages only.

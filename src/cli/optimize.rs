@@ -85,11 +85,17 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     if let Some(new) = &arguments.write {
         store::must_be_new(new)?;
     }
-    if arguments.robust && !case.uncertainty.is_any() {
+    let steady = case.design.scene() == Scene::Steady;
+    if arguments.robust && !(steady && case.uncertainty.is_any()) {
         return Err(miette!(
-            help = "add a table [uncertainty], or leave out --robust",
-            "nothing in {} is uncertain, so that there is no robust optimum",
-            path.display()
+            help = match steady {
+                true => "add a table [uncertainty], or leave out --robust",
+                false =>
+                    "leave out --robust; what a release may be off by is `releases` in [optimize]",
+            },
+            "{}: {}, so that there is no robust optimum",
+            path.display(),
+            if steady { "nothing is uncertain" } else { "the case is not driven steadily" }
         ));
     }
     let given =

@@ -780,7 +780,7 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
     let case = parsed(&others.join("\n"));
     // Of a structure that is driven steadily all but `decay_time`.
     assert_eq!(case.criteria.len(), 10);
-    assert_eq!(case.uncertainty.parameters().count(), 6);
+    assert_eq!(case.uncertainty.parameters().count(), 10);
     let cavity = parsed(&with_cavity).system().cavity();
     assert!(cavity.gravity_along > 0.0 && cavity.friction_acceleration > 0.0, "{cavity:?}");
     let band = case.band.expect("a band");

@@ -10,7 +10,7 @@ use crate::case::Case;
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method::{self, ClosedForm};
-use crate::operating_range::HoldsFor;
+use crate::operating_range::{HoldsFor, Reliability};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::system::Parameter;
@@ -57,7 +57,8 @@ impl Alternatives {
 /// the templates.
 pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     // As it was not asked for.
-    if answer.alternatives.is_none() && answer.holds_for.is_empty() {
+    let decided = answer.alternatives.is_some() || answer.reliability.is_some();
+    if !decided && answer.holds_for.is_empty() {
         return;
     }
     let found = answer.alternatives.as_ref();
@@ -68,6 +69,7 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     let (rows, ranges): (Vec<Value>, Vec<Value>) = ranges.unzip();
     document["holds_for"] = json!(rows);
     document["ranges"] = json!(ranges);
+    document["reliability"] = json!(answer.reliability.as_ref().map(|one| reliability(case, one)));
 }
 
 /// Which device wins where.
@@ -135,6 +137,27 @@ fn stroke(case: &Case, row: &Row) -> Option<Quantity> {
         Device::Absorber => Some(case.units().quantity(&of::CLEARANCE, 1.0, Method::Given)),
         _ => row.stroke.map(|stroke| Quantity::new(&of::DAMPER_STROKE, stroke, ClosedForm)),
     }
+}
+
+/// With which probability all criteria hold, and what makes most designs fail.
+fn reliability(case: &Case, found: &Reliability) -> Value {
+    let probability = |value| Quantity::new(&of::PROBABILITY, value, Method::Simulation);
+    let (share, interval) = found.probability();
+    let error = interval.map(|end| (end - share).abs()).into_iter().fold(0.0, f64::max);
+    let cause = |(parameter, times): &(Parameter, u32)| {
+        let value = case.design.value(*parameter).unwrap_or_default();
+        let value = Quantity::new(case.design.kind(*parameter), value, Method::Given);
+        json!({ "parameter": parameter.key(), "value": value, "failures": times })
+    };
+    json!({
+        "probability": probability(share).with_error(error),
+        "interval": interval.map(probability),
+        "samples": found.samples,
+        "hold": found.hold,
+        "undecided": found.undecided,
+        "examined": found.examined,
+        "causes": found.causes.iter().map(cause).collect::<Vec<_>>(),
+    })
 }
 
 /// How far the promise holds for a number: its row as CONTRACT.md has it, and quantities for a page.

@@ -5,6 +5,8 @@
 //! looks at each, an end is narrowed down between the last step at which nothing fails and the next, and places at which
 //! an error could turn a criterion are told as not decided.
 
+mod reliability;
+
 use serde::Serialize;
 
 use crate::band::Survey;
@@ -16,6 +18,8 @@ use crate::flights::{DrivenError, Places};
 use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
 use crate::transient::Study;
+
+pub use reliability::Reliability;
 
 /// What all criteria together come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,6 +58,8 @@ pub struct HoldsFor {
     pub open: [bool; 2],
     /// Places in it at which an error could turn a criterion: from one that is decided to the next.
     pub undecided: Vec<[f64; 2]>,
+    /// Places that were looked at, ascending, those beyond the ends too, and what the first criterion found there.
+    pub reached: Vec<[f64; 2]>,
 }
 
 /// What varies.
@@ -200,7 +206,7 @@ pub fn holds_for(
     let all: Vec<_> = Varied::ALL.into_iter().filter_map(of).collect();
     let side = |k: usize| {
         let (varied, parameter, value) = all[k / 2];
-        let side = Side { case, effort, varied, parameter, own: value };
+        let mut side = Side { case, effort, varied, parameter, own: value, reached: Vec::new() };
         let up = k % 2 == 1;
         // What is level and has ends alike does the mirrored thing at the mirrored inclination.
         let mirrored = varied == Varied::Inclination && !up && case.has_ideal_walls();
@@ -215,6 +221,10 @@ pub fn holds_for(
         let mut undecided: Vec<[f64; 2]> =
             below.undecided.into_iter().map(|[a, b]| [b, a]).chain(above.undecided).collect();
         undecided.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let here = judged.first().and_then(|first| first.found).map(|found| [value, found]);
+        let mut reached: Vec<[f64; 2]> =
+            below.reached.into_iter().chain(here).chain(above.reached).collect();
+        reached.sort_by(|a, b| a[0].total_cmp(&b[0]));
         undecided.dedup_by(|next, before| {
             let joins = next[0] <= before[1];
             if joins {
@@ -228,6 +238,7 @@ pub fn holds_for(
             range: [below.end, above.end],
             open: [below.open, above.open],
             undecided,
+            reached,
         });
     }
     Ok(found)
@@ -240,6 +251,8 @@ struct Side<'a> {
     varied: Varied,
     parameter: Parameter,
     own: f64,
+    /// See [`HoldsFor::reached`]; in the order in which they were looked at.
+    reached: Vec<[f64; 2]>,
 }
 
 /// What was found there.
@@ -248,18 +261,21 @@ struct Reach {
     open: bool,
     /// From a place that is decided, or the case's own, to the next, in the direction of the search.
     undecided: Vec<[f64; 2]>,
+    reached: Vec<[f64; 2]>,
 }
 
 impl Reach {
     fn mirrored(&self) -> Self {
         let undecided = self.undecided.iter().map(|ends| ends.map(|end| -end)).collect();
-        Self { end: -self.end, open: self.open, undecided }
+        let reached = self.reached.iter().map(|[at, found]| [-at, *found]).collect();
+        Self { end: -self.end, open: self.open, undecided, reached }
     }
 }
 
 impl Side<'_> {
-    fn search(&self, own: Together, up: bool) -> Result<Reach, DrivenError> {
-        let mut reach = Reach { end: self.own, open: true, undecided: Vec::new() };
+    fn search(&mut self, own: Together, up: bool) -> Result<Reach, DrivenError> {
+        let [undecided, reached] = [Vec::new(), Vec::new()];
+        let mut reach = Reach { end: self.own, open: true, undecided, reached };
         let mut looked = vec![(self.own, own)];
         for step in self.varied.steps(self.own, up) {
             let Some(outcome) = self.outcome(step, Looked::OnTheWay)? else { break };
@@ -304,15 +320,20 @@ impl Side<'_> {
                 reach.undecided.push([pair[0].0, pair[1].0]);
             }
         }
+        reach.reached = std::mem::take(&mut self.reached);
         Ok(reach)
     }
 
     /// What the criteria come to at a value; none where there is no such case.
-    fn outcome(&self, value: f64, how: Looked) -> Result<Option<Together>, DrivenError> {
+    fn outcome(&mut self, value: f64, how: Looked) -> Result<Option<Together>, DrivenError> {
         let Some(case) = self.varied.with(self.case, self.parameter, self.own, value) else {
             return Ok(None);
         };
-        judge(&case, self.effort, how).map(|judged| Some(Together::of(&judged)))
+        let judged = judge(&case, self.effort, how)?;
+        // A place that is looked at again is known better then.
+        self.reached.retain(|[at, _]| *at != value);
+        self.reached.extend(judged.first().and_then(|first| Some([value, first.found?])));
+        Ok(Some(Together::of(&judged)))
     }
 }
 
@@ -321,6 +342,8 @@ impl Side<'_> {
 enum Looked {
     /// With fewer starts and places.
     OnTheWay,
+    /// The same with windows as long as those of `check`: in short ones what has not settled may fail.
+    Longer,
     /// With those of `check`.
     InFull,
 }
@@ -335,6 +358,7 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
         let effort = match how {
             Looked::InFull => short,
             Looked::OnTheWay => Effort { starts: effort.starts.min(STARTS), band: BAND, ..short },
+            Looked::Longer => Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort },
         };
         settings.effort = settings.effort.map(|_| effort);
         let survey = Survey::of(&case.range(), &settings, None, on)?;
