@@ -29,7 +29,7 @@ mod rewrite;
 mod schema;
 mod settings;
 mod starting;
-
+mod support;
 mod sweep;
 mod uncertainty;
 mod value;
@@ -57,6 +57,7 @@ pub use settings::{
     AccuracySettings, AlternativesSettings, ExtraFigure, ReportSettings, SimulationSettings,
 };
 pub use starting::excitation_kinds;
+pub use support::{Orientation, Support, SupportKind};
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 

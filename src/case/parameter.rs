@@ -46,6 +46,7 @@ impl Design {
     fn is_of_system(&self, parameter: Parameter) -> bool {
         use Parameter as P;
         match (self.scene(), parameter) {
+            _ if self.carried(parameter).is_some() => false,
             (Scene::Steady, other) => other != P::Rate,
             (scene, P::Amplitude) => scene == Scene::Sweep,
             (_, P::Frequency | P::Detuning | P::Rate) => false,

@@ -153,9 +153,10 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
         let Some(parameter) = named.filter(|one| design.form(*one).is_none()) else { continue };
         let instead = design.counterpart(parameter).map(Parameter::key);
         let instead = instead.map(|key| format!("write {key} instead, or ")).unwrap_or_default();
+        let this = design.carried(parameter).unwrap_or(design.writing().words);
         reader.report(
             table.span_of(key),
-            format!("{} has no `{key}` that could be uncertain", design.writing().words),
+            format!("{this} has no `{key}` that could be uncertain"),
             "expected a number that the design has",
             format!("{instead}remove the line"),
         );

@@ -114,6 +114,9 @@ catalogue! {
     RESTITUTION_MINUS = "restitution_at_minus_b", "r₂", "restitution at the wall x − y = −b", Number, Significant(3), Interval;
     INCLINATION = "inclination", "α", "inclination of the cavity", Inclination, Significant(3), Interval;
     FRICTION = "friction", "μ", "friction in the cavity", Number, Significant(3), Interval;
+    SUPPORT_FREQUENCY = "support_frequency", "", "frequency of the absorber's support", Frequency, Significant(3), Interval;
+    SUPPORT_LENGTH = "support_length", "", "length of the pendulum, or stretch of the spring, that carries the absorber", Length, Significant(2), Interval;
+    SUPPORT_LEFT_OUT = "support_left_out", "", "restoring acceleration of the support over the structure's", Share, Significant(2), Interval;
     GRAVITY_ALONG = "gravity_along", "a", "gravity along the cavity over bω₀²", Number, Significant(3), Interval;
     FRICTION_ACCELERATION = "friction_acceleration", "", "friction in the cavity over m₂bω₀²", Number, Significant(3), Interval;
     BASE_AMPLITUDE = "base_amplitude", "F", "amplitude of the base", Length, Significant(4), Interval;

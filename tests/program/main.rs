@@ -39,6 +39,7 @@ mod report;
 mod review;
 mod run;
 mod sine_sweep;
+mod support;
 mod sweep;
 mod sweep_page;
 #[cfg(unix)]

@@ -70,6 +70,9 @@ pub fn answer(case: &Case, content: Content, fields: Value) -> Value {
     if let (Some(all), Value::Object(own)) = (document.as_object_mut(), fields) {
         all.extend(own);
     }
+    if let Some(support) = scale::support(case) {
+        document["support"] = support;
+    }
     document
 }
 
