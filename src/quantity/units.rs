@@ -54,7 +54,9 @@ impl Units {
             Dimension::Energy => self.energy(value),
             Dimension::Power => self.energy(value) * self.natural_frequency,
             Dimension::Impulse => self.oscillator_mass * self.velocity(value),
-            Dimension::OctaveRate
+            // Cases have it, pages do not.
+            Dimension::AccelerationDensity
+            | Dimension::OctaveRate
             | Dimension::Angle
             | Dimension::Inclination
             | Dimension::Share
