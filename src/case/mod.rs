@@ -234,6 +234,11 @@ impl Case {
         }
     }
 
+    /// Whether a criterion is of velocity or acceleration of the structure.
+    pub fn asks_for_shaking(&self) -> bool {
+        self.criteria.iter().any(|one| one.measure.is_of_shaking())
+    }
+
     /// How thoroughly its motions are searched: the same for every command.
     pub fn effort(&self) -> Effort {
         let SimulationSettings { periods, discard, starts } = self.simulation;
@@ -246,6 +251,7 @@ impl Case {
             periods: periods.unwrap_or(usual.periods),
             accuracy: self.accuracy.map(|asked| [asked.amplitude(), asked.impacts_per_period()]),
             band: BandEffort { tolerance, ..usual.band },
+            shaking: self.asks_for_shaking(),
             ..usual
         }
     }

@@ -1,6 +1,6 @@
 //! Where along a band a 1:1 motion attracts, as roots, and where its numbers are extreme there.
 
-use super::{Motion, Value, one_to_one};
+use super::{Effort, Motion, Value, one_to_one};
 use crate::numerics::scan::{largest, sign_changes};
 use crate::orbits::{Orbit, symmetric_orbits, two_impact_orbits};
 use crate::system::{Band, Stretch};
@@ -20,17 +20,43 @@ pub enum Fact {
     Rms,
     /// The impact speed.
     ImpactSpeed,
+    /// The peak velocity.
+    PeakVelocity,
+    /// The root mean square velocity.
+    RmsVelocity,
+    /// The peak acceleration between impacts.
+    PeakAcceleration,
+    /// The root mean square acceleration between impacts.
+    RmsAcceleration,
 }
 
 impl Fact {
-    /// Its value in a motion.
-    pub fn of(self, motion: &Motion) -> Value {
+    /// Its value in a motion; none of velocity or acceleration where they were not asked for.
+    pub fn of(self, motion: &Motion) -> Option<Value> {
         let facts = motion.facts();
-        match self {
+        Some(match self {
             Self::Peak => facts.peak,
             Self::Rms => facts.rms,
             Self::ImpactSpeed => facts.impact_speed,
+            Self::PeakVelocity => facts.shaking?.peak_velocity,
+            Self::RmsVelocity => facts.shaking?.rms_velocity,
+            Self::PeakAcceleration => facts.shaking?.peak_acceleration,
+            Self::RmsAcceleration => facts.shaking?.rms_acceleration,
+        })
+    }
+
+    /// By which power of its frequency a sine's number grows at one amplitude.
+    pub(super) const fn power_of_frequency(self) -> i32 {
+        match self {
+            Self::Peak | Self::Rms | Self::ImpactSpeed => 0,
+            Self::PeakVelocity | Self::RmsVelocity => 1,
+            Self::PeakAcceleration | Self::RmsAcceleration => 2,
         }
+    }
+
+    /// Whether it is one of [`Effort::shaking`].
+    pub const fn is_of_shaking(self) -> bool {
+        self.power_of_frequency() > 0
     }
 }
 
@@ -99,10 +125,12 @@ fn strength(band: &Band, at: f64) -> f64 {
 
 /// Where along a band a number of the attracting 1:1 motions is extreme; none where none attracts.
 pub(super) fn extreme_at(band: &Band, stability: &[Stretch<bool>], wanted: Extreme) -> Option<f64> {
+    let effort = Effort { shaking: wanted.of.is_of_shaking(), ..Effort::default() };
     let of = |at: f64| {
-        let motions = one_to_one(&band.system(at).ok()?);
+        let system = band.system(at).ok()?;
+        let motions = one_to_one(&system).into_iter().map(|one| one.shaken(&system, &effort));
         let sign = if wanted.least { -1.0 } else { 1.0 };
-        motions.iter().map(|one| sign * wanted.of.of(one).value).max_by(f64::total_cmp)
+        motions.filter_map(|one| Some(sign * wanted.of.of(&one)?.value)).max_by(f64::total_cmp)
     };
     let stretches = stability.iter().filter(|stretch| stretch.of);
     let each = stretches.filter_map(|stretch| {
