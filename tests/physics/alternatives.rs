@@ -2,12 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use vinesink::alternatives::{Alternatives, Room, Row};
+use vinesink::alternatives::{Alternatives, Row, Which};
 use vinesink::answer::{Answer, Asked, Decided};
 use vinesink::case::Case;
 use vinesink::executor::Serial;
 use vinesink::linear::TunedMassDamper;
-use vinesink::measure::Device;
 
 fn found(name: &str) -> (Case, Alternatives) {
     let text = std::fs::read_to_string(format!("cases/{name}.toml")).expect("a case");
@@ -143,14 +142,16 @@ fn dampers_along_a_band_are_those_of_runge_and_kutta() {
         }
         largest
     };
-    for (room, drift) in [(Room::AsDesigned, 0.0), (Room::Equal, 0.0), (Room::AsDesigned, 0.1)] {
-        let row = found.row(Device::Damper, room, drift).expect("a row");
+    for (which, drift) in
+        [(Which::Damper, 0.0), (Which::DamperInEqualRoom, 0.0), (Which::Damper, 0.1)]
+    {
+        let row = found.row(which, drift).expect("a row");
         let drifts = if drift == 0.0 { vec![0.0] } else { vec![-drift, drift] };
         let [peak, stroke] = worst(row, &drifts);
         close(peak, row.worst[0], 0.01, "peak");
         close(stroke, row.stroke.expect("a stroke"), 0.01, "stroke");
     }
-    let room = found.row(Device::Damper, Room::Equal, 0.0).expect("a row").stroke;
+    let room = found.row(Which::DamperInEqualRoom, 0.0).expect("a row").stroke;
     assert!(room.expect("a stroke") < 2.7e-3 * 1.002, "{room:?}");
 }
 
@@ -159,15 +160,17 @@ fn dampers_along_a_band_are_those_of_runge_and_kutta() {
 fn dampers_of_a_release_are_those_of_runge_and_kutta() {
     let (case, found) = found("arm-empty");
     let level = 0.1 * 0.12 / (TAU * 8.0);
-    for (room, stops) in
-        [(Room::AsDesigned, None), (Room::Equal, None), (Room::Stops, Some((2.1e-3, 0.5)))]
-    {
-        let row = found.row(Device::Damper, room, 0.0).expect("a row");
+    for (which, stops) in [
+        (Which::Damper, None),
+        (Which::DamperInEqualRoom, None),
+        (Which::DamperWithStops, Some((2.1e-3, 0.5))),
+    ] {
+        let row = found.row(which, 0.0).expect("a row");
         let rig = Rig::of(&case, 8.0, &row.damper.expect("a damper"), 0.0);
         close(rig.settles(0.12, level, 8.0, stops), row.worst[0], 0.01, "time to come to rest");
     }
     // No other damper is faster: those around it, by the same integration.
-    let best = found.row(Device::Damper, Room::AsDesigned, 0.0).expect("a row");
+    let best = found.row(Which::Damper, 0.0).expect("a row");
     for (tuning, damping) in [(0.97, 1.0), (1.03, 1.0), (1.0, 0.85), (1.0, 1.15)] {
         let damper = best.damper.expect("a damper");
         let other = TunedMassDamper {
