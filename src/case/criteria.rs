@@ -31,7 +31,7 @@ names! { key:
         PeakVelocity = "peak_velocity",
         /// Root mean square velocity of the oscillator.
         RmsVelocity = "rms_velocity",
-        /// Largest absolute acceleration of the oscillator in the flights between impacts, in which it is infinite.
+        /// Largest absolute acceleration of the oscillator in the flights between impacts; at an impact it is infinite.
         Acceleration = "acceleration",
         /// Root mean square acceleration of the oscillator in the flights between impacts.
         RmsAcceleration = "rms_acceleration",

@@ -80,6 +80,26 @@ impl Dimension {
         }
     }
 
+    /// The same for a page in inches and pounds; what has no such unit is in that of SI.
+    pub(super) fn us_units(self) -> &'static [Unit] {
+        const INCH_POUND: f64 = POUND_OF_FORCE[0] * 0.0254;
+        match self {
+            Self::Length => const { &[quotient("in", INCH[0], INCH[1])] },
+            Self::Velocity => const { &[quotient("in/s", INCH[0], INCH[1])] },
+            Self::Acceleration => const { &[STANDARD_GRAVITY] },
+            Self::Mass => {
+                const { &[quotient("lb", POUND[0], POUND[1]), quotient("oz", POUND[0], 16.0 * POUND[1])] }
+            }
+            Self::Stiffness => const { &[quotient("lbf/in", PER_INCH[0], PER_INCH[1])] },
+            Self::Damping => const { &[quotient("lbf s/in", PER_INCH[0], PER_INCH[1])] },
+            Self::Force => const { &[quotient("lbf", POUND_OF_FORCE[0], POUND_OF_FORCE[1])] },
+            Self::Impulse => const { &[quotient("lbf s", POUND_OF_FORCE[0], POUND_OF_FORCE[1])] },
+            Self::Energy => const { &[quotient("in lbf", INCH_POUND, 1e13)] },
+            Self::Power => const { &[quotient("in lbf/s", INCH_POUND, 1e13)] },
+            _ => self.units(),
+        }
+    }
+
     /// Units that a case may be written in beside those of a page.
     fn further_units(self) -> &'static [Unit] {
         match self {

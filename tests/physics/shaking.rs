@@ -97,8 +97,8 @@ impl<'a> Integration<'a> {
     fn see(&mut self) -> [f64; 2] {
         let [x, v, ..] = self.state;
         let seen = [v, self.accelerated(self.time, x, v)];
-        for k in 0..2 {
-            self.peaks[k] = self.peaks[k].max(seen[k].abs());
+        for (peak, one) in self.peaks.iter_mut().zip(seen) {
+            *peak = peak.max(one.abs());
         }
         seen
     }

@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use super::stability::{Extreme, Fact, extreme_at, stability};
+use super::stability::{Extreme, Fact, OneToOne, extreme_at, stability};
 use super::{Effort, Motion, Motions, Place, Value, motions, rest, steady};
 use crate::executor::{Executor, Serial};
 use crate::simulation::StartError;
@@ -141,12 +141,14 @@ pub fn along(
     on: &dyn Executor,
 ) -> Result<Along, StartError> {
     let stability = stability(band);
-    let peak_at = extreme_at(band, &stability, Extreme { of: Fact::Peak, least: false });
+    let shaking = wanted.iter().any(|one| one.of.is_of_shaking());
+    let solved_for = OneToOne::along(band, shaking);
+    let peak_at = extreme_at(&solved_for, &stability, Extreme { of: Fact::Peak, least: false });
     let rest_at = rest::largest_along(band, 0);
     let shakes = wanted.iter().filter(|one| one.of.is_of_shaking() && !one.least);
     let shakes = shakes.filter_map(|one| rest::largest_along(band, one.of.power_of_frequency()));
     let mut extremes: Vec<f64> =
-        wanted.iter().filter_map(|one| extreme_at(band, &stability, *one)).collect();
+        wanted.iter().filter_map(|one| extreme_at(&solved_for, &stability, *one)).collect();
     extremes.extend(peak_at.into_iter().chain(rest_at).chain(shakes));
     // At an end of stability no start would ever settle; both sides of it are flown.
     let is_end = |at: &f64| {
@@ -154,7 +156,6 @@ pub fn along(
         ends.any(|end| (at - end).abs() < BESIDE * band.width())
     };
     let (ends, extremes): (Vec<f64>, Vec<f64>) = extremes.into_iter().partition(is_end);
-    let shaking = wanted.iter().any(|one| one.of.is_of_shaking());
     let (mut places, unresolved) = match effort {
         Some(effort) => {
             let sampler = Sampler { band, effort, on, finest: finest(band) };

@@ -1,6 +1,9 @@
 //! Where along a band a 1:1 motion attracts, as roots, and where its numbers are extreme there.
 
-use super::{Effort, Motion, Value, one_to_one};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use super::{Effort, Facts, Motion, Value, one_to_one};
 use crate::numerics::scan::{largest, sign_changes};
 use crate::orbits::{Orbit, symmetric_orbits, two_impact_orbits};
 use crate::system::{Band, Stretch};
@@ -33,7 +36,10 @@ pub enum Fact {
 impl Fact {
     /// Its value in a motion; none of velocity or acceleration where they were not asked for.
     pub fn of(self, motion: &Motion) -> Option<Value> {
-        let facts = motion.facts();
+        self.of_facts(motion.facts())
+    }
+
+    fn of_facts(self, facts: &Facts) -> Option<Value> {
         Some(match self {
             Self::Peak => facts.peak,
             Self::Rms => facts.rms,
@@ -123,15 +129,44 @@ fn strength(band: &Band, at: f64) -> f64 {
     one_to_one(&system).iter().map(inside).max_by(f64::total_cmp).unwrap_or(exact)
 }
 
+/// The attracting 1:1 motions along a band, each place solved for once: several numbers are looked at in the same places.
+pub(super) struct OneToOne<'b> {
+    band: &'b Band,
+    effort: Effort,
+    known: RefCell<BTreeMap<u64, Vec<Facts>>>,
+}
+
+impl<'b> OneToOne<'b> {
+    pub fn along(band: &'b Band, shaking: bool) -> Self {
+        let effort = Effort { shaking, ..Effort::default() };
+        Self { band, effort, known: RefCell::new(BTreeMap::new()) }
+    }
+
+    fn at<T>(&self, at: f64, read: impl Fn(&[Facts]) -> Option<T>) -> Option<T> {
+        if let Some(known) = self.known.borrow().get(&at.to_bits()) {
+            return read(known);
+        }
+        let system = self.band.system(at).ok()?;
+        let motions = one_to_one(&system).into_iter();
+        let facts = motions.map(|one| one.shaken(&system, &self.effort).facts);
+        let facts: Vec<Facts> = facts.collect();
+        let found = read(&facts);
+        self.known.borrow_mut().insert(at.to_bits(), facts);
+        found
+    }
+}
+
 /// Where along a band a number of the attracting 1:1 motions is extreme; none where none attracts.
-pub(super) fn extreme_at(band: &Band, stability: &[Stretch<bool>], wanted: Extreme) -> Option<f64> {
-    let effort = Effort { shaking: wanted.of.is_of_shaking(), ..Effort::default() };
-    let of = |at: f64| {
-        let system = band.system(at).ok()?;
-        let motions = one_to_one(&system).into_iter().map(|one| one.shaken(&system, &effort));
-        let sign = if wanted.least { -1.0 } else { 1.0 };
-        motions.filter_map(|one| Some(sign * wanted.of.of(&one)?.value)).max_by(f64::total_cmp)
-    };
+pub(super) fn extreme_at(
+    motions: &OneToOne,
+    stability: &[Stretch<bool>],
+    wanted: Extreme,
+) -> Option<f64> {
+    let band = motions.band;
+    let sign = if wanted.least { -1.0 } else { 1.0 };
+    let signed = |facts: &Facts| Some(sign * wanted.of.of_facts(facts)?.value);
+    let largest_of = |all: &[Facts]| all.iter().filter_map(signed).max_by(f64::total_cmp);
+    let of = |at: f64| motions.at(at, largest_of);
     let stretches = stability.iter().filter(|stretch| stretch.of);
     let each = stretches.filter_map(|stretch| {
         let share = (stretch.to - stretch.from) / band.width();
