@@ -38,6 +38,14 @@ pub enum Measure {
     PeakFrequency,
     /// Root mean square displacement.
     Rms,
+    /// Largest absolute velocity of the structure, on both sides of impacts.
+    PeakVelocity,
+    /// Root mean square velocity.
+    RmsVelocity,
+    /// Largest absolute acceleration of the structure between impacts.
+    PeakAcceleration,
+    /// Root mean square acceleration between impacts.
+    RmsAcceleration,
     /// Largest displacement of absorber or damper against the structure.
     Stroke,
     /// Reduction of the peak against the structure without absorber, in decibels.
@@ -109,6 +117,10 @@ impl Measure {
             (Self::Rms, Device::Absorber) => &of::RMS,
             (Self::Rms, Device::Without) => &of::BARE_RMS,
             (Self::Rms, Device::Damper) => &of::DAMPER_RMS,
+            (Self::PeakVelocity, _) => &of::PEAK_VELOCITY,
+            (Self::RmsVelocity, _) => &of::RMS_VELOCITY,
+            (Self::PeakAcceleration, _) => &of::PEAK_ACCELERATION,
+            (Self::RmsAcceleration, _) => &of::RMS_ACCELERATION,
             (Self::DecayTime, Device::Absorber) => &of::DECAY_TIME,
             (Self::DecayTime, Device::Without) => &of::BARE_DECAY_TIME,
             (Self::DecayTime, Device::Damper) => &of::DAMPER_DECAY_TIME,
@@ -146,7 +158,11 @@ impl Measure {
     pub fn kind_under(self, records: usize) -> Option<&'static Kind> {
         Some(match (self, records) {
             (Self::Rms, 1) => &of::LARGEST_RMS,
+            (Self::RmsVelocity, 1) => &of::LARGEST_RMS_VELOCITY,
+            (Self::RmsAcceleration, 1) => &of::LARGEST_RMS_ACCELERATION,
             (Self::Peak, 2..) => &of::MEAN_PEAK,
+            (Self::PeakVelocity, 2..) => &of::MEAN_PEAK_VELOCITY,
+            (Self::PeakAcceleration, 2..) => &of::MEAN_PEAK_ACCELERATION,
             (Self::ReductionDb, 2..) => &of::MEAN_REDUCTION_DB,
             (Self::ReductionDbTmd, 2..) => &of::MEAN_REDUCTION_DB_TMD,
             (Self::ImpactSpeed, 2..) => &of::MEAN_IMPACT_SPEED,
@@ -162,8 +178,10 @@ impl Measure {
     /// Whether it makes sense of a structure that is subjected to this.
     pub fn is_of(self, scene: Scene) -> bool {
         match self {
-            Self::Peak | Self::ImpactSpeed => true,
-            Self::Rms => matches!(scene, Scene::Steady | Scene::Record),
+            Self::Peak | Self::ImpactSpeed | Self::PeakVelocity | Self::PeakAcceleration => true,
+            Self::Rms | Self::RmsVelocity | Self::RmsAcceleration => {
+                matches!(scene, Scene::Steady | Scene::Record)
+            }
             Self::ReductionDb | Self::ReductionDbTmd => scene != Scene::Release,
             Self::Impacts | Self::ImpactEnergyShare | Self::Stroke => scene != Scene::Steady,
             Self::DecayTime | Self::TheoryDecayTime | Self::InactiveShare => {
@@ -177,6 +195,14 @@ impl Measure {
     /// Whether it is about the motions that can happen, which only simulation finds.
     pub fn is_of_motions(self) -> bool {
         !matches!(self, Self::Z3Share | Self::StableShare | Self::MarginClearance)
+    }
+
+    /// Whether it is of velocity or acceleration, which nobody measures who does not ask.
+    pub const fn is_of_shaking(self) -> bool {
+        matches!(
+            self,
+            Self::PeakVelocity | Self::RmsVelocity | Self::PeakAcceleration | Self::RmsAcceleration
+        )
     }
 
     /// The device whose largest displacement it compares with; none of what compares nothing.
@@ -199,6 +225,10 @@ impl Measure {
     ) -> Option<[f64; 2]> {
         let facts = motion.facts();
         let pair = |of: Value| [of.value, of.error];
+        // Between the places of a band a velocity may be larger by as much of itself as the displacement.
+        let along = |of: Value| {
+            [of.value, of.error.max(of.value * peak.error / peak.value.max(f64::MIN_POSITIVE))]
+        };
         let value = match self {
             Self::Peak => pair(peak),
             Self::Rms => pair(facts.rms),
@@ -206,6 +236,10 @@ impl Measure {
                 reduction(pair(peak), against)
             }
             Self::ImpactSpeed => pair(facts.impact_speed),
+            Self::PeakVelocity => along(facts.shaking?.peak_velocity),
+            Self::RmsVelocity => pair(facts.shaking?.rms_velocity),
+            Self::PeakAcceleration => along(facts.shaking?.peak_acceleration),
+            Self::RmsAcceleration => pair(facts.shaking?.rms_acceleration),
             Self::ImpactsPerPeriod => pair(facts.impacts_per_period),
             Self::Efficiency => pair(facts.efficiency?),
             _ => return None,

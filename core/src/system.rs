@@ -8,12 +8,14 @@
 mod band;
 mod parameter;
 mod scales;
+mod shaking;
 
 use serde::{Deserialize, Serialize};
 
 pub use band::{Band, BandOver, Stretch};
 pub use parameter::Parameter;
 pub use scales::Scales;
+pub use shaking::Shaking;
 
 /// How the linear oscillator is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -324,7 +324,8 @@ fn absorber(
     }
     let even = case.absorber_places().unwrap_or_default();
     let even = if case.recording.is_some() { even.min(PLACES_OF_RECORD) } else { even };
-    let places = Places { even, closer: case.recording.is_none(), executor: on };
+    let closer = case.recording.is_none();
+    let places = Places { even, closer, shaking: false, executor: on };
     let Some(study) = Study::brief_of_case(case, places) else { return Ok(None) };
     let study = study?;
     let found = study.quantity(&units, measure, Device::Absorber);

@@ -27,6 +27,14 @@ names! { key:
         PeakDisplacement = "peak_displacement",
         /// Root mean square displacement of the oscillator.
         RmsDisplacement = "rms_displacement",
+        /// Largest absolute velocity of the oscillator, not against a moving base; of an impact that before and behind it.
+        PeakVelocity = "peak_velocity",
+        /// Root mean square velocity of the oscillator.
+        RmsVelocity = "rms_velocity",
+        /// Largest absolute acceleration of the oscillator in the flights between impacts; at an impact it is infinite.
+        Acceleration = "acceleration",
+        /// Root mean square acceleration of the oscillator in the flights between impacts.
+        RmsAcceleration = "rms_acceleration",
         /// Largest amplitude along the band against the bare oscillator's largest, in decibels; positive
         /// where it is smaller.
         ReductionDb = "reduction_db",
@@ -78,6 +86,10 @@ impl Subject {
             Self::StableShare => Measure::StableShare,
             Self::PeakDisplacement => Measure::Peak,
             Self::RmsDisplacement => Measure::Rms,
+            Self::PeakVelocity => Measure::PeakVelocity,
+            Self::RmsVelocity => Measure::RmsVelocity,
+            Self::Acceleration => Measure::PeakAcceleration,
+            Self::RmsAcceleration => Measure::RmsAcceleration,
             Self::ReductionDb => Measure::ReductionDb,
             Self::ReductionDbTmd => Measure::ReductionDbTmd,
             Self::MarginClearance => Measure::MarginClearance,
@@ -123,6 +135,7 @@ fn with_subjects(schema: &mut Schema) {
             _ if subject == Subject::MarginClearance => (json!(">= 10 %"), Value::Null),
             Some(Dimension::Length) => (json!("<= 3 mm"), json!("<= 0.3")),
             Some(Dimension::Velocity) => (json!("<= 0.5 m/s"), json!("<= 1.5")),
+            Some(Dimension::Acceleration) => (json!("<= 0.5 g"), json!("<= 0.4")),
             Some(Dimension::Time) => (json!("<= 5 s"), json!("<= 100")),
             Some(Dimension::Level) => (json!(">= 12"), Value::Null),
             Some(Dimension::Number) => (json!(2), Value::Null),
@@ -205,11 +218,15 @@ fn criterion(
     }
 }
 
-/// How a limit is written: a length or a velocity of a reduced design without unit, a share also without %.
+/// How a limit is written: a length, a velocity or an acceleration of a reduced design without unit, a share also without %.
 fn form(of: Dimension, design: &Design) -> Form {
     let measured = match of {
         Dimension::Number => None,
-        Dimension::Length | Dimension::Velocity | Dimension::Time if !design.is_physical() => None,
+        Dimension::Length | Dimension::Velocity | Dimension::Acceleration | Dimension::Time
+            if !design.is_physical() =>
+        {
+            None
+        }
         _ => Some(of),
     };
     let plain = measured.is_none() || matches!(of, Dimension::Share | Dimension::Level);
@@ -242,7 +259,9 @@ fn possible(limit: f64, written: &str, of: Dimension) -> Result<(), String> {
         Dimension::Share if !(0.0..=1.0).contains(&limit) => {
             "a share lies between 0 and 100 %".to_owned()
         }
-        Dimension::Length | Dimension::Velocity | Dimension::Time if limit < 0.0 => {
+        Dimension::Length | Dimension::Velocity | Dimension::Acceleration | Dimension::Time
+            if limit < 0.0 =>
+        {
             "it is never below 0".to_owned()
         }
         _ => return Ok(()),

@@ -89,7 +89,8 @@ pub(super) struct ExcitationTable {
         value a line below a head without units." })))]
     pub(super) file: Option<String>,
     /// One-sided power spectral density instead of a file: frequencies in Hz that ascend, each with the density there
-    /// in the squared SI unit of the quantity per Hz; straight in between on logarithmic scales, nothing outside.
+    /// in the squared SI unit of the quantity per Hz, or of a base acceleration as text, "0.02 g2/Hz"; straight in between
+    /// on logarithmic scales, nothing outside.
     #[schemars(extend("minItems" = 2, "x-ascending" = true, "items" = corner()))]
     #[schemars(example = vec![[0.5, 0.02], [5.0, 0.02]])]
     pub(super) spectrum: Option<Vec<[f64; 2]>>,
@@ -111,12 +112,12 @@ fn plain(example: f64, symbol: &str, description: &str) -> Value {
     })
 }
 
-/// A frequency and a density.
+/// A frequency and a density, in hertz and the squared SI unit of the quantity per hertz where they have no unit.
 fn corner() -> Value {
-    json!({
-        "type": "array", "minItems": 2, "maxItems": 2,
-        "items": { "type": "number", "exclusiveMinimum": 0 },
-    })
+    let number = |measurand: &str, examples: Value| json!({ "type": "number", "exclusiveMinimum": 0, "x-measurand": measurand, "examples": examples });
+    let frequency = number("a frequency", json!([20, "20 Hz"]));
+    let density = number("a density of accelerations", json!([0.02, "0.02 g2/Hz"]));
+    json!({ "type": "array", "minItems": 2, "maxItems": 2, "prefixItems": [frequency, density] })
 }
 
 /// A kind of excitation: what a case has of it.

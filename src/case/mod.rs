@@ -54,7 +54,8 @@ pub use reduced::Reduced;
 pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use settings::{
-    AccuracySettings, AlternativesSettings, ExtraFigure, ReportSettings, SimulationSettings,
+    AccuracySettings, AlternativesSettings, ExtraFigure, PageUnits, ReportSettings,
+    SimulationSettings,
 };
 pub use starting::excitation_kinds;
 pub use support::{Orientation, Support, SupportKind};
@@ -235,6 +236,11 @@ impl Case {
         }
     }
 
+    /// Whether a criterion is of velocity or acceleration of the structure.
+    pub fn asks_for_shaking(&self) -> bool {
+        self.criteria.iter().any(|one| one.measure.is_of_shaking())
+    }
+
     /// How thoroughly its motions are searched: the same for every command.
     pub fn effort(&self) -> Effort {
         let SimulationSettings { periods, discard, starts } = self.simulation;
@@ -247,6 +253,7 @@ impl Case {
             periods: periods.unwrap_or(usual.periods),
             accuracy: self.accuracy.map(|asked| [asked.amplitude(), asked.impacts_per_period()]),
             band: BandEffort { tolerance, ..usual.band },
+            shaking: self.asks_for_shaking(),
             ..usual
         }
     }
@@ -270,7 +277,10 @@ impl Case {
 
     /// What turns the system's results back into the case's units.
     pub fn units(&self) -> Units {
-        self.design.units()
+        match self.report.units {
+            PageUnits::Si => self.design.units(),
+            PageUnits::Us => self.design.units().in_us(),
+        }
     }
 
     /// Places of the absorber from which a case that is not driven steadily is flown; none for one that is.
@@ -300,7 +310,16 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let scene = design.map_or(Scene::Steady, |design| design.scene());
     refuse_steady(reader, &root, scene);
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
-    let report = reader.settings::<ReportSettings>(&root, "report");
+    let report = reader.optional::<ReportSettings>(&root, "report");
+    if let Some((table, read)) = &report
+        && read.units == PageUnits::Us
+        && design.is_some_and(|design| !design.is_physical())
+    {
+        let message = "`units` has no meaning beside [reduced], whose pages are in its own units";
+        let help = "remove the line, or write the design in physical units";
+        reader.report(table.span_of("units"), message, "expected no units of pages", help);
+    }
+    let report = report.map(|(_, read)| read);
     let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
     let alternatives = reader.settings::<AlternativesSettings>(&root, "alternatives");
     let band = band::read(reader, &root);

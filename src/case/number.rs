@@ -82,8 +82,9 @@ impl Form {
         match self.dimension {
             None if self.whole => format!("expected a whole number {words}, without quotes"),
             None => format!("expected a number {words}, without quotes or unit"),
-            Some(_) if self.plain => {
-                format!("expected a number {words} without quotes, or a share such as {share}")
+            Some(dimension) if self.plain => {
+                let what = dimension.words().0;
+                format!("expected a number {words} without quotes, or {what} such as {share}")
             }
             Some(dimension) => format!("expected {} such as {example}", dimension.words().0),
         }
@@ -163,10 +164,19 @@ impl Reader<'_> {
         match (plain, form.dimension) {
             (Some(number), _) if *sign > 0 => return Some(number),
             (Some(number), Some(_)) if number.is_finite() => {
-                let problem = "is a number in quotes without %";
-                let help = format!(
-                    "write {key} = {behind}, or, if per cent is meant, {key} = \"{behind} %\""
-                );
+                let share = form.dimension == Some(Dimension::Share);
+                let (problem, help) = match share {
+                    true => (
+                        "is a number in quotes without %",
+                        format!(
+                            "write {key} = {behind}, or, if per cent is meant, {key} = \"{behind} %\""
+                        ),
+                    ),
+                    false => (
+                        "is a number in quotes without a unit",
+                        format!("write {behind} without quotes, or a unit behind it"),
+                    ),
+                };
                 self.refuse(place, problem, form.expected(), help);
             }
             (_, Some(dimension)) => match dimension.parse_behind(text, *sign) {

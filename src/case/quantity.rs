@@ -22,7 +22,7 @@ pub struct QuantityError {
 }
 
 /// What a case gives with a unit: its name with its article, and an example.
-const MEASURED: [(Dimension, &str, &str); 15] = [
+const MEASURED: [(Dimension, &str, &str); 16] = [
     (Dimension::Length, "a length", "7.5 mm"),
     (Dimension::Mass, "a mass", "32 g"),
     (Dimension::Stiffness, "a stiffness", "11.47 kN/m"),
@@ -31,6 +31,7 @@ const MEASURED: [(Dimension, &str, &str); 15] = [
     (Dimension::Force, "a force", "2.9 N"),
     (Dimension::Velocity, "a velocity", "0.5 m/s"),
     (Dimension::Acceleration, "an acceleration", "2 m/s²"),
+    (Dimension::AccelerationDensity, "a density of accelerations", "0.02 g2/Hz"),
     (Dimension::Impulse, "an impulse", "2 N s"),
     (Dimension::Time, "a time", "5 s"),
     (Dimension::FrequencyRate, "a sweep rate", "0.1 Hz/s"),

@@ -1,5 +1,8 @@
 //! What a case that is driven by a record says of it, and the samples in its file.
 
+use toml::Spanned;
+use toml::de::DeValue;
+
 use super::Case;
 use super::error::{CaseError, Problem};
 use super::excitation::ExcitationTable;
@@ -78,7 +81,8 @@ impl Case {
         {
             let units = self.design.units();
             let physical = units.physical;
-            let mut record = Record { quantity: *quantity, samples: Vec::new() };
+            let mut record =
+                Record { quantity: *quantity, samples: Vec::new(), base_velocity: 0.0 };
             let most = LARGEST / record.reduced(&units, 1.0).abs();
             record.samples = samples(visible, *quantity, physical, most).map_err(|problems| {
                 let error = CaseError::new(name, visible, problems, 0);
@@ -243,6 +247,14 @@ const REALISATIONS: u64 = 20;
 const FEWEST_LINES: u64 = 10;
 const MOST_SAMPLES: u64 = 20_000_000;
 
+/// The densities of a spectrum as they are written.
+fn densities<'a>(
+    spectrum: &'a Spanned<DeValue<'a>>,
+) -> impl Iterator<Item = &'a Spanned<DeValue<'a>>> {
+    let corners = spectrum.get_ref().as_array().into_iter().flat_map(|all| all.iter());
+    corners.filter_map(|corner| corner.get_ref().as_array()?.get(1))
+}
+
 /// What an excitation of the kind "record" says; none where something was reported.
 pub(super) fn read(
     reader: &mut Reader,
@@ -263,6 +275,16 @@ pub(super) fn read(
         let message = format!("`{key}` is missing beside `spectrum`");
         let help = format!("add the line {}", reader.line(table, key));
         reader.report(table.span_of("spectrum"), message, "expected both", help);
+    }
+    if quantity != RecordQuantity::BaseAcceleration
+        && let Some(value) = table.value("spectrum")
+        && let Some(density) = densities(value).find(|one| one.get_ref().as_str().is_some())
+    {
+        let message = "a density of accelerations is none of this quantity";
+        let expected = "expected plain numbers, in the squared SI unit of the quantity per Hz";
+        let help = "write quantity = \"base-acceleration\", or the number without a unit";
+        reader.report(density.span(), message, expected, help);
+        return None;
     }
     let spectrum = Spectrum {
         corners,

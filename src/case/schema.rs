@@ -102,6 +102,7 @@ fn pattern(dimension: Dimension, signed: bool) -> String {
 }
 
 fn unit_pattern(symbol: &str) -> String {
+    let symbol = symbol.replace('^', r"\^").replace('(', r"\(").replace(')', r"\)");
     let product = symbol.replace(' ', r"(\s+|\s*[*·⋅]\s*)").replace('/', r"\s*/\s*");
     product.replace(['u', 'µ'], "[uµμ]")
 }

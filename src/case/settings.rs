@@ -35,11 +35,26 @@ pub struct ReportSettings {
     /// friction, other restitutions and another natural frequency; true unless given.
     #[schemars(example = false)]
     pub deviations: bool,
+    /// Units of the case's pages, figures and text for a terminal: SI unless given. Files for programs, the index and
+    /// `diff` are in SI; not beside `[reduced]`.
+    pub units: PageUnits,
+}
+
+names! { name:
+    /// Units of pages.
+    #[derive(Default, schemars::JsonSchema)]
+    pub enum PageUnits {
+        /// Metre, kilogram and newton with their prefixes.
+        #[default]
+        Si = "si",
+        /// Inch, pound, ounce and pound of force; accelerations in g.
+        Us = "us",
+    }
 }
 
 impl Default for ReportSettings {
     fn default() -> Self {
-        Self { figures: Vec::new(), deviations: true }
+        Self { figures: Vec::new(), deviations: true, units: PageUnits::Si }
     }
 }
 

@@ -97,6 +97,10 @@ pub fn settings(case: &Case) -> SurveySettings {
         Measure::Peak | Measure::ReductionDb | Measure::ReductionDbTmd => Some(Fact::Peak),
         Measure::Rms => Some(Fact::Rms),
         Measure::ImpactSpeed => Some(Fact::ImpactSpeed),
+        Measure::PeakVelocity => Some(Fact::PeakVelocity),
+        Measure::RmsVelocity => Some(Fact::RmsVelocity),
+        Measure::PeakAcceleration => Some(Fact::PeakAcceleration),
+        Measure::RmsAcceleration => Some(Fact::RmsAcceleration),
         _ => None,
     };
     let sides = case.criteria.iter().filter_map(|one| Some((fact(one.measure)?, one)));

@@ -374,7 +374,8 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
         Transient::Record(_) => PLACES_OF_RECORD,
     };
     let closer = case.design.release().is_some() || how == Looked::InFull;
-    let places = Places { even: even.min(most), closer, executor: on };
+    let shaking = case.asks_for_shaking();
+    let places = Places { even: even.min(most), closer, shaking, executor: on };
     let Some(study) = Study::brief_of_case(case, places) else { return Ok(Vec::new()) };
     let study = study?;
     Ok(criteria::judge_transient(case, &study))

@@ -48,6 +48,8 @@ pub enum Dimension {
     Power,
     /// N s
     Impulse,
+    /// (m/s²)²/Hz
+    AccelerationDensity,
     /// rad
     Angle,
     /// rad, shown in degrees.
@@ -192,6 +194,10 @@ catalogue! {
     RELATIVE_DISPLACEMENT = "relative_displacement", "w", "relative displacement", Length, Significant(3), Interval;
     VELOCITY = "velocity", "ẋ", "velocity", Velocity, Significant(3), Interval;
     ACCELERATION = "acceleration", "ẍ", "acceleration", Acceleration, Significant(3), Interval;
+    PEAK_VELOCITY = "peak_velocity", "", "peak velocity", Velocity, Significant(3), Bound;
+    RMS_VELOCITY = "rms_velocity", "", "rms velocity", Velocity, Significant(3), Interval;
+    PEAK_ACCELERATION = "peak_acceleration", "", "peak acceleration between impacts", Acceleration, Significant(3), Bound;
+    RMS_ACCELERATION = "rms_acceleration", "", "rms acceleration between impacts", Acceleration, Significant(3), Interval;
     IMPULSE = "impulse", "", "impulse", Impulse, Significant(3), Interval;
     IMPACT_INTERVAL = "impact_interval", "Δt/T", "time between impacts", Number, Significant(3), Interval;
     NEXT_INTERVAL = "next_impact_interval", "Δtₖ₊₁/T", "the next one", Number, Significant(3), Interval;
@@ -222,6 +228,10 @@ catalogue! {
     IMPACT_ENERGY_SHARE = "impact_energy_share", "", "share of the energy that impacts take", Share, Significant(2), Interval;
     IMPACT_COUNT = "impact_count", "", "number of impacts", Count, Decimals(0), Interval;
     LARGEST_RMS = "largest_rms", "", "largest rms displacement", Length, Significant(3), Bound;
+    LARGEST_RMS_VELOCITY = "largest_rms_velocity", "", "largest rms velocity", Velocity, Significant(3), Bound;
+    LARGEST_RMS_ACCELERATION = "largest_rms_acceleration", "", "largest rms acceleration between impacts", Acceleration, Significant(3), Bound;
+    MEAN_PEAK_VELOCITY = "mean_peak_velocity", "", "mean peak velocity", Velocity, Significant(3), Interval;
+    MEAN_PEAK_ACCELERATION = "mean_peak_acceleration", "", "mean peak acceleration between impacts", Acceleration, Significant(3), Interval;
     MEAN_PEAK = "mean_peak", "", "mean peak displacement", Length, Significant(3), Interval;
     MEAN_REDUCTION_DB = "mean_reduction_db", "", "mean reduction against the structure without absorber", Level, Decimals(1), Interval;
     MEAN_REDUCTION_DB_TMD = "mean_reduction_db_tmd", "", "mean reduction against a tuned mass damper", Level, Decimals(1), Interval;

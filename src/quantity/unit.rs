@@ -13,7 +13,7 @@ pub struct Unit {
     pub size: f64,
     /// The size as a power of ten, with which a number is read without a second rounding,
     pub exponent: i32,
-    /// times this quotient: `[127, 50]` of `10^-2` for an inch.
+    /// times this quotient: `[254, 10000]` for an inch.
     pub quotient: [f64; 2],
 }
 
@@ -28,16 +28,24 @@ pub(super) const fn unit(symbol: &'static str, exponent: i32) -> Unit {
     Unit { symbol, size, exponent, quotient: [1.0, 1.0] }
 }
 
-const HERTZ_PER_MINUTE: Unit =
-    Unit { symbol: "Hz/min", size: 1.0 / 60.0, exponent: 0, quotient: [1.0, 60.0] };
-const OCTAVES_PER_SECOND: Unit =
-    Unit { symbol: "oct/s", size: 60.0, exponent: 0, quotient: [60.0, 1.0] };
-const RADIANS_PER_SECOND: Unit =
-    Unit { symbol: "rad/s", size: 1.0 / TAU, exponent: 0, quotient: [1.0, TAU] };
+/// One that is no power of ten. Of whole numbers a value of few digits is rounded once.
+const fn quotient(symbol: &'static str, times: f64, over: f64) -> Unit {
+    Unit { symbol, size: times / over, exponent: 0, quotient: [times, over] }
+}
+
+const RADIANS_PER_SECOND: Unit = quotient("rad/s", 1.0, TAU);
+/// An inch is 25.4 mm, a pound 0.453 592 37 kg, and a pound of force that times standard gravity, 4.448 221 615 260 5 N, by
+/// the yard and pound agreement of 1959.
+const INCH: [f64; 2] = [254.0, 1e4];
+const POUND: [f64; 2] = [45_359_237.0, 1e8];
+const POUND_OF_FORCE: [f64; 2] = [44_482_216_152_605.0, 1e13];
+/// A pound of force over an inch, and times one.
+const PER_INCH: [f64; 2] = [POUND_OF_FORCE[0], 254e9];
+/// Squared standard gravity.
+const GRAVITY_SQUARED: [f64; 2] = [980_665.0 * 980_665.0, 1e10];
 /// `9.80665 m/s²`.
-pub(crate) const STANDARD_GRAVITY: Unit =
-    Unit { symbol: "g", size: 9.80665, exponent: 0, quotient: [9.80665, 1.0] };
-const DEGREE: Unit = Unit { symbol: "deg", size: PI / 180.0, exponent: 0, quotient: [PI, 180.0] };
+pub(crate) const STANDARD_GRAVITY: Unit = quotient("g", 9.80665, 1.0);
+const DEGREE: Unit = quotient("deg", PI, 180.0);
 
 impl Dimension {
     /// Its units in SI, from the largest to the smallest.
@@ -63,6 +71,7 @@ impl Dimension {
             }
             Self::Power => const { &[unit("kW", 3), unit("W", 0), unit("mW", -3), unit("µW", -6)] },
             Self::Impulse => const { &[unit("kN s", 3), unit("N s", 0), unit("mN s", -3)] },
+            Self::AccelerationDensity => const { &[unit("(m/s²)²/Hz", 0)] },
             Self::Angle => const { &[unit("rad", 0)] },
             Self::Inclination => const { &[DEGREE] },
             Self::Share | Self::Change => const { &[unit("%", -2)] },
@@ -71,15 +80,52 @@ impl Dimension {
         }
     }
 
+    /// The same for a page in inches and pounds; what has no such unit is in that of SI.
+    pub(super) fn us_units(self) -> &'static [Unit] {
+        const INCH_POUND: f64 = POUND_OF_FORCE[0] * 0.0254;
+        match self {
+            Self::Length => const { &[quotient("in", INCH[0], INCH[1])] },
+            Self::Velocity => const { &[quotient("in/s", INCH[0], INCH[1])] },
+            Self::Acceleration => const { &[STANDARD_GRAVITY] },
+            Self::Mass => {
+                const { &[quotient("lb", POUND[0], POUND[1]), quotient("oz", POUND[0], 16.0 * POUND[1])] }
+            }
+            Self::Stiffness => const { &[quotient("lbf/in", PER_INCH[0], PER_INCH[1])] },
+            Self::Damping => const { &[quotient("lbf s/in", PER_INCH[0], PER_INCH[1])] },
+            Self::Force => const { &[quotient("lbf", POUND_OF_FORCE[0], POUND_OF_FORCE[1])] },
+            Self::Impulse => const { &[quotient("lbf s", POUND_OF_FORCE[0], POUND_OF_FORCE[1])] },
+            Self::Energy => const { &[quotient("in lbf", INCH_POUND, 1e13)] },
+            Self::Power => const { &[quotient("in lbf/s", INCH_POUND, 1e13)] },
+            _ => self.units(),
+        }
+    }
+
     /// Units that a case may be written in beside those of a page.
     fn further_units(self) -> &'static [Unit] {
         match self {
-            Self::Length => const { &[unit("cm", -2)] },
-            Self::Mass => const { &[unit("ug", -9)] },
-            Self::Frequency => const { &[unit("MHz", 6), RADIANS_PER_SECOND] },
-            Self::FrequencyRate => const { &[HERTZ_PER_MINUTE] },
-            Self::OctaveRate => const { &[OCTAVES_PER_SECOND] },
-            Self::Velocity => const { &[unit("cm/s", -2)] },
+            Self::Length => const { &[unit("cm", -2), quotient("in", INCH[0], INCH[1])] },
+            Self::Mass => {
+                const {
+                    &[
+                        unit("ug", -9),
+                        quotient("lb", POUND[0], POUND[1]),
+                        quotient("oz", POUND[0], 16.0 * POUND[1]),
+                    ]
+                }
+            }
+            Self::Frequency => {
+                const {
+                    &[
+                        unit("MHz", 6),
+                        RADIANS_PER_SECOND,
+                        quotient("rpm", 1.0, 60.0),
+                        quotient("cpm", 1.0, 60.0),
+                    ]
+                }
+            }
+            Self::FrequencyRate => const { &[quotient("Hz/min", 1.0, 60.0)] },
+            Self::OctaveRate => const { &[quotient("oct/s", 60.0, 1.0)] },
+            Self::Velocity => const { &[unit("cm/s", -2), quotient("in/s", INCH[0], INCH[1])] },
             Self::Stiffness => {
                 const {
                     &[
@@ -88,6 +134,7 @@ impl Dimension {
                         unit("kN/mm", 6),
                         unit("N/cm", 2),
                         unit("N/um", 6),
+                        quotient("lbf/in", PER_INCH[0], PER_INCH[1]),
                     ]
                 }
             }
@@ -101,10 +148,19 @@ impl Dimension {
                         unit("Ns/mm", 3),
                         unit("kg/s", 0),
                         unit("g/s", -3),
+                        quotient("lbf s/in", PER_INCH[0], PER_INCH[1]),
                     ]
                 }
             }
-            Self::Force => const { &[unit("uN", -6), unit("nN", -9)] },
+            Self::Force => {
+                const {
+                    &[
+                        unit("uN", -6),
+                        unit("nN", -9),
+                        quotient("lbf", POUND_OF_FORCE[0], POUND_OF_FORCE[1]),
+                    ]
+                }
+            }
             Self::Acceleration => {
                 const {
                     &[
@@ -113,10 +169,32 @@ impl Dimension {
                         unit("mm/s^2", -3),
                         unit("cm/s²", -2),
                         STANDARD_GRAVITY,
+                        quotient("in/s²", INCH[0], INCH[1]),
+                        quotient("in/s2", INCH[0], INCH[1]),
                     ]
                 }
             }
-            Self::Impulse => const { &[unit("Ns", 0), unit("kNs", 3)] },
+            Self::Impulse => {
+                const {
+                    &[
+                        unit("Ns", 0),
+                        unit("kNs", 3),
+                        quotient("lbf s", POUND_OF_FORCE[0], POUND_OF_FORCE[1]),
+                    ]
+                }
+            }
+            Self::AccelerationDensity => {
+                const {
+                    &[
+                        unit("(m/s2)2/Hz", 0),
+                        unit("m²/s³", 0),
+                        unit("m2/s3", 0),
+                        quotient("g²/Hz", GRAVITY_SQUARED[0], GRAVITY_SQUARED[1]),
+                        quotient("g2/Hz", GRAVITY_SQUARED[0], GRAVITY_SQUARED[1]),
+                        quotient("g^2/Hz", GRAVITY_SQUARED[0], GRAVITY_SQUARED[1]),
+                    ]
+                }
+            }
             Self::Inclination => {
                 const { &[Unit { symbol: "°", ..DEGREE }, unit("rad", 0), unit("mrad", -3)] }
             }

@@ -19,11 +19,15 @@ const LEAST_HERTZ: f64 = 0.1;
 /// the unit of its own clearance. They turn what is dimensionless into quantities, as its [`Scales`] do, and quantities into
 /// text; the unit that a page's lengths share is that of the clearance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Units(Scales);
+pub struct Units {
+    scales: Scales,
+    /// Whether pages are in inches and pounds.
+    us: bool,
+}
 
 impl From<Scales> for Units {
     fn from(scales: Scales) -> Self {
-        Self(scales)
+        Self { scales, us: false }
     }
 }
 
@@ -31,7 +35,7 @@ impl Deref for Units {
     type Target = Scales;
 
     fn deref(&self) -> &Scales {
-        &self.0
+        &self.scales
     }
 }
 
@@ -54,7 +58,9 @@ impl Units {
             Dimension::Energy => self.energy(value),
             Dimension::Power => self.energy(value) * self.natural_frequency,
             Dimension::Impulse => self.oscillator_mass * self.velocity(value),
-            Dimension::OctaveRate
+            // Cases have it, pages do not.
+            Dimension::AccelerationDensity
+            | Dimension::OctaveRate
             | Dimension::Angle
             | Dimension::Inclination
             | Dimension::Share
@@ -107,12 +113,24 @@ impl Units {
 impl Units {
     /// Those of a page of quantities, with a clearance in metres, of an oscillator of 1 kg and 1 rad/s.
     pub const fn physical(clearance_m: f64) -> Self {
-        Self(Scales { physical: true, clearance: clearance_m, ..Scales::REDUCED })
+        let scales = Scales { physical: true, clearance: clearance_m, ..Scales::REDUCED };
+        Self { scales, us: false }
     }
 
     /// Those of a reduced design whose clearance is 1.
     pub const fn reduced() -> Self {
-        Self(Scales::REDUCED)
+        Self { scales: Scales::REDUCED, us: false }
+    }
+
+    /// The same with pages in inches and pounds; documents stay in SI, and a reduced design in its own units.
+    #[must_use]
+    pub const fn in_us(self) -> Self {
+        Self { us: true, ..self }
+    }
+
+    /// The units of a dimension on a page, from the largest to the smallest.
+    fn of_page(&self, dimension: Dimension) -> &'static [Unit] {
+        if self.us { dimension.us_units() } else { dimension.units() }
     }
 
     /// What documents call them: SI, or a reduced design's.
@@ -128,7 +146,8 @@ impl Units {
         // 0.1 mm reads better than 100 µm, and 300 mm better than 0.3 m.
         let fits =
             |one: &&Unit| self.clearance >= one.size * if one.size == 1.0 { 1.0 } else { 0.1 };
-        let length = Dimension::Length.units().iter().find(fits).copied();
+        let all = self.of_page(Dimension::Length);
+        let length = all.iter().find(fits).or(all.last()).copied();
         length.unwrap_or(unit("nm", -9))
     }
 
@@ -157,7 +176,7 @@ impl Units {
         {
             return self.of_lengths();
         }
-        let units = dimension.units();
+        let units = self.of_page(dimension);
         let plain = units.iter().find(|one| one.size == 1.0).or(units.first());
         let least = |one: &Unit| if one.symbol == "Hz" { LEAST_HERTZ } else { one.size };
         let fitting = units.iter().find(|one| size >= least(one)).or(units.last());
@@ -316,6 +335,31 @@ mod tests {
             assert_eq!(units.text(kind, value), text, "{}", kind.id);
         }
         assert_eq!(Units::reduced().text(&of::PEAK, 1.0342), "1.03 units");
+    }
+
+    /// By hand: 3.5619/25.4, 18/0.45359237, 9.15/9.80665, 0.5 N/4.44822, 11470*0.0254/4.44822, 0.00976/0.112984829.
+    #[test]
+    fn a_page_may_be_in_inches_and_pounds() {
+        let units = Units::physical(7.5e-3).in_us();
+        for (kind, value, text) in [
+            (&of::PEAK, 3.561_9e-3, "0.140 in"),
+            (&of::PEAK, 0.0, "0 in"),
+            (&of::ABSORBER_MASS, 18.0, "39.68 lb"),
+            (&of::ABSORBER_MASS, 0.032, "1.129 oz"),
+            (&of::RMS_VELOCITY, 0.018, "0.709 in/s"),
+            (&of::PEAK_ACCELERATION, 9.15, "0.933 g"),
+            (&of::FORCE_AMPLITUDE, 0.5, "0.1124 lbf"),
+            (&of::STIFFNESS, 11.47e3, "65.49 lbf/in"),
+            (&of::WORK, 9.76e-3, "0.0864 in lbf"),
+            (&of::EXCITATION_FREQUENCY, 8.0, "8.000 Hz"),
+            (&of::Z3_SHARE, 0.728_21, "72.8 %"),
+        ] {
+            assert_eq!(units.text(kind, value), text, "{}", kind.id);
+        }
+        assert_eq!((units.length_symbol(), units.length_number(0.0254)), ("in", 1.0));
+        // What is stored stays in SI, and a reduced design has units of its own.
+        assert_eq!((units.name(), units.length_unit()), ("si", "m"));
+        assert_eq!(Units::reduced().in_us().text(&of::PEAK, 1.0342), "1.03 units");
     }
 
     #[test]

@@ -38,7 +38,8 @@ pub(super) fn along(
     points: &[GridPoint],
 ) -> Result<Vec<Vec<PointMotions>>, StartError> {
     let length = plan.settings.axes.last().map_or(1, |axis| axis.values.len());
-    let effort = Effort::over(plan.settings.periods);
+    let shaking = plan.asks_for_shaking();
+    let effort = Effort { shaking, ..Effort::over(plan.settings.periods) };
     let mut found: Vec<Vec<PointMotions>> = points.iter().map(|_| Vec::with_capacity(2)).collect();
     // Where the motion of each line stands, and at which point.
     let mut stands: Vec<Option<(State, &Units)>> = vec![None; points.len().div_ceil(length)];

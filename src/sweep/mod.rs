@@ -153,6 +153,11 @@ impl Plan {
         GridPoint { number, design, system: design.possible_system(), units, start, coordinates }
     }
 
+    /// Whether velocity or acceleration is recorded.
+    fn asks_for_shaking(&self) -> bool {
+        self.settings.record.iter().any(|one| one.asked().0.is_of_shaking())
+    }
+
     /// Whether anything is recorded that only simulation knows.
     pub fn needs_simulation(&self) -> bool {
         self.settings.record.iter().any(|recorded| recorded.is_simulated())

@@ -70,7 +70,8 @@ impl Unsteady {
         };
         // Of several records each from fewer places, none beside the worst.
         let closer = of.records.len() < 2;
-        let places = Places { even: places(plan).into(), closer, executor: &Serial };
+        let shaking = plan.asks_for_shaking();
+        let places = Places { even: places(plan).into(), closer, shaking, executor: &Serial };
         Study::brief(&point.system?, &point.units, &of, places).ok()
     }
 

@@ -75,7 +75,7 @@ fn from_starts(plan: &Plan, points: &[GridPoint]) -> Result<Vec<Vec<PointMotions
 /// How thoroughly motions of a point are searched: as of a case, with as many starts and periods as the sweep asks for.
 fn effort(plan: &Plan) -> Effort {
     let SweepSettings { starts, periods, .. } = plan.settings;
-    Effort { starts, periods, ..Effort::default() }
+    Effort { starts, periods, shaking: plan.asks_for_shaking(), ..Effort::default() }
 }
 
 /// The system of a point and its starts: the one that axes say, if it is possible, or the usual ones.

@@ -81,7 +81,7 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<ClearanceO
     };
     let looked = |clearance: f64| {
         let even = screened(records.len()).into();
-        value(clearance, Places { even, closer: false, executor: &Serial })
+        value(clearance, Places { even, closer: false, shaking: false, executor: &Serial })
     };
     let mut all: Vec<(f64, WithError)> = Vec::new();
     let mut within = bounds;
@@ -106,7 +106,8 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<ClearanceO
     let landscape = all.iter().map(|(clearance, [value, _])| [*clearance, *value]).collect();
     all.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
     let judge = |clearance: f64| {
-        value(clearance, Places { even: judged_by, closer: records.len() < 2, executor })
+        let closer = records.len() < 2;
+        value(clearance, Places { even: judged_by, closer, shaking: false, executor })
     };
     let of_own = judge(own);
     let (mut clearance, mut claimed, mut checked) = (own, looked(own), of_own);

@@ -56,7 +56,7 @@ impl OneFlight {
                 let level = case.decay_level * release.amplitude(&units);
                 let most =
                     periods.unwrap_or_else(|| longest(bare_decay(&system, case.decay_level)));
-                Ringdown::follow_telling(&system, start, level, most, told)
+                Ringdown::follow_telling(&system, start, level, most, None, told)
                     .map(|found| Self {
                         duration: TAU * (found.amplitudes.len() - 1) as f64 / f64::from(STEPS),
                         peak: found.peak,
@@ -69,7 +69,7 @@ impl OneFlight {
             }
             Transient::Sweep(sweep) => {
                 let most = periods.unwrap_or(u64::MAX);
-                Passage::follow_telling(&system, &units, &sweep, start, most, told)
+                Passage::follow_telling(&system, &units, &sweep, start, most, false, told)
                     .map(|(found, duration)| Self {
                         duration,
                         peak: found.peak()[1],
@@ -89,7 +89,7 @@ impl OneFlight {
                     left -= piece.duration;
                     begins
                 });
-                follow_from(&system, &pieces, start, told).map(|found| Self {
+                follow_from(&system, &pieces, start, false, told).map(|found| Self {
                     duration: found.trace.last().map_or(0.0, |at| at[0]),
                     peak: found.peak.max(none.peak),
                     impacts: found.impacts,

@@ -14,7 +14,7 @@ use crate::linear::{TunedMassDamper, bare_amplitude, swept};
 use crate::measure::Measure;
 use crate::orbits::steady_orbit;
 use crate::quantity::Units;
-use crate::simulation::StartError;
+use crate::simulation::{Impact, StartError};
 use crate::system::{State, System};
 
 /// Rates over the case's own.
@@ -81,9 +81,10 @@ impl SweepStudy {
     /// [`StartError`] where the motion is so large that rounding hides the walls.
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, StartError>> {
         let sweep = case.design.sine_sweep()?;
-        let places = u32::try_from(case.absorber_places()?).unwrap_or(u32::MAX);
+        let (even, shaking) = (case.absorber_places()?, case.asks_for_shaking());
         let (system, units) = (case.system(), case.units());
-        Some(Self::of(&system, &units, &sweep, places, case.count_inactive, executor))
+        let places = Places { even, closer: true, shaking, executor };
+        Some(Self::of(&system, &units, &sweep, places, case.count_inactive))
     }
 
     /// From rest, the absorber at a relative displacement `w`.
@@ -92,9 +93,12 @@ impl SweepStudy {
         units: &Units,
         sweep: &SineSweep,
         w: f64,
+        shaking: bool,
     ) -> Result<SweepStart, StartError> {
         let start = State { y: -w, ..State::AT_REST };
-        Passage::follow(system, units, sweep, start).map(|found| (w, found))
+        let told = &mut |_: &Impact| {};
+        let flown = Passage::follow_telling(system, units, sweep, start, u64::MAX, shaking, told);
+        flown.map(|(found, _)| (w, found))
     }
 
     /// From even places of the absorber and closer ones.
@@ -113,7 +117,7 @@ impl SweepStudy {
         };
         let (peaks, speeds) = (counts(|found| found.peak()[1]), counts(|found| found.impact_speed));
         let all = survey(places, &[&peaks, &speeds], |w| {
-            Self::start(system, units, sweep, w).map(|(_, found)| found)
+            Self::start(system, units, sweep, w, places.shaking).map(|(_, found)| found)
         })?;
         Ok(Runs { all, even: places.even, count_inactive: inactive })
     }
@@ -145,11 +149,9 @@ impl SweepStudy {
         system: &System,
         units: &Units,
         sweep: &SineSweep,
-        even_places: u32,
+        places: Places<'_>,
         inactive: bool,
-        executor: &dyn Executor,
     ) -> Result<Self, StartError> {
-        let places = Places { even: even_places.into(), closer: true, executor };
         let study = Self::brief(system, units, sweep, places, inactive)?;
         let rates: Vec<SineSweep> = RATES
             .into_iter()
@@ -159,9 +161,10 @@ impl SweepStudy {
             .collect();
         let others = rates.iter().copied().filter(|other| other != sweep);
         let all: Vec<SineSweep> = [sweep.reversed()].into_iter().chain(others).collect();
-        let at: Vec<f64> = even(even_places.min(Self::STARTS_BESIDE).into()).collect();
-        let passage = |k: usize| Self::start(system, units, &all[k / at.len()], at[k % at.len()]);
-        let flown = map(executor, "passages", all.len() * at.len(), passage);
+        let at: Vec<f64> = even(places.even.min(Self::STARTS_BESIDE.into())).collect();
+        let passage =
+            |k: usize| Self::start(system, units, &all[k / at.len()], at[k % at.len()], false);
+        let flown = map(places.executor, "passages", all.len() * at.len(), passage);
         let flown = flown.into_iter().collect::<Result<Vec<SweepStart>, StartError>>()?;
         let worst_of = |sweep: &SineSweep| -> Option<Passage> {
             let n = all.iter().position(|other| other == sweep)?;

@@ -5,12 +5,14 @@ use super::{Runs, WithError};
 use crate::case::Case;
 use crate::excitation::{Piece, Record};
 use crate::executor::{Executor, map};
-use crate::flights::{DrivenError, PlaceReading, Places, Response, even, follow, survey};
+use crate::flights::{
+    DrivenError, PlaceReading, Places, Response, even, follow, follow_from, survey,
+};
 use crate::linear::{TunedMassDamper, driven};
 use crate::measure::Measure;
 use crate::numerics::scatter::twice_standard_error;
 use crate::quantity::Units;
-use crate::system::{Scales, System};
+use crate::system::{Scales, State, System};
 
 /// What becomes of the structure under one record.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,7 +75,8 @@ impl RecordStudy {
         let recording = case.recording.as_ref()?;
         let records = recording.records();
         let places = case.absorber_places()?;
-        let places = Places { even: places, closer: records.len() == 1, executor };
+        let (closer, shaking) = (records.len() == 1, case.asks_for_shaking());
+        let places = Places { even: places, closer, shaking, executor };
         let inactive = case.count_inactive;
         Some(Self::of(&case.system(), &case.units(), &records, places, inactive))
     }
@@ -179,7 +182,10 @@ pub(super) fn flown(
 ) -> Result<Runs<Response>, DrivenError> {
     let measures: [PlaceReading<'_, Response>; 3] =
         [&|found| found.peak, &|found| found.rms, &|found| found.impact_speed];
-    let all = survey(places, &measures, |w| follow(system, pieces, w))?;
+    let all = survey(places, &measures, |w| {
+        let start = State { y: -w, ..State::AT_REST };
+        follow_from(system, pieces, start, places.shaking, &mut |_| {})
+    })?;
     Ok(Runs { all, even: places.even, count_inactive: inactive })
 }
 

@@ -3,6 +3,7 @@
 use crate::flights::{Passage, Response, worst_of_places};
 use crate::linear::Linear;
 use crate::measure::Measure;
+use crate::system::Shaking;
 
 /// A value and its error: of one record how much worse other places of the absorber may be, of several twice the
 /// standard error of the mean over records.
@@ -91,6 +92,18 @@ impl Run for Linear {
     }
 }
 
+/// What velocity and acceleration have of a measure.
+pub(super) fn shaken(shaking: Option<&Shaking>, of: Measure) -> Option<f64> {
+    let shaking = shaking?;
+    Some(match of {
+        Measure::PeakVelocity => shaking.peak_velocity,
+        Measure::RmsVelocity => shaking.rms_velocity,
+        Measure::PeakAcceleration => shaking.peak_acceleration,
+        Measure::RmsAcceleration => shaking.rms_acceleration,
+        _ => return None,
+    })
+}
+
 impl Run for Passage {
     fn get(&self, of: Measure) -> Option<f64> {
         Some(match of {
@@ -99,7 +112,7 @@ impl Run for Passage {
             Measure::ImpactSpeed => self.impact_speed,
             Measure::Impacts => self.impacts as f64,
             Measure::Stroke => self.stroke,
-            _ => return None,
+            _ => return shaken(self.shaking.as_ref(), of),
         })
     }
 
@@ -117,7 +130,7 @@ impl Run for Response {
             Measure::Impacts => self.impacts as f64,
             Measure::ImpactEnergyShare => self.impact_loss / self.work,
             Measure::Stroke => self.stroke,
-            _ => return None,
+            _ => return shaken(self.shaking.as_ref(), of),
         })
     }
 

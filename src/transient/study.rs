@@ -1,6 +1,7 @@
 //! A released structure with everything that is known of it: from all places of the absorber, beside its
 //! alternatives and theory.
 
+use super::runs::shaken;
 use super::{Run, Runs, WithError};
 use std::sync::OnceLock;
 
@@ -12,8 +13,8 @@ use crate::flights::{Inactive, Places, Predicted, Ringdown, inactive, survey, wo
 use crate::linear::{Linear, STEPS, TunedMassDamper, bare_decay, released};
 use crate::measure::Measure;
 use crate::quantity::Units;
-use crate::simulation::StartError;
-use crate::system::{State, System};
+use crate::simulation::{Impact, StartError};
+use crate::system::{Shaking, State, System};
 
 /// How fast a structure comes to a level from one place of the absorber.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,6 +29,8 @@ pub struct Decay {
     pub impact_share: f64,
     /// Largest displacement of the structure.
     pub peak: f64,
+    /// Largest velocity and acceleration of the structure; none where they were not asked for.
+    pub shaking: Option<Shaking>,
     /// Whether there was any impact, then or later.
     pub wakes: bool,
 }
@@ -63,7 +66,7 @@ pub struct DecayStudy {
 const LONGEST: f64 = 20_000.0;
 
 impl DecayStudy {
-    /// Studies a release down to a share of its amplitude, the absorber at so many even places of its cavity.
+    /// Studies a release down to a share of its amplitude, from places of the absorber in its cavity.
     ///
     /// # Errors
     /// [`StartError`] where the motion is so large that rounding hides the walls.
@@ -72,10 +75,8 @@ impl DecayStudy {
         units: &Units,
         release: &Release,
         share: f64,
-        starts: u32,
-        executor: &dyn Executor,
+        places: Places<'_>,
     ) -> Result<Self, StartError> {
-        let places = Places { even: starts.into(), closer: true, executor };
         let study = Self::without_theory(system, units, release, share, places)?;
         Ok(Self { predicted: Predicted::of(system, study.from, study.level), ..study })
     }
@@ -153,7 +154,9 @@ impl DecayStudy {
     ) -> Option<Result<Self, StartError>> {
         let release = case.design.release()?;
         let (system, units) = (case.system(), case.units());
-        let study = Self::of(&system, &units, &release, case.decay_level, starts, executor);
+        let (even, shaking) = (starts.into(), case.asks_for_shaking());
+        let places = Places { even, closer: true, shaking, executor };
+        let study = Self::of(&system, &units, &release, case.decay_level, places);
         Some(study.map(|study| Self { count_inactive: case.count_inactive, ..study }))
     }
 
@@ -173,7 +176,10 @@ impl DecayStudy {
         let times = awake(|start| start.oscillations);
         let speeds = awake(|start| start.impact_speed);
         let all = survey(places, &[&times, &speeds], |w| {
-            let found = Ringdown::follow(system, release.state(units, w), level, longest)?;
+            let start = release.state(units, w);
+            let frame = places.shaking.then(|| release.frame_velocity(units));
+            let told = &mut |_: &Impact| {};
+            let found = Ringdown::follow_telling(system, start, level, longest, frame, told)?;
             Ok(Decay::of(&found))
         })?;
         Ok(Runs { all, even: places.even, count_inactive: false })
@@ -230,6 +236,7 @@ impl Decay {
             impact_speed: found.impact_speeds[at],
             impact_share: found.taken[at],
             peak: found.peak,
+            shaking: found.shaking,
             wakes: found.impacts[last] > 0,
         }
     }
@@ -243,7 +250,7 @@ impl Run for Decay {
             Measure::ImpactSpeed => self.impact_speed,
             Measure::Impacts => self.impacts as f64,
             Measure::ImpactEnergyShare => self.impact_share,
-            _ => return None,
+            _ => return shaken(self.shaking.as_ref(), of),
         })
     }
 
@@ -268,7 +275,9 @@ mod tests {
 
     fn start(oscillations: f64, wakes: bool) -> (f64, Decay) {
         let (impacts, impact_speed, impact_share, peak) = (1, 1.0, 0.5, 1.0);
-        (0.0, Decay { oscillations, impacts, impact_speed, impact_share, peak, wakes })
+        let decay =
+            Decay { oscillations, impacts, impact_speed, impact_share, peak, shaking: None, wakes };
+        (0.0, decay)
     }
 
     /// An absorber may also hold a structure up: then its slowest start counts, not the structure alone.

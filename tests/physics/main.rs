@@ -38,6 +38,7 @@ mod record;
 mod reduced;
 mod regimes;
 mod release;
+mod shaking;
 mod simulation_properties;
 mod sine_sweep;
 mod sliding;

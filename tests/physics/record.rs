@@ -21,7 +21,8 @@ const UNITS: Scales =
 /// Values at even times.
 fn record(quantity: RecordQuantity, step: f64, count: u32, value: impl Fn(f64) -> f64) -> Record {
     let at = |k: u32| f64::from(k) * step;
-    Record { quantity, samples: (0..=count).map(|k| [at(k), value(at(k))]).collect() }
+    let samples = (0..=count).map(|k| [at(k), value(at(k))]).collect();
+    Record { quantity, samples, base_velocity: 0.0 }
 }
 
 /// A few swings of several frequencies, which grow and fade.
@@ -375,7 +376,7 @@ fn a_seed_names_its_records() {
 fn the_worst_place_counts() {
     let record = record(RecordQuantity::BaseAcceleration, 0.25, 160, quake);
     let of = WALLS.system();
-    let places = Places { even: 8, closer: true, executor: &Serial };
+    let places = Places { even: 8, closer: true, shaking: false, executor: &Serial };
     let records = std::slice::from_ref(&record);
     let study = RecordStudy::of(&of, &UNITS.into(), records, places, true);
     let study = study.expect("studied");

@@ -91,7 +91,7 @@ fn a_record_has_the_references_displacements() {
     let system = unforced(0.05, 0.4, 0.6);
     let value = |t: f64| 0.4 * libm::sin(1.02 * t) + 0.3 * libm::sin(0.37 * t + 1.0);
     let samples = (0..=80_u32).map(|k| 0.5 * f64::from(k)).map(|t| [t, value(t)]).collect();
-    let record = Record { quantity: RecordQuantity::Force, samples };
+    let record = Record { quantity: RecordQuantity::Force, samples, base_velocity: 0.0 };
     let pieces = record.pieces(&UNIT, Record::LONGEST);
     let found = follow(&system, &pieces, 0.3).expect("followed");
     let mut moment = first(State { x: 0.0, x_velocity: 0.0, y: -0.3, y_velocity: 0.0 });

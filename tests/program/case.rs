@@ -292,6 +292,39 @@ fn every_dimension_reads_its_units() {
     reads(Dimension::Force, "2900 mN", 2.9);
 }
 
+/// By their definitions: the yard and pound agreement of 1959, standard gravity of 1901.
+#[test]
+fn units_of_inch_and_pound_are_what_they_are_defined_as() {
+    reads(Dimension::Length, "1 in", 0.0254);
+    reads(Dimension::Length, "0.3 in", 0.00762);
+    reads(Dimension::Mass, "1 lb", 0.453_592_37);
+    reads(Dimension::Mass, "16 oz", 0.453_592_37);
+    reads(Dimension::Mass, "1 oz", 0.028_349_523_125);
+    reads(Dimension::Force, "1 lbf", 4.448_221_615_260_5);
+    // 0.453 592 37 * 9.806 65 is 4.448 221 615 260 5 in whole numbers as well.
+    assert_eq!(45_359_237_u64 * 980_665, 44_482_216_152_605);
+    reads(Dimension::Stiffness, "254 lbf/in", 44_482.216_152_605);
+    reads(Dimension::Damping, "254 lbf s/in", 44_482.216_152_605);
+    reads(Dimension::Impulse, "1 lbf s", 4.448_221_615_260_5);
+    reads(Dimension::Frequency, "1800 rpm", 30.0);
+    reads(Dimension::Frequency, "90 cpm", 1.5);
+    reads(Dimension::Velocity, "10 in/s", 0.254);
+    reads(Dimension::Acceleration, "100 in/s²", 2.54);
+    reads(Dimension::AccelerationDensity, "0.5 g2/Hz", 0.5 * 96.170_384_222_5);
+    for one in ["(m/s²)²/Hz", "(m/s2)2/Hz", "m2/s3", "m²/s³"] {
+        reads(Dimension::AccelerationDensity, &format!("0.02 {one}"), 0.02);
+    }
+}
+
+/// `g` is what its key asks for.
+#[test]
+fn a_gram_is_no_gravity() {
+    reads(Dimension::Mass, "2 g", 0.002);
+    reads(Dimension::Acceleration, "2 g", 19.6133);
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = \"7.5 lb\"");
+    refused_with(&text, 11, "lb", "`clearance` is a length, but `lb` is the unit of a mass");
+}
+
 #[test]
 fn prefixes_are_the_powers_of_ten_they_stand_for() {
     for (unit, si) in
@@ -429,7 +462,7 @@ fn a_unit_of_another_dimension() {
     let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = \"7.5 kg\"");
     let message = "`clearance` is a length, but `kg` is the unit of a mass";
     let error = refused_with(&text, 11, "kg", message);
-    says(&error, "a length is accepted in km, m, mm, um, nm, cm");
+    says(&error, "a length is accepted in km, m, mm, um, nm, cm, in");
 }
 
 #[test]
@@ -461,8 +494,8 @@ fn a_misspelled_unit() {
     );
     let text = with(PHYSICAL, "\"32 g\"", "\"32 gr\"");
     refused_with(&text, 10, "gr", "`mass` has the unknown unit `gr`");
-    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = \"0.3 in\"");
-    refused_with(&text, 11, "in", "`clearance` has the unknown unit `in`");
+    let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = \"0.3 ft\"");
+    refused_with(&text, 11, "ft", "`clearance` has the unknown unit `ft`");
 }
 
 #[test]
@@ -779,7 +812,7 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
         keys[..2].iter().fold(text.clone(), |text, key| text.replace(&format!("# {key}"), key));
     let case = parsed(&others.join("\n"));
     // Of a structure that is driven steadily all but `decay_time`.
-    assert_eq!(case.criteria.len(), 10);
+    assert_eq!(case.criteria.len(), 14);
     assert_eq!(case.uncertainty.parameters().count(), 10);
     let cavity = parsed(&with_cavity).system().cavity();
     assert!(cavity.gravity_along > 0.0 && cavity.friction_acceleration > 0.0, "{cavity:?}");

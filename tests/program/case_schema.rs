@@ -295,7 +295,8 @@ fn patterns_agree(dimension: Dimension, schema: &Value) {
     let known = dimension.accepted_units().map(|unit| unit.symbol.to_owned());
     let others = [
         "", "m m", "mm m", "N s / m", "N*s/m", "N·s/m", "N⋅ s/m", "N.s/m", "KG", "μm", "µg", "µN",
-        "hz", "rad / s", "rad s", "in", "N/µm", "kg / s", "sN/m", "km",
+        "hz", "rad / s", "rad s", "in", "lb", "lbf / in", "rpm", "ft", "N/µm", "kg / s", "sN/m",
+        "km",
     ];
     for unit in known.chain(others.map(str::to_owned)) {
         for number in ["7.5 ", "7.5", "+.5e-3 ", " 5. ", "1e ", "", ". ", "1,5 ", "0x1 ", "1_0 "] {

@@ -215,6 +215,9 @@ fn criteria_that_say_nothing_are_refused_with_what_to_write() {
         ("stable_share = \">= 75\"", "if 75 % is meant"),
         ("stable_share = \">= 180 %\"", "between 0 and 100 %"),
         ("impact_velocity = \"<= -1.5 m/s\"", "never below 0"),
+        ("acceleration = \"<= 0.5 kg\"", "is the unit of a mass"),
+        ("acceleration = \"<= -0.5 g\"", "never below 0"),
+        ("rms_velocity = \"<= 18\"", "has no unit"),
     ] {
         let error = Case::parse("x", &format!("{DESIGN}[criteria]\n{line}\n")).expect_err(line);
         let said = error.problems().map(|one| one.message.clone()).collect::<Vec<_>>().join("; ");
@@ -235,6 +238,50 @@ fn criteria_that_say_nothing_are_refused_with_what_to_write() {
         let said = error.problems().map(|one| one.message.clone()).collect::<Vec<_>>().join("; ");
         assert!(said.contains(message), "{band}: {said}");
     }
+}
+
+/// An absorber that no wall reaches, the calmest motion at 8 Hz in 2 m: the structure shakes as a sine, with `v = 2 pi f X` and
+/// `a = (2 pi f)^2 X` and the amplitude that mass, stiffness and damping give it.
+#[test]
+fn velocities_and_accelerations_are_those_of_the_structure() {
+    let criteria = "peak_velocity = \">= 0.1 m/s\"\nrms_velocity = \">= 180 mm/s\"\n\
+        acceleration = \">= 0.5 g\"\nrms_acceleration = \">= 200 in/s²\"";
+    let judged = judge(&alone("8 Hz", "2 m", criteria));
+    let (mass, stiffness, damping) = (4.168, 11.47e3, 3.02);
+    let omega = std::f64::consts::TAU * 8.0;
+    let base = libm::hypot(stiffness, damping * omega);
+    let x = 0.25e-3 * base / libm::hypot(stiffness - mass * omega * omega, damping * omega);
+    let root = 2.0_f64.sqrt();
+    let [v, a] = [x * omega, x * omega * omega];
+    let wanted = [(v, 0.1), (v / root, 0.18), (a, 0.5 * 9.80665), (a / root, 5.08)];
+    for (one, (exact, limit)) in judged.iter().zip(wanted) {
+        let found = one.found.expect("measured");
+        assert!((found / exact - 1.0).abs() < 1e-12, "{}: {found} {exact}", one.criterion.key);
+        assert_eq!(one.criterion.limit, limit);
+        assert_eq!(one.holds, Some(exact >= limit), "{}", one.criterion.key);
+        assert_eq!(one.decided_by, Method::ClosedForm);
+    }
+    let holds: Vec<bool> = judged.iter().map(|one| one.holds == Some(true)).collect();
+    assert_eq!(holds, [true, false, true, true]);
+}
+
+/// What they are of is said with them, for people and programs.
+#[test]
+fn accelerations_are_told_to_be_between_impacts() {
+    let (_folder, path) = written("acceleration = \"<= 1 g\"\nrms_velocity = \"<= 1 in/s\"");
+    let (_, text) = check(&path, "text");
+    assert!(text.contains("peak acceleration between impacts") && text.contains("rms velocity"));
+    assert!(text.contains("The acceleration is that of the structure between impacts"), "{text}");
+    let (_, markdown) = check(&path, "markdown");
+    assert!(markdown.contains("that of the structure between impacts"), "{markdown}");
+    let (_, json) = check(&path, "json");
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let criteria = json["cases"][0]["criteria"].as_array().expect("criteria");
+    let told: Vec<_> =
+        criteria.iter().map(|one| (one["name"].as_str(), one["unit"].as_str())).collect();
+    assert_eq!(told, [(Some("rms_velocity"), Some("m/s")), (Some("acceleration"), Some("m/s²"))]);
+    let (_folder, path) = written("peak_velocity = \"<= 1 m/s\"");
+    assert!(!check(&path, "text").1.contains("between impacts"));
 }
 
 /// A count is a plain number or a bound in quotes: what is expected and what is to be written say both.

@@ -155,6 +155,30 @@ fn one_number_has_one_error() {
     }
 }
 
+/// A density with its unit is that in SI; of a force none is of accelerations.
+#[test]
+fn a_density_may_be_in_squared_gravity() {
+    let of = |spectrum: &str, quantity: &str| {
+        let noise = format!("{spectrum}\nduration = \"20 s\"\nseed = 3\nrealisations = 3\n");
+        let file = CASE.lines().find(|line| line.starts_with("file = ")).expect("a file");
+        let text = CASE.replace(file, &noise).replace("\"base-acceleration\"", quantity);
+        Case::parse("tower.toml", &text)
+    };
+    let spectrum = |text: &str| of(text, "\"base-acceleration\"").expect("valid").recording;
+    let plain = spectrum("spectrum = [[0.25, 48.085_192_111_25], [1, 48.085_192_111_25]]");
+    let gravity = spectrum("spectrum = [[\"15 rpm\", \"0.5 g2/Hz\"], [1, \"0.5 g²/Hz\"]]");
+    assert_eq!(plain, gravity);
+    let error =
+        of("spectrum = [[0.2, \"0.02 g2/Hz\"], [1, 0.02]]", "\"force\"").expect_err("a force");
+    let problem = error.problems().next().expect("one");
+    assert_eq!(problem.message, "a density of accelerations is none of this quantity");
+    assert_eq!(problem.underlined, "\"0.02 g2/Hz\"");
+    let error = of("spectrum = [[0.2, \"0.02\"], [1, 0.02]]", "\"force\"").expect_err("no unit");
+    let problem = error.problems().next().expect("one");
+    assert!(problem.message.contains("is a number in quotes without a unit"), "{problem:?}");
+    assert!(problem.expected.contains("or a density of accelerations such as"), "{problem:?}");
+}
+
 #[test]
 fn a_spectrum_is_told_with_its_scatter() {
     let noise =

@@ -49,6 +49,54 @@ fn golden_markdown() {
     });
 }
 
+/// A case in inches and pounds with `units = "us"`: no page, figure or text has a unit of SI that has another. JSON is in SI.
+#[test]
+fn a_page_in_inches_and_pounds_has_no_other_units() {
+    let text = "title = \"a mast\"\nsource = \"a test\"\n\
+        [oscillator]\nmass = \"9.19 lb\"\nfrequency = \"500 cpm\"\ndamping_ratio = \"0.7 %\"\n\
+        [absorber]\nmass = \"1.13 oz\"\nclearance = \"0.3 in\"\nrestitution = 0.6\n\
+        [excitation]\nkind = \"force\"\namplitude = \"0.65 lbf\"\nfrequency = \"480 rpm\"\n\
+        [criteria]\nrms_velocity = \"<= 9 in/s\"\nacceleration = \"<= 1.2 g\"\n";
+    let folder = TempDir::new().expect("a folder");
+    let run = |units: &str, verb: &str| {
+        let path = folder.path().join("mast.toml");
+        fs::write(&path, format!("{text}[report]\nunits = \"{units}\"\n")).expect("written");
+        let mut command = Command::cargo_bin("vinesink").expect("built");
+        command.current_dir(&folder).args([verb, "mast.toml"]);
+        if verb == "report" {
+            command.args(["--out", units]);
+        }
+        let output = command.output().expect("it runs");
+        assert!(output.status.code() < Some(2), "{output:?}");
+        String::from_utf8(output.stdout).expect("text")
+    };
+    run("us", "report");
+    run("si", "report");
+    let si = regex::Regex::new(r"(?:\d |\()(km|m|mm|µm|nm|t|kg|mg|[kMm]?N|[kM]?N/m|[km]?N s/m|(km|m|mm|µm)/s²?|[kmµn]?J|[kmµ]?W)[^A-Za-z/²\d ]")
+        .expect("a pattern");
+    let pages = |units: &str| -> Vec<(PathBuf, String)> {
+        let all = files(&folder.path().join(units)).into_iter();
+        let shown = |path: &Path| path.extension().is_some_and(|end| end == "md" || end == "svg");
+        let text = |bytes| String::from_utf8(bytes).expect("text");
+        all.filter(|(path, _)| shown(path)).map(|(path, bytes)| (path, text(bytes))).collect()
+    };
+    let of_si = |page: &str| -> Vec<String> {
+        si.find_iter(page).map(|one| one.as_str().to_owned()).collect()
+    };
+    assert!(pages("si").iter().any(|(_, page)| of_si(page).len() > 20), "the pattern finds units");
+    for (path, page) in pages("us") {
+        assert_eq!(of_si(&page), Vec::<String>::new(), "{}", path.display());
+    }
+    let shown = run("us", "check");
+    assert!(shown.contains(" in/s") && of_si(&shown).is_empty(), "{shown}");
+    let [us, si] = ["us", "si"].map(|units| {
+        let json = fs::read_to_string(folder.path().join(units).join("mast/report.json"));
+        let json: serde_json::Value = serde_json::from_str(&json.expect("a report")).expect("JSON");
+        json["quantities"].clone()
+    });
+    assert_eq!(us, si);
+}
+
 #[test]
 fn the_same_case_gives_the_same_bytes() {
     let (first, second) = (TempDir::new().expect("a folder"), TempDir::new().expect("a folder"));

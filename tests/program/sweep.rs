@@ -321,6 +321,40 @@ fn sweeping(table: &str) -> String {
     format!("{}[sweep]\n{table}", common::table_1_case())
 }
 
+/// They are those that a criterion has, whether a motion is found from starts or followed; a sweep that does not name them
+/// has none.
+#[test]
+fn velocities_are_recorded_where_they_are_named() {
+    let names = ["peak_velocity", "rms_velocity", "acceleration", "rms_acceleration"];
+    let axis = format!("clearance = {{ values = [\"4 mm\", \"5 mm\"] }}\nrecord = {names:?}\n");
+    let found = swept(&sweeping(&axis));
+    let followed = swept(&sweeping(&format!("follow = \"clearance\"\n{axis}")));
+    let limits = "[criteria]\npeak_velocity = \"<= 1 m/s\"\nrms_velocity = \"<= 1 m/s\"\n\
+        acceleration = \"<= 9 g\"\nrms_acceleration = \"<= 9 g\"\n";
+    let text = format!("{}{limits}", common::table_1_case());
+    for (row, clearance) in ["4 mm", "5 mm"].into_iter().enumerate() {
+        let own = text.lines().find(|line| line.starts_with("clearance =")).expect("its own");
+        let text = text.replace(own, &format!("clearance = \"{clearance}\""));
+        let case = Case::parse("one.toml", &text).expect("valid");
+        let settings = vinesink::criteria::settings(&case);
+        let survey = vinesink::band::Survey::of(&case.range(), &settings, None, &Serial);
+        let judged = vinesink::criteria::judge(&case, &survey.expect("finite"));
+        for (name, judged) in names.iter().zip(judged) {
+            let unit = if name.contains("velocity") { "m/s" } else { "m/s²" };
+            let told = judged.found.expect("measured");
+            let one = numbers(&found, &format!("{name} [{unit}]"))[row];
+            assert!((one / told - 1.0).abs() < 1e-9, "{clearance} {name}: {one} {told}");
+            // What is followed is seen and not proven.
+            for way in ["up", "down"] {
+                let one = numbers(&followed, &format!("{name}_{way} [{unit}]"))[row];
+                assert!((one / told - 1.0).abs() < 1e-4, "{clearance} {name} {way}: {one} {told}");
+            }
+        }
+    }
+    let usual = swept(&sweeping("clearance = { values = [\"7.5 mm\", \"8 mm\"] }\n"));
+    assert!(usual.iter().all(|(name, _)| !name.contains("velocity")), "{usual:?}");
+}
+
 #[test]
 fn a_plan_says_how_motions_are_looked_for() {
     let axes = "clearance = { values = [\"10 mm\", \"20 mm\"] }\n\

@@ -145,6 +145,46 @@ fn a_record_is_what_simulate_says() {
     holds(&noise, "clearance = \"100 mm\"", ["20 mm", "60 mm"], &[&several[..], &columns].concat());
 }
 
+/// Velocities and accelerations, where a criterion asks `simulate` for them; nothing else changes by that.
+#[test]
+fn velocities_are_what_simulate_says() {
+    let asked = |text: String| {
+        let line = "[criteria]\npeak_velocity = \"<= 9 m/s\"\n";
+        match text.contains("[criteria]\n") {
+            true => text.replace("[criteria]\n", line),
+            false => format!("{text}\n{line}"),
+        }
+    };
+    let peaks = [("peak_velocity", "peak_velocity"), ("acceleration", "peak_acceleration")];
+    let jump = [("decay_time", "decay_time"), peaks[0], peaks[1]];
+    holds(&asked(text(JUMP)), "clearance = \"3 mm\"", ["2 mm", "5 mm"], &jump);
+    holds(&asked(text(SWEEP)), "clearance = \"7.5 mm\"", ["5 mm", "10 mm"], &peaks);
+    let one = [
+        ("rms_velocity", "largest_rms_velocity"),
+        ("rms_acceleration", "largest_rms_acceleration"),
+        peaks[0],
+        peaks[1],
+    ];
+    holds(&asked(text(TOWER)), "clearance = \"100 mm\"", ["20 mm", "60 mm"], &one);
+    let several = [
+        ("peak_velocity", "mean_peak_velocity"),
+        ("acceleration", "mean_peak_acceleration"),
+        ("rms_velocity", "rms_velocity"),
+        ("rms_acceleration", "rms_acceleration"),
+    ];
+    let noise = asked(text(TOWER).replace(FILE, SPECTRUM));
+    holds(&noise, "clearance = \"100 mm\"", ["20 mm", "60 mm"], &several);
+    // `simulate` has them where they are asked for, and all else as it was.
+    let folder = folder();
+    let [plain, more] = [text(JUMP), asked(text(JUMP))].map(|one| {
+        let short = format!("{one}\n[simulation]\nstarts = 3\n");
+        simulated(folder.path(), &short)
+    });
+    let mut more = more.as_object().expect("quantities").clone();
+    assert!(more.remove("peak_velocity").is_some() && more.remove("peak_acceleration").is_some());
+    assert_eq!(&more, plain.as_object().expect("quantities"));
+}
+
 /// The results of all points, without the axes.
 fn results(text: &str, axes: usize) -> Vec<Option<Cell>> {
     let case = Case::parse("map.toml", text).unwrap_or_else(|error| panic!("{error:?}"));

@@ -29,6 +29,9 @@ pub struct Record {
     pub quantity: RecordQuantity,
     /// Time and value.
     pub samples: Vec<[f64; 2]>,
+    /// Velocity of the base at the first sample of its acceleration; 0 where it was at rest. Noise that has no beginning has
+    /// the one with which the base goes nowhere.
+    pub base_velocity: f64,
 }
 
 /// A stretch of time in which the excitation is linear, in fast time and over the clearance. Seen from the base the
@@ -43,6 +46,8 @@ pub struct Piece {
     pub force: [f64; 2],
     /// Whether `f` is the inertia of everything on a base that shakes, not a force on the structure alone.
     pub shakes: bool,
+    /// Velocity of the base at its beginning; 0 under a force.
+    pub base: f64,
 }
 
 impl Record {
@@ -59,6 +64,9 @@ impl Record {
     pub fn pieces(&self, scales: &Scales, longest: f64) -> Vec<Piece> {
         let mut pieces = Vec::new();
         let mut velocity = 0.0;
+        let shakes = self.quantity != RecordQuantity::Force;
+        let begins = if shakes { self.base_velocity } else { 0.0 };
+        let mut base = begins / scales.velocity(1.0);
         for two in self.samples.windows(2) {
             let duration = (two[1][0] - two[0][0]) / scales.time(1.0);
             let [from, to] = [two[0][1], two[1][1]].map(|value| self.reduced(scales, value));
@@ -72,8 +80,13 @@ impl Record {
                     false => [from + slope * step * k as f64, slope],
                 };
                 let jump = if displaced && k == 0 { velocity - slope } else { 0.0 };
-                let shakes = self.quantity != RecordQuantity::Force;
-                pieces.push(Piece { duration: step, jump, force, shakes });
+                if displaced {
+                    base = slope;
+                }
+                pieces.push(Piece { duration: step, jump, force, shakes, base });
+                if shakes && !displaced {
+                    base -= step * (force[0] + 0.5 * slope * step);
+                }
             }
             velocity = slope;
         }
@@ -139,19 +152,27 @@ impl Spectrum {
         (0..self.realisations).map(move |_| {
             let mut random = next.clone();
             next.jump();
-            Record { quantity, samples: self.realisation(&mut random) }
+            let (samples, offset) = self.realisation(&mut random);
+            let base_velocity = match quantity {
+                RecordQuantity::BaseAcceleration => offset,
+                RecordQuantity::BaseDisplacement | RecordQuantity::Force => 0.0,
+            };
+            Record { quantity, samples, base_velocity }
         })
     }
 
-    /// Every line has a sine and a cosine whose amplitudes are normally distributed.
-    fn realisation(&self, random: &mut Xoshiro256PlusPlus) -> Vec<[f64; 2]> {
+    /// Every line has a sine and a cosine whose amplitudes are normally distributed. With the samples the value at the
+    /// beginning of their integral of mean zero, that of `b sin` being `-b/omega cos`.
+    fn realisation(&self, random: &mut Xoshiro256PlusPlus) -> (Vec<[f64; 2]>, f64) {
         let count = self.samples();
         let step = self.duration / (count - 1) as f64;
         let mut samples: Vec<[f64; 2]> = (0..count).map(|k| [k as f64 * step, 0.0]).collect();
+        let mut offset = 0.0;
         for line in self.lines() {
             let frequency = line as f64 / self.duration;
             let deviation = (self.density(frequency) / self.duration).sqrt();
             let [mut cosine, mut sine] = normal(random).map(|one| one * deviation);
+            offset -= sine / (TAU * frequency);
             let (turn_sine, turn_cosine) = libm::sincos(TAU * frequency * step);
             for sample in &mut samples {
                 sample[1] += cosine;
@@ -161,7 +182,7 @@ impl Spectrum {
                 ];
             }
         }
-        samples
+        (samples, offset)
     }
 
     /// The density at a frequency between the first and the last corner.

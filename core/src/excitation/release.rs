@@ -61,6 +61,15 @@ impl Release {
         amplitude(&self.state(scales, 0.0))
     }
 
+    /// Velocity of the frame that its displacements are seen from, over clearance and fast time: that of a base which came to
+    /// move.
+    pub fn frame_velocity(&self, scales: &Scales) -> f64 {
+        match *self {
+            Self::LetGo { .. } | Self::Struck { .. } => 0.0,
+            Self::BaseMoves { velocity } => -velocity / scales.velocity(1.0),
+        }
+    }
+
     /// The state in which an absorber at a relative displacement `w` begins.
     pub fn state(&self, scales: &Scales, w: f64) -> State {
         let [displacement, velocity, absorber_velocity] = match *self {

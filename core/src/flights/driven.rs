@@ -12,7 +12,7 @@
 use super::unforced;
 use crate::excitation::Piece;
 use crate::linear::{Meter, Response};
-use crate::simulation::{Detail, Impact, Observer, Simulation, StartError, Stop};
+use crate::simulation::{Detail, Impact, Observer, ShakingMeter, Simulation, StartError, Stop};
 use crate::system::{InvalidParameter, State, System};
 
 /// Share of the largest displacement from which on rounding of a piece's frame is not passed over.
@@ -152,19 +152,25 @@ impl Observer for ResponseLog<'_> {
 /// # Errors
 /// [`DrivenError`] where the engine cannot resolve the motion.
 pub fn follow(system: &System, pieces: &[Piece], w: f64) -> Result<Response, DrivenError> {
-    follow_from(system, pieces, State { y: -w, ..State::AT_REST }, &mut |_| {})
+    follow_from(system, pieces, State { y: -w, ..State::AT_REST }, false, &mut |_| {})
 }
 
-/// The same from a state; `told` hears of every impact as it is seen from the base, its time that since the start.
+/// The same from a state; velocity and acceleration are measured where they are asked for, and `told` hears of every impact as
+/// it is seen from the base, its time that since the start.
+///
+/// # Errors
+/// As [`follow`].
 pub fn follow_from(
     system: &System,
     pieces: &[Piece],
     start: State,
+    shaking: bool,
     told: &mut dyn FnMut(&Impact),
 ) -> Result<Response, DrivenError> {
     let damping = system.mass_ratio() * system.damping();
     let mut meter = Meter::new(system.mass_ratio(), damping);
     let (mut state, mut farthest) = (start, 0.0_f64);
+    let mut shakes = shaking.then(|| ShakingMeter::of(system).of_short());
     for piece in pieces {
         meter.jump(piece, &mut state);
         let free = unforced(system, piece.duration)?;
@@ -172,16 +178,20 @@ pub fn follow_from(
         farthest = farthest.max(frame.shift.abs());
         let mut simulation = Simulation::new(&free, frame.enter(&state), 0.0)?;
         let last = (0.0, state);
-        let mut log =
-            ResponseLog { meter: &mut meter, piece: *piece, frame, last, told: &mut *told };
-        let stop = simulation.run(1, MOST_IMPACTS, &mut log);
-        state = log.last.1;
+        if let Some(meter) = &mut shakes {
+            // The unforced system is seen from a frame that moves evenly.
+            meter.set_frame(frame.slope + piece.base);
+        }
+        let log = ResponseLog { meter: &mut meter, piece: *piece, frame, last, told: &mut *told };
+        let mut observers = (log, &mut shakes);
+        let stop = simulation.run(1, MOST_IMPACTS, &mut observers);
+        state = observers.0.last.1;
         if stop != Stop::EndTime {
             return Err(DrivenError::Stopped(stop));
         }
         meter.passed(piece, &state);
     }
-    let found = meter.finished();
+    let found = Response { shaking: shakes.map(|one| one.found()), ..meter.finished() };
     match farthest * f64::EPSILON > HIDDEN * found.peak {
         true => Err(DrivenError::Damped),
         false => Ok(found),

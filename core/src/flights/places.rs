@@ -33,13 +33,15 @@ pub const fn with_closer(count: u64) -> u64 {
     count + count / 2
 }
 
-/// From which places something is flown.
+/// From which places something is flown, and what of it is measured.
 #[derive(Clone, Copy)]
 pub struct Places<'a> {
     /// Even ones.
     pub even: u64,
     /// Whether from half as many more, between those at which a measure is largest, or changes most beside a large value.
     pub closer: bool,
+    /// Whether velocity and acceleration of the structure are measured as well.
+    pub shaking: bool,
     /// By what.
     pub executor: &'a dyn Executor,
 }
@@ -121,7 +123,7 @@ mod tests {
             Ok(if from < 0.0 { 1.0 + w } else { 1.2 - 0.2 * libm::log(from) })
         };
         let largest = |found: &[(f64, f64)]| found.iter().map(|one| one.1).fold(0.0, f64::max);
-        let from = |closer| Places { even: 32, closer, executor: &Serial };
+        let from = |closer| Places { even: 32, closer, shaking: false, executor: &Serial };
         let plain = survey(from(false), &[&|one| *one], outcome).expect("flown");
         let refined = survey(from(true), &[&|one| *one], outcome).expect("flown");
         assert_eq!((plain.len(), refined.len()), (32, 48));

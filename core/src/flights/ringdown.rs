@@ -6,8 +6,10 @@ use super::unforced;
 use crate::excitation::amplitude;
 use crate::linear::{STEPS, Settling};
 use crate::numerics::extremes::largest;
-use crate::simulation::{Detail, Impact, Observer, Segment, Simulation, StartError, Stop};
-use crate::system::{State, System};
+use crate::simulation::{
+    Detail, Impact, Observer, Segment, ShakingMeter, Simulation, StartError, Stop,
+};
+use crate::system::{Shaking, State, System};
 
 /// Impacts per oscillation after which a run is given up: chattering ends in contact long before.
 const MOST_IMPACTS: u64 = 1000;
@@ -27,6 +29,9 @@ pub struct Ringdown {
     pub peak: f64,
     /// Oscillations after which the amplitude stays at the level or below it; infinite where that was not seen.
     pub settles: f64,
+    /// Largest velocity and acceleration of the structure, absolute; root mean squares are those until neither can become
+    /// larger. None where they were not asked for.
+    pub shaking: Option<Shaking>,
 }
 
 struct RingdownLog<'a> {
@@ -37,6 +42,7 @@ struct RingdownLog<'a> {
     lost: f64,
     impacts: u64,
     speed: f64,
+    shaking: Option<ShakingMeter>,
 }
 
 impl Observer for RingdownLog<'_> {
@@ -79,6 +85,7 @@ impl Observer for Watching<'_, '_> {
             [at.x, at.v]
         });
         self.0.found.peak = self.0.found.peak.max(peak);
+        self.0.shaking.segment(segment);
     }
 
     fn impact(&mut self, impact: &Impact) {
@@ -106,15 +113,20 @@ impl Ringdown {
         level: f64,
         oscillations: u64,
     ) -> Result<Self, StartError> {
-        Self::follow_telling(system, start, level, oscillations, &mut |_| {})
+        Self::follow_telling(system, start, level, oscillations, None, &mut |_| {})
     }
 
-    /// The same; `told` hears of every impact.
+    /// The same; velocity and acceleration are measured where the velocity of the frame of the start is given, over clearance
+    /// and fast time ([`crate::excitation::Release::frame_velocity`]), and `told` hears of every impact.
+    ///
+    /// # Errors
+    /// As [`Self::follow`].
     pub fn follow_telling(
         system: &System,
         start: State,
         level: f64,
         oscillations: u64,
+        frame: Option<f64>,
         told: &mut dyn FnMut(&Impact),
     ) -> Result<Self, StartError> {
         let step = TAU / f64::from(STEPS);
@@ -127,17 +139,31 @@ impl Ringdown {
             impact_speeds: Vec::new(),
             peak: 0.0,
             settles: f64::INFINITY,
+            shaking: None,
         };
         let energy = start.energy(system.mass_ratio());
         let settling = Settling::to(level);
-        let mut log =
-            RingdownLog { told, found, settling, energy, lost: 0.0, impacts: 0, speed: 0.0 };
+        let shaking = frame.map(|velocity| {
+            let mut meter = ShakingMeter::of(&free);
+            meter.set_frame(velocity);
+            meter
+        });
+        let (lost, impacts, speed) = (0.0, 0, 0.0);
+        let mut log = RingdownLog { told, found, settling, energy, lost, impacts, speed, shaking };
+        let damping = system.mass_ratio() * system.damping();
         log.period(&start);
         for _ in 0..oscillations {
             // The energy of all is the structure's at most.
             let energy = simulation.state().energy(system.mass_ratio());
-            let done =
-                2.0 * energy < log.found.peak * log.found.peak && !system.cavity().moves_absorber();
+            let shakes_more = log.shaking.is_some_and(|meter| {
+                let most = (2.0 * energy).sqrt();
+                let [velocity, acceleration] = meter.peaks();
+                let frame = frame.unwrap_or_default().abs();
+                most + frame >= velocity || (1.0 + damping) * most >= acceleration
+            });
+            let done = 2.0 * energy < log.found.peak * log.found.peak
+                && !shakes_more
+                && !system.cavity().moves_absorber();
             let run = match done {
                 true => simulation.run(STEPS.into(), MOST_IMPACTS, &mut log),
                 false => simulation.run(STEPS.into(), MOST_IMPACTS, &mut Watching(&mut log)),
@@ -153,7 +179,8 @@ impl Ringdown {
                 break;
             }
         }
-        Ok(Self { settles: log.settling.time / TAU, ..log.found })
+        let shaking = log.shaking.map(|meter| meter.found());
+        Ok(Self { settles: log.settling.time / TAU, shaking, ..log.found })
     }
 }
 

@@ -1,6 +1,7 @@
 //! What is read of a sweep through resonance: the largest displacement in each period of the excitation.
 
 use crate::excitation::SweepStretch;
+use crate::system::Shaking;
 
 /// What a structure did on its way through a range of frequencies.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,13 +16,15 @@ pub struct Passage {
     pub residual: f64,
     /// Largest displacement of absorber or damper against the structure.
     pub stroke: f64,
+    /// Velocity and acceleration of the structure over all of it; none where they were not asked for.
+    pub shaking: Option<Shaking>,
 }
 
 impl Passage {
     /// Nothing yet, of so many periods.
     pub fn new(count: u64, stroke: f64) -> Self {
         let envelope = Vec::with_capacity(count as usize);
-        Self { envelope, impacts: 0, impact_speed: 0.0, residual: 0.0, stroke }
+        Self { envelope, impacts: 0, impact_speed: 0.0, residual: 0.0, stroke, shaking: None }
     }
 
     /// Frequency ratio and size of the largest displacement.

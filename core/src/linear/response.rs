@@ -8,7 +8,7 @@
 
 use crate::excitation::Piece;
 use crate::numerics::extremes::Cubic;
-use crate::system::State;
+use crate::system::{Shaking, State};
 
 /// What a driven structure did. Lengths over the clearance and relative to the base, fast time; energies per unit of
 /// the oscillator's mass.
@@ -34,6 +34,9 @@ pub struct Response {
     pub stored: f64,
     /// Time and displacement at the end of every piece.
     pub trace: Vec<[f64; 2]>,
+    /// Velocity and acceleration of the structure with an absorber over the whole record, absolute: that of the base is added.
+    /// None where they were not asked for.
+    pub shaking: Option<Shaking>,
 }
 
 /// Measures a motion between states that are so near that it is a cubic in between.

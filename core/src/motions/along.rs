@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use super::stability::{Extreme, Fact, extreme_at, stability};
+use super::stability::{Extreme, Fact, OneToOne, extreme_at, stability};
 use super::{Effort, Motion, Motions, Place, Value, motions, rest, steady};
 use crate::executor::{Executor, Serial};
 use crate::simulation::StartError;
@@ -141,11 +141,15 @@ pub fn along(
     on: &dyn Executor,
 ) -> Result<Along, StartError> {
     let stability = stability(band);
-    let peak_at = extreme_at(band, &stability, Extreme { of: Fact::Peak, least: false });
-    let rest_at = rest::largest_along(band);
+    let shaking = wanted.iter().any(|one| one.of.is_of_shaking());
+    let solved_for = OneToOne::along(band, shaking);
+    let peak_at = extreme_at(&solved_for, &stability, Extreme { of: Fact::Peak, least: false });
+    let rest_at = rest::largest_along(band, 0);
+    let shakes = wanted.iter().filter(|one| one.of.is_of_shaking() && !one.least);
+    let shakes = shakes.filter_map(|one| rest::largest_along(band, one.of.power_of_frequency()));
     let mut extremes: Vec<f64> =
-        wanted.iter().filter_map(|one| extreme_at(band, &stability, *one)).collect();
-    extremes.extend(peak_at.into_iter().chain(rest_at));
+        wanted.iter().filter_map(|one| extreme_at(&solved_for, &stability, *one)).collect();
+    extremes.extend(peak_at.into_iter().chain(rest_at).chain(shakes));
     // At an end of stability no start would ever settle; both sides of it are flown.
     let is_end = |at: &f64| {
         let mut ends = stability.windows(2).map(|pair| pair[0].to);
@@ -158,23 +162,23 @@ pub fn along(
             let first = first_places(band, &stability, &effort.band);
             sampler.sampled(first.into_iter().chain(extremes).collect(), own)?
         }
-        None => (solved(band, extremes)?, 0.0),
+        None => (solved(band, extremes, shaking)?, 0.0),
     };
     let missing = |at: &f64| places.iter().all(|place| place.0 != *at);
     let ends = ends.into_iter().filter(missing).collect();
-    places.extend(solved(band, ends)?);
+    places.extend(solved(band, ends, shaking)?);
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (band, simulated) = (band.clone(), effort.is_some());
     Ok(Along { band, stability, places, simulated, unresolved, peak_at, rest_at })
 }
 
 /// What can be solved for at some places.
-fn solved(band: &Band, mut at: Vec<f64>) -> Result<Vec<(f64, Motions)>, StartError> {
+fn solved(band: &Band, mut at: Vec<f64>, shaking: bool) -> Result<Vec<(f64, Motions)>, StartError> {
     at.sort_by(f64::total_cmp);
     at.dedup();
     let system = |at: f64| Some((at, Place::with(&band.system(at).ok()?, Vec::new())));
     let (at, places): (Vec<f64>, Vec<Place>) = at.into_iter().filter_map(system).unzip();
-    let found = motions(&places, &Effort::default(), &Serial)?;
+    let found = motions(&places, &Effort { shaking, ..Effort::default() }, &Serial)?;
     Ok(at.into_iter().zip(found).collect())
 }
 

@@ -8,7 +8,7 @@ use crate::numerics::scatter::error_of_largest_of;
 use crate::orbits::{ImpactMap, Measures, Orbit, OrbitError, SteadyOrbit};
 use crate::regimes::Evidence;
 use crate::simulation::{PeriodRecord, Statistics, lost_in};
-use crate::system::System;
+use crate::system::{Shaking, System};
 
 /// Relative rounding of what is computed along an orbit that is hardly disturbed, and of one that is disturbed in
 /// proportion: the defect that Newton's method leaves grows by the distance of the largest multiplier from 1, at a
@@ -54,6 +54,10 @@ pub struct Facts {
     pub visits_per_period: f64,
     /// Share of the excitation's work that impacts dissipate, neither friction nor the damper; none where it does no work.
     pub efficiency: Option<Value>,
+    /// Velocity and acceleration of the oscillator between impacts, errors as those of peak and root mean square; none where
+    /// the search was not asked for them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaking: Option<Shaking<Value>>,
 }
 
 impl Facts {
@@ -74,6 +78,7 @@ impl Facts {
             impacts_per_period: Value::exact(impacts),
             visits_per_period: impacts,
             efficiency: (work > 0.0).then(|| rounded(energy.impact / work)),
+            shaking: None,
         })
     }
 
@@ -101,6 +106,7 @@ impl Facts {
             impacts_per_period: Value::new(evidence.impacts_per_period, impacts_error),
             visits_per_period: evidence.visits_per_period,
             efficiency: statistics.efficiency().filter(|_| driven).map(of_share),
+            shaking: None,
         };
         let Some(found) = evidence.periodicity else { return seen };
         let records = statistics.records();
@@ -162,6 +168,7 @@ impl Facts {
             }),
             visits_per_period: mean(&|one| one.visits_per_period),
             efficiency: share,
+            shaking: None,
         }
     }
 }

@@ -52,7 +52,8 @@ pub fn follow(
                 _ => false,
             };
             let index = flight.index;
-            motions[index] = Motion::seen(&flight, end);
+            let motion = Motion::seen(&flight, end);
+            motions[index] = motion.map(|one| one.shaken(flight.simulation.system(), effort));
             if settling && round < ROUNDS {
                 flights.push(flight);
             } else {

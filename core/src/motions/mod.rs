@@ -28,6 +28,7 @@ mod rest;
 mod search;
 mod section;
 mod settling;
+mod shaking;
 mod share;
 mod solved;
 mod stability;
@@ -81,6 +82,9 @@ pub struct Effort {
     /// What a band asks for beside that.
     #[serde(skip)]
     pub band: BandEffort,
+    /// Whether velocity and acceleration of the structure are measured as well.
+    #[serde(skip)]
+    pub shaking: bool,
 }
 
 impl Default for Effort {
@@ -93,6 +97,7 @@ impl Default for Effort {
             most_impacts: 1000,
             accuracy: None,
             band: BandEffort::FULL,
+            shaking: false,
         }
     }
 }

@@ -109,12 +109,15 @@ impl AtRest {
     }
 }
 
-/// Where along a band the structure with an absorber at rest that counts moves farthest; `None` where there is none.
-pub(super) fn largest_along(band: &Band) -> Option<f64> {
+/// Where along a band the structure with an absorber at rest that counts moves farthest, or its amplitude times a power of
+/// its frequency is largest; `None` where there is none.
+pub(super) fn largest_along(band: &Band, power: i32) -> Option<f64> {
     let pieces = if band.is_point() { 1 } else { PIECES };
     let peak = |at: f64| {
         let system = band.system(at).ok()?;
-        Some(RestCandidate::counting(&system)?.amplitude + static_shift(&system))
+        let amplitude = RestCandidate::counting(&system)?.amplitude;
+        let factor = (0..power).fold(1.0, |product, _| product * system.frequency_ratio());
+        Some(factor * amplitude + if power == 0 { static_shift(&system) } else { 0.0 })
     };
     let is_one = |at: f64| band.system(at).is_ok_and(|system| RestCandidate::is_one(&system));
     // Simulated are only those that may be the largest.

@@ -164,7 +164,12 @@ fn searched(
         advance(under_way - flights.len());
     }
     let all = grounds.into_iter().zip(places);
-    Ok(all.map(|(ground, place)| ground.motions(place.starts.len())).collect())
+    let motions = |(ground, place): (Ground, &Place)| {
+        let found = ground.motions(place.starts.len());
+        let shaken = |motion: Motion| motion.shaken(&place.system, effort);
+        Motions { all: found.all.into_iter().map(shaken).collect(), ..found }
+    };
+    Ok(all.map(motions).collect())
 }
 
 /// What is known of a place.

@@ -1,6 +1,9 @@
 //! Where along a band a 1:1 motion attracts, as roots, and where its numbers are extreme there.
 
-use super::{Motion, Value, one_to_one};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use super::{Effort, Facts, Motion, Value, one_to_one};
 use crate::numerics::scan::{largest, sign_changes};
 use crate::orbits::{Orbit, symmetric_orbits, two_impact_orbits};
 use crate::system::{Band, Stretch};
@@ -20,17 +23,46 @@ pub enum Fact {
     Rms,
     /// The impact speed.
     ImpactSpeed,
+    /// The peak velocity.
+    PeakVelocity,
+    /// The root mean square velocity.
+    RmsVelocity,
+    /// The peak acceleration between impacts.
+    PeakAcceleration,
+    /// The root mean square acceleration between impacts.
+    RmsAcceleration,
 }
 
 impl Fact {
-    /// Its value in a motion.
-    pub fn of(self, motion: &Motion) -> Value {
-        let facts = motion.facts();
-        match self {
+    /// Its value in a motion; none of velocity or acceleration where they were not asked for.
+    pub fn of(self, motion: &Motion) -> Option<Value> {
+        self.of_facts(motion.facts())
+    }
+
+    fn of_facts(self, facts: &Facts) -> Option<Value> {
+        Some(match self {
             Self::Peak => facts.peak,
             Self::Rms => facts.rms,
             Self::ImpactSpeed => facts.impact_speed,
+            Self::PeakVelocity => facts.shaking?.peak_velocity,
+            Self::RmsVelocity => facts.shaking?.rms_velocity,
+            Self::PeakAcceleration => facts.shaking?.peak_acceleration,
+            Self::RmsAcceleration => facts.shaking?.rms_acceleration,
+        })
+    }
+
+    /// By which power of its frequency a sine's number grows at one amplitude.
+    pub(super) const fn power_of_frequency(self) -> i32 {
+        match self {
+            Self::Peak | Self::Rms | Self::ImpactSpeed => 0,
+            Self::PeakVelocity | Self::RmsVelocity => 1,
+            Self::PeakAcceleration | Self::RmsAcceleration => 2,
         }
+    }
+
+    /// Whether it is one of [`Effort::shaking`].
+    pub const fn is_of_shaking(self) -> bool {
+        self.power_of_frequency() > 0
     }
 }
 
@@ -97,13 +129,44 @@ fn strength(band: &Band, at: f64) -> f64 {
     one_to_one(&system).iter().map(inside).max_by(f64::total_cmp).unwrap_or(exact)
 }
 
+/// The attracting 1:1 motions along a band, each place solved for once: several numbers are looked at in the same places.
+pub(super) struct OneToOne<'b> {
+    band: &'b Band,
+    effort: Effort,
+    known: RefCell<BTreeMap<u64, Vec<Facts>>>,
+}
+
+impl<'b> OneToOne<'b> {
+    pub fn along(band: &'b Band, shaking: bool) -> Self {
+        let effort = Effort { shaking, ..Effort::default() };
+        Self { band, effort, known: RefCell::new(BTreeMap::new()) }
+    }
+
+    fn at<T>(&self, at: f64, read: impl Fn(&[Facts]) -> Option<T>) -> Option<T> {
+        if let Some(known) = self.known.borrow().get(&at.to_bits()) {
+            return read(known);
+        }
+        let system = self.band.system(at).ok()?;
+        let motions = one_to_one(&system).into_iter();
+        let facts = motions.map(|one| one.shaken(&system, &self.effort).facts);
+        let facts: Vec<Facts> = facts.collect();
+        let found = read(&facts);
+        self.known.borrow_mut().insert(at.to_bits(), facts);
+        found
+    }
+}
+
 /// Where along a band a number of the attracting 1:1 motions is extreme; none where none attracts.
-pub(super) fn extreme_at(band: &Band, stability: &[Stretch<bool>], wanted: Extreme) -> Option<f64> {
-    let of = |at: f64| {
-        let motions = one_to_one(&band.system(at).ok()?);
-        let sign = if wanted.least { -1.0 } else { 1.0 };
-        motions.iter().map(|one| sign * wanted.of.of(one).value).max_by(f64::total_cmp)
-    };
+pub(super) fn extreme_at(
+    motions: &OneToOne,
+    stability: &[Stretch<bool>],
+    wanted: Extreme,
+) -> Option<f64> {
+    let band = motions.band;
+    let sign = if wanted.least { -1.0 } else { 1.0 };
+    let signed = |facts: &Facts| Some(sign * wanted.of.of_facts(facts)?.value);
+    let largest_of = |all: &[Facts]| all.iter().filter_map(signed).max_by(f64::total_cmp);
+    let of = |at: f64| motions.at(at, largest_of);
     let stretches = stability.iter().filter(|stretch| stretch.of);
     let each = stretches.filter_map(|stretch| {
         let share = (stretch.to - stretch.from) / band.width();

@@ -8,18 +8,29 @@ const WIDTH: f64 = 1e-12;
 /// The largest absolute value in `[0, duration]` of a function that is given with its slope, whose slope has at most one
 /// root in a panel.
 pub fn largest(duration: f64, panel: f64, at: impl Fn(f64) -> [f64; 2]) -> f64 {
+    largest_each(duration, panel, at)[0]
+}
+
+/// The same of a function and its slopes, each but the last.
+pub fn largest_each<const N: usize>(
+    duration: f64,
+    panel: f64,
+    at: impl Fn(f64) -> [f64; N],
+) -> [f64; N] {
     let panels = (duration / panel).ceil().max(1.0);
     let step = duration / panels;
     let mut before = at(0.0);
-    let mut found = before[0].abs();
+    let mut found = before.map(f64::abs);
     for k in 0..panels as u64 {
         let from = k as f64 * step;
         let after = at(from + step);
-        found = found.max(after[0].abs());
-        if (before[1] > 0.0) != (after[1] > 0.0)
-            && let Some(root) = brent(from, from + step, WIDTH, |s| at(s)[1])
-        {
-            found = found.max(at(root.at)[0].abs());
+        for of in 0..N - 1 {
+            found[of] = found[of].max(after[of].abs());
+            if (before[of + 1] > 0.0) != (after[of + 1] > 0.0)
+                && let Some(root) = brent(from, from + step, WIDTH, |s| at(s)[of + 1])
+            {
+                found[of] = found[of].max(at(root.at)[of].abs());
+            }
         }
         before = after;
     }

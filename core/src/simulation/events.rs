@@ -254,6 +254,38 @@ impl<O: Observer + ?Sized> Observer for &mut O {
     }
 }
 
+/// Whoever is there is told.
+impl<O: Observer> Observer for Option<O> {
+    fn detail(&self) -> Detail {
+        self.as_ref().map_or(Detail::Nothing, Observer::detail)
+    }
+    fn segment(&mut self, segment: &Segment) {
+        if let Some(observer) = self {
+            observer.segment(segment);
+        }
+    }
+    fn impact(&mut self, impact: &Impact) {
+        if let Some(observer) = self {
+            observer.impact(impact);
+        }
+    }
+    fn sticks(&mut self, loss: f64) {
+        if let Some(observer) = self {
+            observer.sticks(loss);
+        }
+    }
+    fn reversal(&mut self, reversal: &Reversal) {
+        if let Some(observer) = self {
+            observer.reversal(reversal);
+        }
+    }
+    fn period(&mut self, state: &State) {
+        if let Some(observer) = self {
+            observer.period(state);
+        }
+    }
+}
+
 /// Both are told. Whoever keeps two observers keeps such a pair: one that passes events on by itself may forget one.
 impl<A: Observer, B: Observer> Observer for (A, B) {
     fn detail(&self) -> Detail {

@@ -382,7 +382,8 @@ const LINES: [[f64; 2]; 6] =
     [[0.0, 0.0], [1.0, 0.2], [3.0, -0.3], [4.0, 0.1], [9.0, 0.1], [12.0, 0.0]];
 
 fn record(system: &System) -> Result<LayerAnswer, String> {
-    let record = Record { quantity: RecordQuantity::Force, samples: LINES.into() };
+    let record =
+        Record { quantity: RecordQuantity::Force, samples: LINES.into(), base_velocity: 0.0 };
     let pieces = record.pieces(&Scales::REDUCED, Record::LONGEST);
     let flown = follow(system, &pieces, 0.0).map_err(|error| error.to_string())?;
     let values = [("alone", driven(system, None, &pieces).peak), ("flown", flown.peak)];

@@ -45,6 +45,14 @@ names! { key:
         Peak = "peak",
         /// Its root mean square displacement of the oscillator.
         Rms = "rms",
+        /// Its largest absolute velocity of the oscillator.
+        PeakVelocity = "peak_velocity",
+        /// Its root mean square velocity of the oscillator.
+        RmsVelocity = "rms_velocity",
+        /// Its largest absolute acceleration of the oscillator between impacts.
+        Acceleration = "acceleration",
+        /// Its root mean square acceleration of the oscillator between impacts.
+        RmsAcceleration = "rms_acceleration",
         /// Its reduction of the peak against the oscillator alone.
         ReductionDb = "reduction_db",
         /// Share of the excitation's work that its impacts dissipate.
@@ -103,6 +111,10 @@ impl Recorded {
             Self::Peak => Measure::Peak,
             Self::PeakFrequency => Measure::PeakFrequency,
             Self::Rms => Measure::Rms,
+            Self::PeakVelocity => Measure::PeakVelocity,
+            Self::RmsVelocity => Measure::RmsVelocity,
+            Self::Acceleration => Measure::PeakAcceleration,
+            Self::RmsAcceleration => Measure::RmsAcceleration,
             Self::ReductionDb => Measure::ReductionDb,
             Self::ReductionDbTmd => Measure::ReductionDbTmd,
             Self::ImpactSpeed => Measure::ImpactSpeed,
@@ -148,9 +160,11 @@ impl Recorded {
             }
     }
 
-    /// What is recorded where the case does not say: theory of a decay may cost more than simulation.
+    /// What is recorded where the case does not say: theory of a decay may cost more than simulation, and flights cost more
+    /// where velocities are measured.
     pub fn usual(scene: Scene) -> Vec<Self> {
-        let cheap = |one: &Self| *one != Self::TheoryDecayTime && one.is_of(scene);
+        let dear = |one: &Self| *one == Self::TheoryDecayTime || one.asked().0.is_of_shaking();
+        let cheap = |one: &Self| !dear(one) && one.is_of(scene);
         match scene {
             Scene::Steady => Self::USUAL.into(),
             _ => Self::ALL.into_iter().filter(cheap).collect(),

@@ -258,7 +258,19 @@ pub fn headline(
         level("change", &of::CHANGE_DB, facts.peak, 1.0),
         level("rms_change", &of::RMS_CHANGE_DB, facts.rms, std::f64::consts::FRAC_1_SQRT_2),
     ];
-    numbers(scale, facts, method).into_iter().chain(changes.into_iter().flatten()).collect()
+    let shaking = facts.shaking.map(|of| {
+        let all = [
+            ("peak_velocity", &of::PEAK_VELOCITY, of.peak_velocity),
+            ("rms_velocity", &of::RMS_VELOCITY, of.rms_velocity),
+            ("peak_acceleration", &of::PEAK_ACCELERATION, of.peak_acceleration),
+            ("rms_acceleration", &of::RMS_ACCELERATION, of.rms_acceleration),
+        ];
+        all.map(|(key, kind, one)| {
+            (key, scale.units.quantity_with(kind, [one.value, one.error], method))
+        })
+    });
+    let numbers = numbers(scale, facts, method).into_iter().chain(changes.into_iter().flatten());
+    numbers.chain(shaking.into_iter().flatten()).collect()
 }
 
 /// The relative error of an average that has none of its own; NaN where nothing is known of it.

@@ -35,7 +35,7 @@ pub(super) const DAMPER: Style = Style::new(Color::Orange, 1.6, Dash::LongDashed
 pub(super) const THEORY: Style = Style::new(Color::Blue, 2.0, Dash::Dashed);
 
 /// What a page of such a structure tells beside what is of its scene alone.
-const MEASURES: [(Measure, Device); 19] = [
+const MEASURES: [(Measure, Device); 23] = [
     (Measure::Peak, Device::Absorber),
     (Measure::Peak, Device::Without),
     (Measure::Peak, Device::Damper),
@@ -45,6 +45,11 @@ const MEASURES: [(Measure, Device); 19] = [
     (Measure::Rms, Device::Absorber),
     (Measure::Rms, Device::Without),
     (Measure::Rms, Device::Damper),
+    // Where a criterion asks for one of them.
+    (Measure::PeakVelocity, Device::Absorber),
+    (Measure::RmsVelocity, Device::Absorber),
+    (Measure::PeakAcceleration, Device::Absorber),
+    (Measure::RmsAcceleration, Device::Absorber),
     (Measure::ReductionDb, Device::Absorber),
     (Measure::ReductionDbTmd, Device::Absorber),
     (Measure::ImpactSpeed, Device::Absorber),
