@@ -9,6 +9,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod band;
+mod comment;
 mod criteria;
 mod design;
 mod dimensionless;
@@ -56,7 +57,7 @@ pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use settings::{
     AccuracySettings, AlternativesSettings, ExtraFigure, ReportSettings, SimulationSettings,
 };
-pub use starting::excitation_kinds;
+pub use starting::{StartingLine, excitation_kinds};
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
