@@ -9,6 +9,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod band;
+mod comment;
 mod criteria;
 mod design;
 mod dimensionless;
@@ -57,7 +58,7 @@ pub use settings::{
     AccuracySettings, AlternativesSettings, ExtraFigure, PageUnits, ReportSettings,
     SimulationSettings,
 };
-pub use starting::excitation_kinds;
+pub use starting::{StartingLine, excitation_kinds};
 pub use support::{Orientation, Support, SupportKind};
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};

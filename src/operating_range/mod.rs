@@ -10,11 +10,12 @@ mod reliability;
 use serde::Serialize;
 
 use crate::band::Survey;
-use crate::case::Case;
+use crate::case::{Case, Criterion};
 use crate::criteria::{self, Judged, Outcome};
 use crate::excitation::Transient;
 use crate::executor::{Executor, map};
 use crate::flights::{DrivenError, Places};
+use crate::measure::Measure;
 use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
 use crate::transient::Study;
@@ -246,6 +247,64 @@ pub fn holds_for(
     Ok(found)
 }
 
+/// A number so close beside which a criterion fails that nobody holds it as closely.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edge {
+    /// What varies, all else as it is.
+    pub parameter: Varied,
+    /// Its value in the case, in SI or the units of a reduced case.
+    pub value: f64,
+    /// The value at which the criterion fails.
+    pub at: f64,
+    /// The criterion there.
+    pub fails: Judged,
+    /// What it came to in the case itself.
+    pub instead: Option<f64>,
+}
+
+/// Numbers that are not held to a fiftieth: what drives a structure, what is built, what it is.
+const OF_EDGES: [Varied; 3] = [Varied::Amplitude, Varied::Clearance, Varied::NaturalFrequency];
+/// Factor within which an edge is looked for. A step that is this but for rounding is within.
+const EDGE: f64 = 1.02;
+/// How many times what it is in the case a value may be that is `watched`, and not asked for. Where an absorber is no longer
+/// woken it is several times as large; along a slope 2 % change it by less.
+const LOST: f64 = 1.5;
+
+/// Where a fiftieth less or more of a number makes a criterion fail, or a value that is watched half as large again: the
+/// first such place to either side. None where a criterion fails in the case itself.
+///
+/// # Errors
+/// [`DrivenError`] where a motion cannot be followed.
+pub fn edges(
+    case: &Case,
+    watched: Option<Measure>,
+    effort: &Effort,
+    on: &dyn Executor,
+) -> Result<Vec<Edge>, DrivenError> {
+    let (mut case, asked) = (case.clone(), case.criteria.len());
+    // No displacement is at most 0, which does not matter yet: the worst of all is found, whatever the limit.
+    case.criteria.extend(watched.and_then(|measure| Criterion::at_most(measure, 0.0)));
+    let own = judge(&case, effort, Looked::InFull)?;
+    if own.is_empty() || Together::of(&own[..asked.min(own.len())]) == Together::Fail {
+        return Ok(Vec::new());
+    }
+    for (limited, own) in case.criteria.iter_mut().zip(&own).skip(asked) {
+        limited.limit = LOST * own.found.unwrap_or(f64::INFINITY);
+    }
+    let of = |varied: Varied| {
+        let parameter = varied.parameter(&case)?;
+        Some((varied, parameter, varied.own(&case, parameter)?))
+    };
+    let all: Vec<_> = OF_EDGES.into_iter().filter_map(of).collect();
+    let sides = map(on, "edges", 2 * all.len(), |k| {
+        let (varied, parameter, value) = all[k / 2];
+        let reached = Vec::new();
+        let mut side = Side { case: &case, effort, varied, parameter, own: value, reached };
+        side.edge(k % 2 == 1, &own)
+    });
+    Ok(sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
+}
+
 /// One direction of one number.
 struct Side<'a> {
     case: &'a Case,
@@ -326,16 +385,41 @@ impl Side<'_> {
         Ok(reach)
     }
 
+    /// The first step that is no further than an edge at which a criterion fails.
+    fn edge(&mut self, up: bool, own: &[Judged]) -> Result<Option<Edge>, DrivenError> {
+        for at in self.varied.steps(self.own, up) {
+            if (at / self.own).max(self.own / at) > EDGE * (1.0 + f64::EPSILON) {
+                break;
+            }
+            if self.outcome(at, Looked::OnTheWay)? != Some(Together::Fail) {
+                continue;
+            }
+            let there = self.judged(at, Looked::InFull)?.unwrap_or_default();
+            let lost = there
+                .into_iter()
+                .zip(own)
+                .find(|(one, _)| matches!(one.outcome(), Outcome::Fails | Outcome::NotMeasured));
+            if let Some((fails, own)) = lost {
+                let (parameter, value) = (self.varied, self.own);
+                return Ok(Some(Edge { parameter, value, at, fails, instead: own.found }));
+            }
+        }
+        Ok(None)
+    }
+
     /// What the criteria come to at a value; none where there is no such case.
     fn outcome(&mut self, value: f64, how: Looked) -> Result<Option<Together>, DrivenError> {
-        let Some(case) = self.varied.with(self.case, self.parameter, self.own, value) else {
-            return Ok(None);
-        };
-        let judged = judge(&case, self.effort, how)?;
+        let Some(judged) = self.judged(value, how)? else { return Ok(None) };
         // A place that is looked at again is known better then.
         self.reached.retain(|[at, _]| *at != value);
         self.reached.extend(judged.first().and_then(|first| Some([value, first.found?])));
         Ok(Some(Together::of(&judged)))
+    }
+
+    /// The criteria at a value.
+    fn judged(&self, value: f64, how: Looked) -> Result<Option<Vec<Judged>>, DrivenError> {
+        let case = self.varied.with(self.case, self.parameter, self.own, value);
+        case.map(|case| judge(&case, self.effort, how)).transpose()
     }
 }
 

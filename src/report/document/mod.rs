@@ -30,7 +30,7 @@ use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
 use crate::system::Parameter;
 
-pub use alternatives::decide;
+pub use alternatives::{decide, edges};
 pub(super) use band::{AbsorberAlong, damper, outside};
 pub use notes::theory_limits;
 pub use scale::{Scale, cavity};
