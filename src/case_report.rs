@@ -93,9 +93,15 @@ fn decide(
     answer: &Answer,
 ) -> Result<(), ReportError> {
     document::decide(document, case, answer);
-    let drawn = answer.alternatives.as_ref();
-    let drawn = drawn.and_then(|found| choice::figure(case, found, document));
-    for figure in template::worded(drawn.into_iter().collect(), &case.units())? {
+    let drawn = answer.alternatives.as_ref().map(|found| {
+        let ranges = &answer.holds_for;
+        [
+            choice::figure(case, found, document),
+            choice::over_amplitude(case, found, ranges, document),
+        ]
+    });
+    let drawn = drawn.into_iter().flatten().flatten().collect();
+    for figure in template::worded(drawn, &case.units())? {
         let row = document::figure_row(&figure);
         document["figures"].as_array_mut().into_iter().for_each(|rows| rows.push(row.clone()));
         figures.push(figure);

@@ -15,7 +15,7 @@ use crate::criteria::{self, Judged};
 use crate::excitation::Scene;
 use crate::executor::Executor;
 use crate::motions::{Effort, Measured, Motions, Place, measured, motions};
-use crate::operating_range::{HoldsFor, holds_for};
+use crate::operating_range::{HoldsFor, Reliability, holds_for};
 use crate::orbits::FullSystem;
 use crate::simulation::ImpactLog;
 use crate::study::fidelity::{Answers, LayerPlan};
@@ -47,13 +47,15 @@ pub struct Decided {
     pub alternatives: bool,
     /// How far each number may change before a criterion fails.
     pub ranges: bool,
+    /// With which probability all criteria hold where numbers are uncertain.
+    pub reliability: bool,
 }
 
 impl Decided {
-    /// Both.
-    pub const ALL: Self = Self { alternatives: true, ranges: true };
-    /// Neither.
-    pub const NOTHING: Self = Self { alternatives: false, ranges: false };
+    /// All of it.
+    pub const ALL: Self = Self { alternatives: true, ranges: true, reliability: true };
+    /// None of it.
+    pub const NOTHING: Self = Self { alternatives: false, ranges: false, reliability: false };
 }
 
 /// Theory and exact orbits of a case.
@@ -88,6 +90,8 @@ pub struct Answer {
     pub alternatives: Option<Alternatives>,
     /// How far each number of the case may change before a criterion fails; empty where one does, or nobody asked.
     pub holds_for: Vec<HoldsFor>,
+    /// With which probability its criteria hold; none where nothing is uncertain, or nobody asked.
+    pub reliability: Option<Reliability>,
 }
 
 impl Theory {
@@ -147,7 +151,11 @@ impl Answer {
             true => holds_for(case, &self.judged, &self.effort, on)?,
             false => Vec::new(),
         };
-        Ok(Self { alternatives, holds_for, ..self })
+        let reliability = match what.reliability {
+            true => Reliability::of(case, &self.effort, on)?,
+            false => None,
+        };
+        Ok(Self { alternatives, holds_for, reliability, ..self })
     }
 
     /// That of a case that is driven steadily; who calls this links nothing of what is not steady, as the live page.
@@ -222,6 +230,7 @@ impl Answer {
             transient: None,
             alternatives: None,
             holds_for: Vec::new(),
+            reliability: None,
         }
     }
 

@@ -1,9 +1,12 @@
 //! The optional table `[band]`: the range of excitations that a design must serve.
 
+use std::f64::consts::TAU;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use super::Design;
 use super::inputs::Input;
 use super::reader::{Reader, Table};
 use super::schema::in_design;
@@ -27,6 +30,29 @@ impl BandSettings {
     pub fn around(&self, system: &System) -> Band {
         let Self { over, range, spectrum } = self;
         Band { base: *system, over: *over, range: *range, spectrum: spectrum.clone() }
+    }
+
+    /// That of another design of the case: a band of frequencies stays where it is in hertz, but is shifted by as much as
+    /// the design's own excitation is off.
+    pub(crate) fn beside(&self, own: &Design, other: &Design) -> Self {
+        let natural = |design: &Design| design.units().natural_frequency;
+        let scale = natural(own) / natural(other);
+        let shift = match (own, other) {
+            (Design::Physical(own), Design::Physical(of)) => {
+                TAU * (of.frequency_hz - own.frequency_hz) / natural(other)
+            }
+            (Design::Reduced(own), Design::Reduced(of)) => {
+                of.frequency_ratio() - own.frequency_ratio()
+            }
+            _ => 0.0,
+        };
+        if self.over != BandOver::Frequency {
+            return self.clone();
+        }
+        let at = |ratio: f64| scale * ratio + shift;
+        let spectrum =
+            self.spectrum.iter().map(|[frequency, amplitude]| [at(*frequency), *amplitude]);
+        Self { over: self.over, range: self.range.map(at), spectrum: spectrum.collect() }
     }
 }
 

@@ -79,6 +79,15 @@ pub struct Criterion {
     pub as_written: String,
 }
 
+impl Criterion {
+    /// That a measure is at most so much, which nobody has written; none of a measure that has no key.
+    pub(crate) fn at_most(measure: Measure, limit: f64) -> Option<Self> {
+        let subject = Subject::ALL.into_iter().find(|one| one.measure() == measure)?;
+        let relation = Relation::AtMost;
+        Some(Self { key: subject.key(), measure, relation, limit, as_written: String::new() })
+    }
+}
+
 impl Subject {
     fn measure(self) -> Measure {
         match self {

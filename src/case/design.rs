@@ -3,6 +3,8 @@
 //! A reduced design is not a physical one with `m1 = k1 = 1`: with the mass of its absorber a physical design keeps the
 //! amplitude `F` and the damping `c1`, a reduced one `G` and `lambda`.
 
+use std::f64::consts::TAU;
+
 use serde_json::Value;
 
 use super::excitation::ExcitationTable;
@@ -87,6 +89,9 @@ static PHYSICAL: Writing = Writing {
         MassRatio = absorber.mass_ratio, MASS_RATIO { absorber_mass_kg over mass_kg }
         Mass = oscillator.mass, OSCILLATOR_MASS { mass_kg }
         Stiffness = oscillator.stiffness, STIFFNESS { stiffness_n_per_m }
+        NaturalFrequency = oscillator.frequency, NATURAL_FREQUENCY { |held| held.natural_frequency_rad_per_s() / TAU, |value| {
+            held.stiffness_n_per_m = held.mass_kg * (TAU * value) * (TAU * value);
+        } }
         Damping = oscillator.damping, DAMPING { damping_n_s_per_m }
         DampingRatio = oscillator.damping_ratio, DAMPING_RATIO { damping_n_s_per_m over critical_damping_n_s_per_m() }
     } },

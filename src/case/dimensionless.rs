@@ -111,19 +111,18 @@ impl Design {
     }
 }
 
-/// Gravity and friction in a cavity, over `b omega0^2`.
+/// Gravity and friction in a cavity, over `b omega0^2`; neither acts on an absorber that a pendulum or a spring carries.
 fn cavity(physical: &Physical, units: &Units) -> Cavity {
-    let Physical { inclination_rad, friction, restitution_difference, .. } = *physical;
+    let Physical { friction, restitution_difference, .. } = *physical;
     let unit = units.acceleration(1.0);
     // A level cavity is level even where the unit is too small for a number.
     let over_unit =
         |share: f64| if share == 0.0 { 0.0 } else { STANDARD_GRAVITY.size * share / unit };
-    // The cosine of a rounded quarter turn is not 0, and yet nothing presses the absorber on an upright track.
-    let normal = Some(libm::cos(inclination_rad)).filter(|share| *share > f64::EPSILON);
-    let normal = normal.unwrap_or_default();
+    let carried = physical.support.is_some_and(|support| support.carries());
+    let [along, across] = if carried { [0.0; 2] } else { physical.gravity_shares() };
     Cavity {
-        gravity_along: over_unit(libm::sin(inclination_rad)),
-        friction_acceleration: over_unit(friction * normal),
+        gravity_along: over_unit(along),
+        friction_acceleration: over_unit(friction * across),
         restitution_difference,
     }
 }

@@ -9,6 +9,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 mod band;
+mod comment;
 mod criteria;
 mod design;
 mod dimensionless;
@@ -29,7 +30,7 @@ mod rewrite;
 mod schema;
 mod settings;
 mod starting;
-
+mod support;
 mod sweep;
 mod uncertainty;
 mod value;
@@ -57,7 +58,8 @@ pub use settings::{
     AccuracySettings, AlternativesSettings, ExtraFigure, PageUnits, ReportSettings,
     SimulationSettings,
 };
-pub use starting::excitation_kinds;
+pub use starting::{StartingLine, excitation_kinds};
+pub use support::{Orientation, Support, SupportKind};
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 
@@ -205,7 +207,7 @@ fn one_design() -> Value {
 }
 
 /// Tables that are about steady vibration alone.
-const STEADY_TABLES: [&str; 4] = ["accuracy", "band", "report", "uncertainty"];
+const STEADY_TABLES: [&str; 3] = ["accuracy", "band", "report"];
 
 impl Case {
     /// Reads a case from its text; `name`, usually the file's path, is for messages only.

@@ -46,6 +46,7 @@ impl Design {
     fn is_of_system(&self, parameter: Parameter) -> bool {
         use Parameter as P;
         match (self.scene(), parameter) {
+            _ if self.carried(parameter).is_some() => false,
             (Scene::Steady, other) => other != P::Rate,
             (scene, P::Amplitude) => scene == Scene::Sweep,
             (_, P::Frequency | P::Detuning | P::Rate) => false,
@@ -61,7 +62,7 @@ impl Design {
     }
 
     /// The same with errors added to some parameters; restitutions stay between 0 and 1, an angle within a quarter
-    /// turn, an amplitude and friction at 0 or more.
+    /// turn, an amplitude, friction and damping at 0 or more.
     #[must_use]
     pub fn deviating(self, errors: &[(Parameter, f64)]) -> Self {
         errors.iter().fold(self, |design, (parameter, error)| {
@@ -72,9 +73,10 @@ impl Design {
                     value.max(half).min(1.0 - half)
                 }
                 Parameter::Inclination => value.clamp(-FRAC_PI_2, FRAC_PI_2),
-                Parameter::Amplitude | Parameter::Friction | Parameter::FrictionAcceleration => {
-                    value.max(0.0)
-                }
+                Parameter::Amplitude
+                | Parameter::Friction
+                | Parameter::FrictionAcceleration
+                | Parameter::DampingRatio => value.max(0.0),
                 _ => value,
             };
             design.with(*parameter, possible)

@@ -11,6 +11,7 @@ use super::excitation::ExcitationTable;
 use super::reader::{Reader, Table};
 use super::restitution::{Restitution, one_or_each};
 use super::schema::one_of;
+use super::support::{self, Orientation, Support, SupportKind};
 use crate::excitation::Transient;
 use crate::quantity::Dimension;
 use crate::system::Excitation;
@@ -61,10 +62,25 @@ pub(super) struct AbsorberTable {
     /// Angle of the cavity against the horizontal, from -90 to 90 degrees: where it is positive gravity, 9.80665 m/s^2,
     /// acts along positive displacements of the absorber. 0 unless given.
     #[schemars(extend("x-measurand" = "an angle", "minimum" = -FRAC_PI_2, "maximum" = FRAC_PI_2, "x-symbol" = r"\alpha"))]
-    inclination: Option<f64>,
+    pub(super) inclination: Option<f64>,
+    /// How the cavity lies, instead of `inclination`: horizontal is 0, vertical 90 degrees, positive displacements then
+    /// point downwards.
+    #[schemars(example = &"vertical")]
+    pub(super) orientation: Option<Orientation>,
     /// mu, the coefficient of sliding (Coulomb) friction between absorber and cavity, 0 or more; 0 unless given.
     #[schemars(extend("x-measurand" = "a share", "minimum" = 0, "x-symbol" = r"\mu"), example = 0.003, example = "0.3 %")]
-    friction: Option<f64>,
+    pub(super) friction: Option<f64>,
+    /// What carries the absorber; sliding unless given.
+    #[schemars(example = &"spring")]
+    pub(super) support: Option<SupportKind>,
+    /// f_s, the frequency of the absorber on the pendulum or the spring that carries it, above 0, at most a fifth of the
+    /// excitation's: the model leaves its force out.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = r"f_\mathrm{s}"), example = "0.4 Hz")]
+    pub(super) support_frequency: Option<f64>,
+    /// Room for the length of the pendulum, or for the stretch of the spring by the absorber's weight,
+    /// 0.25 m / (f_s / 1 Hz)^2, above 0: more is refused. Any length unless given.
+    #[schemars(extend("x-measurand" = "a length", "exclusiveMinimum" = 0, "x-symbol" = r"\ell_\mathrm{s}"), example = "2 m")]
+    pub(super) support_room: Option<f64>,
 }
 
 /// A design in SI units. [`Case::parse`](super::Case::parse) proves every value finite, masses,
@@ -88,6 +104,8 @@ pub struct Physical {
     /// Angle of the cavity against the horizontal in rad: gravity acts along positive displacements of the absorber
     /// where it is positive.
     pub inclination_rad: f64,
+    /// What carries the absorber; none where the case does not say, and it slides.
+    pub support: Option<Support>,
     /// `mu`, the coefficient of sliding friction between absorber and cavity.
     pub friction: f64,
     /// What drives the oscillator.
@@ -127,7 +145,8 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         (Some(stiffness), _) => stiffness,
         (None, frequency) => stiffness_of(reader, &table, frequency?, oscillator.mass)?,
     };
-    let ((_, absorber), (place, excitation)) = (absorber?, excitation?);
+    let ((cavity, absorber), (place, excitation)) = (absorber?, excitation?);
+    let (inclination_rad, support) = support::read(reader, &cavity, &absorber)?;
     let transient = excitation.transient(reader, &place, 1.0)?;
     let mut physical = Physical {
         mass_kg: oscillator.mass,
@@ -140,7 +159,8 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         clearance_m: absorber.clearance,
         restitution: absorber.restitution.mean(),
         restitution_difference: absorber.restitution.difference(),
-        inclination_rad: absorber.inclination.unwrap_or_default(),
+        inclination_rad,
+        support,
         friction: absorber.friction.unwrap_or_default(),
         excitation: excitation.enters(),
         amplitude: excitation.amplitude.unwrap_or_default(),

@@ -76,6 +76,11 @@ impl Dimension {
         all.into_iter().find(|one| one.unit_of(written).is_some())
     }
 
+    /// Whether a word is the unit of something, a share excepted.
+    pub(super) fn is_unit(word: &str) -> bool {
+        Self::of_unit(word).is_some()
+    }
+
     fn unit_of(self, written: &str) -> Option<&'static Unit> {
         let plain = plain_spelling(written);
         self.accepted_units().find(|unit| plain_spelling(unit.symbol) == plain)
@@ -211,7 +216,7 @@ fn plain_spelling(written: &str) -> String {
 }
 
 /// The bytes of the decimal number that `text` begins with, white space skipped.
-fn leading_number(text: &str) -> Option<Range<usize>> {
+pub(super) fn leading_number(text: &str) -> Option<Range<usize>> {
     let start = text.len() - text.trim_start().len();
     let digits =
         |from: usize| from + text.bytes().skip(from).take_while(u8::is_ascii_digit).count();

@@ -1,5 +1,6 @@
 //! A case file with other values, everything else as its author wrote it.
 
+use super::comment;
 use super::inputs::Input;
 use super::{Case, CaseError, Design};
 use crate::digest::sha256;
@@ -82,6 +83,36 @@ fn written(input: &Input, si: f64, difference: f64, step: Rounding) -> String {
     let dimension = Dimension::of(&one).unwrap_or(Dimension::Share);
     let one = dimension.parse(&one).unwrap_or(1.0);
     format!("\"{} {}\"", step.of(si / one), unit.trim())
+}
+
+impl Rewritten {
+    /// The same without the comments behind numbers that are other than in the case before, where they name a number with a
+    /// unit, or the one that was there: what they say of it need no longer hold.
+    ///
+    /// # Errors
+    /// [`RewriteError`] where what is left is no case.
+    pub fn with_fitting_comments(self, before: &Case) -> Result<Self, RewriteError> {
+        let mut text = self.text;
+        let own = |now: &Input| {
+            let same = |one: &&Input| one.table == now.table && one.name == now.name;
+            before.inputs.iter().find(same).map(|one| one.as_written.as_str())
+        };
+        let changed = self.case.inputs.iter().filter_map(|now| {
+            own(now).filter(|written| *written != now.as_written).map(|own| (now.span.end, own))
+        });
+        let mut changed: Vec<(usize, &str)> = changed.collect();
+        changed.sort_by_key(|(end, _)| std::cmp::Reverse(*end));
+        for (end, written) in changed {
+            let stale =
+                |range: &std::ops::Range<usize>| !comment::fits(&text[range.clone()], written);
+            if let Some(range) = comment::behind(&text, end).filter(stale) {
+                text.replace_range(range, "");
+            }
+        }
+        let case = Case::parse("the changed case", &text).map_err(Box::new)?;
+        let case = Case { recording: self.case.recording, ..case };
+        Ok(Self { text, case })
+    }
 }
 
 impl Case {

@@ -61,6 +61,25 @@ pub struct Uncertainty {
     #[schemars(with = "Option<Value>", extend("x-signed" = "amplitude", "x-plain" = [0.1], "minimum" = 0))]
     #[schemars(example = "0.02 mm", example = "± 0.05 mm")]
     pub amplitude: Option<Distribution>,
+    /// Of the oscillator's mass, its stiffness as it is; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "mass", "minimum" = 0))]
+    #[schemars(example = "0.1 kg", example = "± 0.2 kg")]
+    pub oscillator_mass: Option<Distribution>,
+    /// Of the oscillator's natural frequency, by its stiffness; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "natural_frequency", "minimum" = 0))]
+    #[schemars(example = "0.1 Hz", example = "± 0.3 Hz")]
+    pub natural_frequency: Option<Distribution>,
+    /// Of the oscillator's damping ratio, which stays at 0 or more; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "damping_ratio", "minimum" = 0))]
+    #[schemars(example = "0.1 %", example = "± 0.2 %")]
+    pub damping_ratio: Option<Distribution>,
+    /// Of the absorber's mass; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "absorber_mass", "minimum" = 0))]
+    #[schemars(example = "2 g", example = "± 5 g")]
+    pub absorber_mass: Option<Distribution>,
+    /// Designs that are drawn at random for the probability that all criteria hold, from 20 to 100,000.
+    #[schemars(extend("minimum" = 20, "maximum" = 100_000), example = 200)]
+    pub samples: Option<u32>,
 }
 
 /// A number, or text with a sign and a number.
@@ -86,6 +105,10 @@ impl Uncertainty {
             (Parameter::Friction, self.friction),
             (Parameter::GravityAlong, self.gravity_along),
             (Parameter::FrictionAcceleration, self.friction_acceleration),
+            (Parameter::Mass, self.oscillator_mass),
+            (Parameter::NaturalFrequency, self.natural_frequency),
+            (Parameter::DampingRatio, self.damping_ratio),
+            (Parameter::AbsorberMass, self.absorber_mass),
         ];
         all.into_iter().filter_map(|(parameter, errors)| Some((parameter, errors?)))
     }
@@ -124,17 +147,21 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
     let (Some((table, read)), Some(design)) = (table, reader.design) else {
         return Uncertainty::default();
     };
-    for parameter in Parameter::ALL.into_iter().filter(|one| table.has(one.key())) {
-        let Some(other) = design.counterpart(parameter) else { continue };
-        let key = parameter.key();
+    let keys = table.keys.clone();
+    for key in keys.into_iter().filter(|key| table.has(key)) {
+        let named = table.schema_of(key)["x-signed"].as_str().and_then(Parameter::of_name);
+        let Some(parameter) = named.filter(|one| design.form(*one).is_none()) else { continue };
+        let instead = design.counterpart(parameter).map(Parameter::key);
+        let instead = instead.map(|key| format!("write {key} instead, or ")).unwrap_or_default();
+        let this = design.carried(parameter).unwrap_or(design.writing().words);
         reader.report(
             table.span_of(key),
-            format!("{} has no `{key}` that could be uncertain", design.writing().words),
+            format!("{this} has no `{key}` that could be uncertain"),
             "expected a number that the design has",
-            format!("write {} instead, or remove the line", other.key()),
+            format!("{instead}remove the line"),
         );
     }
-    if read.amplitude.is_some() && design.forcing() == 0.0 {
+    if read.amplitude.is_some() && design.value(Parameter::Amplitude) == Some(0.0) {
         reader.report(
             table.span_of_value("amplitude"),
             "the amplitude is uncertain in a case that is not driven",

@@ -10,14 +10,21 @@ impl Case {
         Some(Self { design, system, ..self.clone() })
     }
 
-    /// The same with another value of a parameter: its band of frequencies stays where it is in hertz, and amplitudes along
-    /// it keep their ratio to the case's own. None where it leaves nothing that could happen.
+    /// The same with another value of a parameter, and its band as [`BandSettings::beside`] has it: amplitudes along it keep
+    /// their ratio to the case's own. None where it leaves nothing that could happen.
     pub(crate) fn varied(&self, parameter: Parameter, value: f64) -> Option<Self> {
-        let design = self.design.with(parameter, value);
+        self.beside(self.design.with(parameter, value))
+    }
+
+    /// The same with errors added to some parameters, as [`Design::deviating`].
+    pub(crate) fn deviating(&self, errors: &[(Parameter, f64)]) -> Option<Self> {
+        self.beside(self.design.deviating(errors))
+    }
+
+    fn beside(&self, design: Design) -> Option<Self> {
         design.possible_system()?;
-        let frequency = |design: &Design| design.units().natural_frequency;
-        let ratio = frequency(&self.design) / frequency(&design);
-        Some(self.with_design(design)?.with_band_scaled(ratio))
+        let band = self.band.as_ref().map(|band| band.beside(&self.design, &design));
+        Some(Self { band, ..self.with_design(design)? })
     }
 
     /// The same of a structure with so many times the natural frequency, by its stiffness: mass and damping constant stay.

@@ -4,9 +4,10 @@
 
 use super::error::Problem;
 use super::inputs::Input;
-use super::{BandOver, BandSettings, Case, Design};
-use crate::excitation::Scene;
+use super::support::{Orientation, SOFT, metres, static_length};
+use super::{BandOver, BandSettings, Case, Design, Rounding};
 use crate::quantity::numbers::rounded_to;
+use crate::system::Cavity;
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
 const FAR_APART: f64 = 30.0;
@@ -24,6 +25,9 @@ const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
 const LARGEST: f64 = 1e12;
 /// Coefficient above which nothing slides.
 const MOST_FRICTION: f64 = 1.0;
+/// Share of the structure's acceleration up to which that of a support is left out in silence: by small steps at a fifth
+/// of the excitation's frequency, peaks and averages of motions of all kinds then change by up to 6 %.
+const MOST_LEFT_OUT: f64 = 0.2;
 
 /// Everything that a case with this text is warned of, in the order of the file's lines.
 pub(super) fn of(text: &str, case: &Case) -> Vec<Problem> {
@@ -32,7 +36,11 @@ pub(super) fn of(text: &str, case: &Case) -> Vec<Problem> {
     found.extend(read.damping());
     found.extend(read.mass_ratio());
     found.extend(read.friction());
-    found.extend(read.gravity());
+    found.extend(read.held());
+    // Beside another slip the size of what is left out means nothing.
+    if found.is_empty() {
+        found.extend(read.support());
+    }
     found.sort_by_key(|warning| warning.span.start);
     found
 }
@@ -174,29 +182,89 @@ impl Read<'_> {
         Some(self.warning(at, message, "what slides has less than 1", meant))
     }
 
-    /// That gravity holds an absorber that lies at its wall: the structure with that mass does not accelerate as much.
-    fn gravity(&self) -> Option<Problem> {
-        let Case { system, band, .. } = self.case;
-        let steady = self.case.design.scene() == Scene::Steady && band.is_none();
-        let at = self.input(1, &["inclination", "gravity_along"]).filter(|_| steady)?;
-        let omega = system.frequency_ratio();
-        let acceleration = omega * omega * system.response_carried()?.amplitude();
-        let gravity = system.cavity().gravity_along.abs();
-        if acceleration == 0.0 || gravity <= acceleration {
+    /// That gravity holds the absorber at its lower wall, or friction wherever it is: the structure with that mass does
+    /// not accelerate as much.
+    fn held(&self) -> Option<Problem> {
+        let acceleration = self.case.acceleration_carried().filter(|largest| *largest > 0.0)?;
+        let Cavity { gravity_along, friction_acceleration: friction, .. } =
+            self.case.system.cavity();
+        let gravity = gravity_along.abs();
+        let (keys, what, holds, label): (&[&str], _, _, _) = if gravity > acceleration {
+            let label = "an absorber at its lower wall stays there";
+            (
+                &["orientation", "inclination", "gravity_along"],
+                "gravity along the cavity",
+                gravity,
+                label,
+            )
+        } else if friction > acceleration + gravity {
+            (
+                &["friction", "friction_acceleration"],
+                "friction",
+                friction,
+                "it holds the absorber wherever it is",
+            )
+        } else {
             return None;
-        }
+        };
+        let at =
+            self.input(1, keys).filter(|at| at.name != "friction" || at.value <= MOST_FRICTION)?;
         let message = format!(
-            "`{}` = {}: gravity along the cavity is {}",
+            "`{}` = {}: {what} is {}",
             at.name,
             at.as_written,
-            times(gravity / acceleration, "the structure's acceleration with the absorber at rest")
+            times(holds / acceleration, "the structure's acceleration with the absorber at rest")
         );
-        let meant = match at.name {
-            "inclination" => "it is the angle against the horizontal: 0 deg is a level cavity",
-            _ => "it is over the clearance times omega0^2: 0 is a level cavity",
+        Some(self.warning(at, message, label, self.carrying(at)))
+    }
+
+    /// What holds an absorber in a cavity without friction and gravity along it.
+    fn carrying(&self, at: &Input) -> String {
+        let Design::Physical(physical) = &self.case.design else {
+            return match at.name {
+                "gravity_along" => {
+                    "it is over the clearance times omega0^2: 0 is a level cavity".to_owned()
+                }
+                _ => "it is over the clearance times omega0^2: 0 is a cavity that does not rub"
+                    .to_owned(),
+            };
         };
-        let label = "an absorber at its lower wall stays there";
-        Some(self.warning(at, message, label, meant.to_owned()))
+        let softest = Rounding::Down.of(SOFT * self.case.lowest_hz());
+        let length = metres(static_length(softest));
+        let (level, support, is) = match physical.orientation() {
+            Some(Orientation::Vertical) => ("", "spring", "the absorber's weight stretches it by"),
+            Some(Orientation::Horizontal) => ("", "pendulum", "it does not rub, and its length is"),
+            None => (
+                "0 deg is a level cavity; ",
+                "pendulum",
+                "in such it does not rub, and its length is",
+            ),
+        };
+        format!(
+            "{level}write support = \"{support}\" and support_frequency = \"{softest} Hz\": {is} {length}, \
+             0.25 m/(f/Hz)^2"
+        )
+    }
+
+    /// That the force of the support is not small, which the model leaves out.
+    fn support(&self) -> Option<Problem> {
+        let (ratio, left_out) = (self.case.support_ratio()?, self.case.support_left_out()?);
+        if ratio <= SOFT * (1.0 + ROUNDING) && left_out <= MOST_LEFT_OUT {
+            return None;
+        }
+        let at = self.input(1, &["support_frequency"])?;
+        let message = format!(
+            "`{}` = {}: the support's restoring acceleration, which the model leaves out, is {} of the structure's",
+            at.name,
+            at.as_written,
+            percent(left_out)
+        );
+        let softest =
+            SOFT.min(ratio * libm::sqrt(MOST_LEFT_OUT / left_out)) * self.case.lowest_hz();
+        let length = metres(static_length(softest));
+        let meant =
+            format!("it is small up to {}; its length or stretch is then {length}", hertz(softest));
+        Some(self.warning(at, message, "no soft support", meant))
     }
 }
 

@@ -9,6 +9,7 @@ use miette::{Result, miette};
 use vinesink::answer::Decided;
 use vinesink::case::Case;
 use vinesink::excitation::Scene;
+use vinesink::operating_range::Reliability;
 use vinesink::program::output;
 use vinesink::program::progress::{Progress, duration};
 
@@ -62,6 +63,8 @@ impl Long {
             alternatives: allowed("the tuned mass dampers beside the absorber are", DRIFTS),
             ranges: !case.criteria.is_empty()
                 && allowed("the ranges over which the criteria hold are", VARIANTS),
+            reliability: drawn(case) > 0
+                && allowed("the probability that the criteria hold is", drawn(case)),
         }
     }
 
@@ -87,6 +90,11 @@ impl Long {
     }
 }
 
+/// Designs that are looked at for the probability that criteria hold, with those of its causes.
+fn drawn(case: &Case) -> u64 {
+    2 * u64::from(Reliability::samples(case))
+}
+
 /// About how many seconds work takes.
 pub fn seconds(work: &[Work]) -> f64 {
     work.iter().map(Work::seconds).sum()
@@ -94,12 +102,13 @@ pub fn seconds(work: &[Work]) -> f64 {
 
 /// Seconds for what is looked at beside a case.
 pub fn of_decision(case: &Case, decides: Decided) -> f64 {
-    let variants = match decides {
+    let ranges = match decides {
         Decided { ranges: true, .. } => VARIANTS,
         Decided { alternatives: true, .. } => DRIFTS,
-        _ => return 0.0,
+        _ => 0,
     };
-    seconds(&Work::variants(case, variants))
+    let variants = ranges + if decides.reliability { drawn(case) } else { 0 };
+    if variants == 0 { 0.0 } else { seconds(&Work::variants(case, variants)) }
 }
 
 /// Progress of work on a case that cannot be counted, with so many seconds besides; flights that are not steady can. How long it will be is estimated when it

@@ -10,6 +10,8 @@ use vinesink::case::{Case, Objective, Rounding};
 use vinesink::case_report::Report;
 use vinesink::criteria;
 use vinesink::excitation::Scene;
+use vinesink::measure::Measure;
+use vinesink::operating_range::edges;
 use vinesink::optimize::{Optimization, Task};
 use vinesink::program::parallel::Parallel;
 use vinesink::program::{case_file, output, reports};
@@ -41,7 +43,8 @@ pub struct Arguments {
     /// Also write optimize.md and its figures into OUT/<name of the case file>
     #[arg(long, value_name = "OUT")]
     out: Option<PathBuf>,
-    /// Write the case with the optimum into a new file, comments kept; nothing where there is none
+    /// Write the case with the optimum into a new file; comments stay, but for those behind a changed number that
+    /// name another; nothing where there is no optimum
     #[arg(long, value_name = "FILE")]
     write: Option<PathBuf>,
     /// Write the robust optimum, the best in expectation, instead
@@ -85,11 +88,17 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     if let Some(new) = &arguments.write {
         store::must_be_new(new)?;
     }
-    if arguments.robust && !case.uncertainty.is_any() {
+    let steady = case.design.scene() == Scene::Steady;
+    if arguments.robust && !(steady && case.uncertainty.is_any()) {
         return Err(miette!(
-            help = "add a table [uncertainty], or leave out --robust",
-            "nothing in {} is uncertain, so that there is no robust optimum",
-            path.display()
+            help = match steady {
+                true => "add a table [uncertainty], or leave out --robust",
+                false =>
+                    "leave out --robust; what a release may be off by is `releases` in [optimize]",
+            },
+            "{}: {}, so that there is no robust optimum",
+            path.display(),
+            if steady { "nothing is uncertain" } else { "the case is not driven steadily" }
         ));
     }
     let given =
@@ -101,7 +110,9 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let task = Task::of(&case, arguments.objective).map_err(|error| {
         miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
     })?;
-    long.allows(path, &case, &Work::designs(&task))?;
+    let mut work = Work::designs(&task);
+    work.extend(Work::edges(&case));
+    long.allows(path, &case, &work)?;
     let found = Optimization::of(&task, &text, &Parallel).into_diagnostic()?;
     if let Some(out) = &arguments.out {
         reports::add_to_report(out, path, &page::files(&case, &found).into_diagnostic()?)?;
@@ -122,7 +133,9 @@ impl Arguments {
     /// for.
     fn clearance(&self, case: &Case, text: &str) -> Result<bool> {
         let path = &self.one.path;
-        self.one.long.allows(path, case, &Work::clearances(case))?;
+        let mut work = Work::clearances(case);
+        work.extend(Work::edges(case));
+        self.one.long.allows(path, case, &work)?;
         let found = best_clearance(case, &Parallel);
         let best = found.ok_or_else(|| miette!("{} is driven steadily", path.display()))?;
         let name = path.display().to_string();
@@ -135,10 +148,17 @@ impl Arguments {
         let name = case_file::name(path)?;
         let report = Report::of(&name, &written.case, None, decides, &Parallel);
         let report = report.into_diagnostic()?;
-        let document = clearance::optimum(case, &best, &report.document);
+        let watched = match case.design.scene() {
+            Scene::Release => Measure::DecayTime,
+            _ => Measure::Peak,
+        };
+        let beside = edges(&written.case, Some(watched), &written.case.effort(), &Parallel);
+        let beside = beside.into_diagnostic()?;
+        let document = clearance::optimum(case, &best, &report.document, &beside);
         self.one.print(|| clearance::optimum_text(case, &document), || &document)?;
         let found = document["answer"] == "found";
         if let Some(new) = self.write.as_ref().filter(|_| found) {
+            let written = written.with_fitting_comments(case).into_diagnostic()?;
             store::write_new(new, written.text.as_bytes())?;
             self.tell(&format!("written: {}", new.display()), "")?;
         }
@@ -162,7 +182,8 @@ fn written(new: &Path, case: &Case, found: &Optimization, robust: bool) -> Resul
     let design = robust.map_or(&found.best, |robust| &robust.design);
     let better = found.improves() && design.is_feasible() && design.choice != found.own.choice;
     if better {
-        store::write_new(new, design.written.text.as_bytes())?;
+        let written = design.written.clone().with_fitting_comments(case).into_diagnostic()?;
+        store::write_new(new, written.text.as_bytes())?;
     }
     let file = new.display().to_string();
     let design = Some(design).filter(|_| better);

@@ -64,11 +64,11 @@ pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, Optimiz
     }
     let amplitudes: Mutex<Vec<ScoredPlace>> = Mutex::default();
     let score = |parts: &[f64]| {
-        let Some([amplitude, missed]) = screened(task, parts) else { return f64::NEG_INFINITY };
-        if let Ok(mut all) = amplitudes.lock() {
+        let screened = screened(task, parts);
+        if let (Some([amplitude, _]), Ok(mut all)) = (screened, amplitudes.lock()) {
             all.push((parts.to_vec(), amplitude));
         }
-        -amplitude * (1.0 + MISSED * missed)
+        ranked(screened)
     };
     let SearchResult { line, seen, best } = found(SCREENED, &score);
     if best.is_none() && dimensions > 1 {
@@ -83,6 +83,28 @@ pub fn propose(task: &Task, executor: &dyn Executor) -> Result<Proposed, Optimiz
     });
     let plateau = [0.0, 1.0].map(|part| task.bounds[0].at(part));
     Ok(Proposed { plateau, landscape: landscape.collect(), best: None, seen })
+}
+
+/// The score of what a coarse survey found.
+fn ranked(screened: Option<[f64; 2]>) -> f64 {
+    screened.map_or(f64::NEG_INFINITY, |[amplitude, missed]| -amplitude * (1.0 + MISSED * missed))
+}
+
+/// Clearances that a short search looks at, and how many of them it judges.
+const SHORT: usize = 16;
+const JUDGED: usize = 3;
+
+/// Judges the best of a few clearances for the smallest worst amplitude, as `check` does.
+///
+/// # Errors
+/// [`OptimizeError`] of an absorber that cannot be written or simulated.
+pub fn few(judge: &Judge, executor: &dyn Executor) -> Result<Vec<JudgedDesign>, OptimizeError> {
+    let score = |part: f64| ranked(screened(judge.task, &[part]));
+    let mut all = search::scan("looking about the closed form", SHORT, executor, &score);
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut known = KnownDesigns { judge, executor, designs: Vec::new() };
+    known.add(all.into_iter().take(JUDGED).map(|(part, _)| vec![part]).collect())?;
+    Ok(known.into_designs())
 }
 
 /// The worst amplitude of an absorber by a coarse survey, which only ranks, and by how much criteria are missed: what has not

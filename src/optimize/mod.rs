@@ -25,6 +25,9 @@ use crate::analysis::Strip;
 use crate::band::theory;
 use crate::case::{self, Case, Objective, RewriteError, Rewritten};
 use crate::executor::Executor;
+use crate::flights::DrivenError;
+use crate::measure::Measure;
+use crate::operating_range::{Edge, edges};
 use crate::simulation::StartError;
 use design::Judge;
 
@@ -40,6 +43,9 @@ pub enum OptimizeError {
     /// A simulation cannot begin.
     #[error(transparent)]
     Start(#[from] StartError),
+    /// A motion beside the chosen absorber cannot be followed.
+    #[error(transparent)]
+    Driven(#[from] DrivenError),
     /// Areas are those of an ideal cavity.
     #[error("{}; ask for stable-share", crate::case::AREAS_ARE_IDEAL)]
     RealCavity,
@@ -74,6 +80,8 @@ pub struct Optimization {
     pub sensitivities: Vec<sensitivity::Sensitivity>,
     /// The paper's claim on the case itself.
     pub claim: Option<claim::OptimumClaim>,
+    /// Numbers a fiftieth beside which the best no longer does what is said of it.
+    pub edges: Vec<Edge>,
     /// Where the share in Z3 is looked for, how much of it is in the strips A1 and A2, in which the motion is
     /// not, or not always, a steady 1:1 one.
     pub strips: Option<[f64; 2]>,
@@ -89,6 +97,19 @@ fn strips(task: &Task, choice: &case::Design) -> Option<[f64; 2]> {
     let zones = theory::zones(&band);
     let share = |strip| band.share(&zones, |zone| zone.is_z3() && zone.strip == Some(strip));
     Some([Strip::A1, Strip::A2].map(share))
+}
+
+/// The absorber with the smallest worst amplitude of a few clearances between the bounds of a task.
+///
+/// # Errors
+/// As [`Optimization::of`].
+pub fn best_of_few(
+    task: &Task,
+    text: &str,
+    executor: &dyn Executor,
+) -> Result<JudgedDesign, OptimizeError> {
+    let designs = choose::few(&Judge { task, text }, executor)?;
+    choose::best(&designs, task.objective).cloned().ok_or(OptimizeError::Nowhere)
 }
 
 impl Optimization {
@@ -113,6 +134,11 @@ impl Optimization {
         let again = judge.judged(again, executor)?;
         let closest = designs.iter().chain([&own]).filter(|_| !best.is_feasible());
         let closest = closest.min_by(|a, b| a.violation().total_cmp(&b.violation())).cloned();
+        let watched = (task.objective == Objective::WorstAmplitude).then_some(Measure::Peak);
+        let edges = match best.is_feasible() {
+            true => edges(&best.written.case, watched, &task.effort, executor)?,
+            false => Vec::new(),
+        };
         designs.sort_by(|a, b| a.choice.clearance().total_cmp(&b.choice.clearance()));
         Ok(Self {
             closest,
@@ -122,6 +148,7 @@ impl Optimization {
             landscape: proposed.landscape,
             sensitivities: sensitivity::of(task, &best.choice, executor),
             claim: claim::OptimumClaim::of(&task.case.system()),
+            edges,
             strips: strips(task, &best.choice),
             chart: chart::chart(task, &best.choice, executor),
             task: task.clone(),

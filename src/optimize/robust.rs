@@ -36,8 +36,8 @@ pub type WeightedErrors = (Vec<(Parameter, f64)>, f64);
 /// How thoroughly the expectation of an exact objective is looked for.
 const ROBUST: SearchEffort =
     SearchEffort { pieces: 48, particles: 16, steps: 12, width: 1e-3, smooth: true };
-/// Nodes of each uncertain parameter where that many are uncertain, from none to six, for an
-/// objective in closed form: at most 625 together. Shares have kinks, which many nodes even out.
+/// Nodes of each uncertain parameter where that many are uncertain, from none to six or more, for an
+/// objective in closed form: at most 625 together up to six. Shares have kinks, which many nodes even out.
 const CLOSED_FORM: [usize; 7] = [1, 21, 15, 7, 5, 3, 2];
 /// The same for one that needs orbits, which cost ten times as much: at most 125.
 const ORBITS: [usize; 7] = [1, 15, 7, 5, 3, 2, 2];
@@ -196,14 +196,15 @@ impl Task {
             Objective::WorstAmplitude => SIMULATED,
             Objective::StableShare | Objective::Margin => ORBITS,
         };
-        counts[self.case.uncertainty.parameters().count()]
+        counts[self.case.uncertainty.parameters().count().min(counts.len() - 1)]
     }
 
     /// The same while the best is looked for, which is then averaged over more.
     fn nodes_looked_at(&self) -> usize {
         match self.objective {
             Objective::StableShare | Objective::Margin => {
-                ORBITS_LOOKED_AT[self.case.uncertainty.parameters().count()]
+                let count = self.case.uncertainty.parameters().count();
+                ORBITS_LOOKED_AT[count.min(ORBITS_LOOKED_AT.len() - 1)]
             }
             _ => self.nodes(),
         }

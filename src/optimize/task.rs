@@ -3,7 +3,7 @@
 use super::OptimizeError;
 use crate::analysis::{Boundaries, Manifold};
 use crate::band::{Band, Worst, margin, theory};
-use crate::case::{BandOver, Case, Criterion, Design, Objective};
+use crate::case::{Case, Criterion, Design, Objective};
 use crate::executor::Executor;
 use crate::measure::Measure;
 use crate::motions::{Effort, along, stability};
@@ -159,18 +159,11 @@ impl Task {
         })
     }
 
-    /// The band of a design; one of frequencies is shifted by as much as the design's own frequency is off the
-    /// case's. `None` where no system has such values.
+    /// The band of a design, as the case's own is beside it. `None` where no system has such values.
     pub fn band_of(&self, design: &Design) -> Option<Band> {
         let base = design.system().ok()?;
         let Some(settings) = &self.case.band else { return Some(Band::point(&base)) };
-        let mut band = settings.around(&base);
-        if band.over == BandOver::Frequency {
-            let shift = base.frequency_ratio() - self.case.design.system().ok()?.frequency_ratio();
-            band.range = band.range.map(|end| end + shift);
-            band.spectrum.iter_mut().for_each(|corner| corner[0] += shift);
-        }
-        Some(band)
+        Some(settings.beside(&self.case.design, design).around(&base))
     }
 
     /// An exact objective of a band, the more the better: a share, or a relative distance. `None` for an

@@ -116,6 +116,9 @@ catalogue! {
     RESTITUTION_MINUS = "restitution_at_minus_b", "r₂", "restitution at the wall x − y = −b", Number, Significant(3), Interval;
     INCLINATION = "inclination", "α", "inclination of the cavity", Inclination, Significant(3), Interval;
     FRICTION = "friction", "μ", "friction in the cavity", Number, Significant(3), Interval;
+    SUPPORT_FREQUENCY = "support_frequency", "", "frequency of the absorber's support", Frequency, Significant(3), Interval;
+    SUPPORT_LENGTH = "support_length", "", "length of the pendulum, or stretch of the spring, that carries the absorber", Length, Significant(2), Interval;
+    SUPPORT_LEFT_OUT = "support_left_out", "", "restoring acceleration of the support over the structure's", Share, Significant(2), Interval;
     GRAVITY_ALONG = "gravity_along", "a", "gravity along the cavity over bω₀²", Number, Significant(3), Interval;
     FRICTION_ACCELERATION = "friction_acceleration", "", "friction in the cavity over m₂bω₀²", Number, Significant(3), Interval;
     BASE_AMPLITUDE = "base_amplitude", "F", "amplitude of the base", Length, Significant(4), Interval;
@@ -178,6 +181,7 @@ catalogue! {
     Z3_SHARE = "z3_share", "", "share in area Z3", Share, Significant(3), Interval;
     A1_SHARE = "a1_share", "", "share in strip A1", Share, Significant(3), Interval;
     A2_SHARE = "a2_share", "", "share in strip A2", Share, Significant(3), Interval;
+    PROBABILITY = "probability", "", "probability that all criteria hold", Share, Significant(2), Interval;
     STABLE_SHARE = "stable_share", "", "share with a stable 1:1 orbit", Share, Significant(3), Interval;
     REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Bound;
     OSCILLATOR_AMPLITUDE_RATIO = "oscillator_amplitude_over_clearance", "C/b", "oscillator amplitude", Number, Significant(3), Interval;

@@ -1,21 +1,68 @@
-//! What an absorber and a tuned mass damper come to as the structure's natural frequency drifts.
+//! What an absorber and a tuned mass damper come to as the structure's natural frequency drifts, and as the amplitude
+//! changes.
 
 use serde_json::Value;
 
 use super::chart::AxisOf;
 use super::figure::{Color, Dash, Figure, Layer, Marker, Panel, Role, Shape, Style};
 use super::transient::DAMPER;
-use crate::alternatives::Alternatives;
+use crate::alternatives::{Alternatives, Which};
 use crate::case::Case;
-use crate::measure::Device;
+use crate::measure::{Device, Measure};
+use crate::operating_range::{HoldsFor, Varied};
 use crate::quantity::catalogue as of;
 
 /// A damper in the absorber's room.
 const EQUAL: Style = Style::new(Color::SkyBlue, 1.1, Dash::Solid);
+/// What is asked.
+const LIMIT: Style = Style::new(Color::Vermillion, 1.3, Dash::Dashed);
 /// The name of the figure, which stands beside its table.
 pub const NAME: &str = "choice";
 
-/// The figure; none where the frequency of a structure cannot drift.
+/// That over the amplitude of what excites the structure.
+const AMPLITUDE: &str = "choice-amplitude";
+
+/// What was asked over the amplitude, where ranges were looked for and the first criterion is about it: places along the
+/// range and beyond it with the absorber, lines in proportion to the amplitude for what is linear.
+pub fn over_amplitude(
+    case: &Case,
+    found: &Alternatives,
+    ranges: &[HoldsFor],
+    facts: &Value,
+) -> Option<Figure> {
+    let along = ranges.iter().find(|one| one.parameter == Varied::Amplitude)?;
+    let asked = case.criteria.first().filter(|one| one.measure == found.measure)?;
+    let parameter = along.parameter.parameter(case)?;
+    let (first, last) = (along.reached.first()?[0], along.reached.last()?[0]);
+    // A time to come to rest does not grow with the amplitude in proportion.
+    let linear = |which: Which| {
+        let row = found.row(which, 0.0).filter(|_| found.measure != Measure::DecayTime)?;
+        let [value, _] = row.worst;
+        Some([first, last].map(|at| [at, value * at / along.value]).to_vec())
+    };
+    let largest = along.reached.iter().map(|one| one[1]).fold(asked.limit, f64::max);
+    let x = AxisOf::si(case.units(), case.design.kind(parameter)).axis([first, last]);
+    let kind = found.measure.kind(Device::Absorber)?;
+    let y = AxisOf::si(case.units(), kind).axis([0.0, 1.1 * largest]);
+    let line = |style: Style, which, name: &str| {
+        linear(which).map(|points| Layer::curve(style, points).labelled(name))
+    };
+    let lines = [
+        line(Role::BareOscillator.style(), Which::NoAbsorber, "without absorber"),
+        line(DAMPER, Which::Damper, "tuned mass damper"),
+    ];
+    let panel = lines.into_iter().flatten().fold(Panel::new(x, y), Panel::with);
+    let panel = panel
+        .with(Layer::horizontal(asked.limit, LIMIT).labelled("limit"))
+        .with(Layer::points(Role::Simulation, along.reached.clone()).labelled("absorber"));
+    Some(
+        Figure::new(AMPLITUDE, "")
+            .with_panel(panel)
+            .with_facts("captions/choice-amplitude", facts.clone()),
+    )
+}
+
+/// The figure over the drift; none where the frequency of a structure cannot drift.
 pub fn figure(case: &Case, found: &Alternatives, facts: &Value) -> Option<Figure> {
     let over = &found.over_drift;
     let (first, last) = (over.absorber.first()?.0, over.absorber.last()?.0);

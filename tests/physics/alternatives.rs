@@ -12,7 +12,7 @@ fn found(name: &str) -> (Case, Alternatives) {
     let text = std::fs::read_to_string(format!("cases/{name}.toml")).expect("a case");
     let case = Case::parse(name, &text).expect("valid");
     let answer = Answer::of(&case, Asked::Decision, None, &Serial).expect("answered");
-    let what = Decided { alternatives: true, ranges: false };
+    let what = Decided { alternatives: true, ..Decided::NOTHING };
     let answer = answer.decided(&case, what, &Serial).expect("flown");
     (case, answer.alternatives.expect("compared"))
 }

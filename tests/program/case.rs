@@ -1,7 +1,8 @@
 //! What a case file means, and what is said about one that is wrong.
 
 use vinesink::case::{
-    BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding, excitation_kinds,
+    BandOver, Case, CaseError, Design, ExtraFigure, Objective, Physical, Rounding, StartingLine,
+    excitation_kinds,
 };
 use vinesink::quantity::catalogue::{
     ABSORBER_MASS, DAMPING, EXCITATION_FREQUENCY, IMPACT_SPEED, PEAK, STIFFNESS,
@@ -804,16 +805,16 @@ fn the_starting_case_shows_every_optional_key_and_parses_without_its_comment_sig
     let lines: Vec<&str> = own.lines().map(|line| uncommented(line).unwrap_or(line)).collect();
     let full = lines.join("\n") + kinds;
     // Areas of the theory, and what asks for them, are those of an ideal cavity: its keys are read apart.
-    let keys = ["inclination = \"0.5 deg\"", "friction = 0.003"];
+    let keys = ["inclination = \"0.5 deg\"", "friction = 0.003", "orientation = \"vertical\""];
     let of_cavity = |line: &&str| keys.iter().any(|key| line.starts_with(key));
     let others: Vec<&str> = lines.iter().copied().filter(|line| !of_cavity(line)).collect();
     assert_eq!(others.len() + keys.len(), lines.len());
     let with_cavity =
-        keys.iter().fold(text.clone(), |text, key| text.replace(&format!("# {key}"), key));
+        keys[..2].iter().fold(text.clone(), |text, key| text.replace(&format!("# {key}"), key));
     let case = parsed(&others.join("\n"));
     // Of a structure that is driven steadily all but `decay_time`.
     assert_eq!(case.criteria.len(), 14);
-    assert_eq!(case.uncertainty.parameters().count(), 6);
+    assert_eq!(case.uncertainty.parameters().count(), 10);
     let cavity = parsed(&with_cavity).system().cavity();
     assert!(cavity.gravity_along > 0.0 && cavity.friction_acceleration > 0.0, "{cavity:?}");
     let band = case.band.expect("a band");
@@ -862,6 +863,50 @@ fn a_starting_case_of_any_kind_is_valid() {
     }
     assert_eq!(scenes.len(), 4, "{scenes:?}");
     assert_eq!(Case::starting_text_of("x", "base-displacement"), Case::starting_text("x"));
+}
+
+/// Lines that are given stand where their keys are shown; all others stay.
+#[test]
+fn a_starting_case_has_the_lines_that_it_is_given() {
+    let lines = [
+        ("oscillator", "mass", "30 kg"),
+        ("oscillator", "frequency", "6.9 Hz"),
+        ("absorber", "mass_ratio", "2 %"),
+        ("absorber", "restitution", "0.3"),
+        ("excitation", "amplitude", "14 N"),
+        ("criteria", "peak_displacement", "<= 4 mm"),
+        ("band", "from", "6 Hz"),
+        ("band", "to", "7 Hz"),
+    ];
+    let lines = lines.map(|(table, key, value)| StartingLine::new(table, key, value));
+    let (plain, given) =
+        (Case::starting_text_of("x", "force"), Case::starting_text_with("x", "force", &lines));
+    let changed: Vec<(&str, &str)> =
+        plain.lines().zip(given.lines()).filter(|(before, after)| before != after).collect();
+    let after: Vec<&str> = changed.iter().map(|(_, after)| *after).collect();
+    assert_eq!(plain.lines().count(), given.lines().count());
+    let expected = [
+        "mass = \"30 kg\"",
+        // What says the same in another way is named without its number.
+        "frequency = \"6.9 Hz\"          # or stiffness",
+        "mass_ratio = \"2 %\"            # or mass",
+        "restitution = 0.3             # speed after an impact over speed before: 1 elastic, 0 no rebound",
+        "amplitude = \"14 N\"            # on the oscillator",
+        "[band]",
+        "from = \"6 Hz\"",
+        "to = \"7 Hz\"",
+        "[criteria]",
+        "peak_displacement = \"<= 4 mm\"",
+    ];
+    assert_eq!(after, expected);
+    let case = parsed(&given);
+    assert!((case.system().mass_ratio() - 0.02).abs() < 1e-15);
+    assert_eq!((case.criteria.len(), case.band.is_some()), (1, true));
+    // A key that only a sentence shows follows it.
+    let lines = [StartingLine::new("criteria", "decay_time", "<= 2 s")];
+    let released = Case::starting_text_with("x", "free", &lines);
+    assert!(released.contains("decay_level = \"10 %\".\ndecay_time = \"<= 2 s\"\n"), "{released}");
+    assert_eq!(parsed(&released).criteria.len(), 1);
 }
 
 #[test]

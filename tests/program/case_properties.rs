@@ -34,7 +34,7 @@ prop_compose! {
         Physical {
             mass_kg, stiffness_n_per_m, damping_n_s_per_m, absorber_mass_kg, clearance_m,
             restitution, restitution_difference, inclination_rad, friction, excitation, amplitude, frequency_hz,
-            transient: None,
+            support: None, transient: None,
         }
     }
 }
@@ -222,6 +222,7 @@ fn restored(units: &Units, system: &System) -> Design {
             Excitation::Force => displacement * stiffness_n_per_m,
         },
         frequency_hz: units.frequency(system.frequency_ratio()),
+        support: None,
         transient: None,
     })
 }

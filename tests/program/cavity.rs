@@ -377,7 +377,7 @@ fn what_is_wrong_is_said_where_it_stands() {
             with("restitution = 0.6\ninclinaton = \"1 deg\"\n"),
             "inclinaton",
             "unknown key `inclinaton` in [absorber]",
-            "inclination, friction",
+            "inclination, orientation, friction",
             "did you mean `inclination`?",
         ),
         (

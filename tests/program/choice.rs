@@ -107,3 +107,76 @@ fn criteria_alone_are_judged_alone() {
     assert_eq!(row["device"], "absorber");
     assert_eq!(row["worst"]["value"], whole["criteria"][0]["found"]);
 }
+
+/// An absorber that friction holds leaves a linear structure with its mass, whose peak is proportional to its force: with a normal error of
+/// the force the limit lies at one standard deviation, and the probability is that of the normal distribution there.
+#[test]
+fn the_probability_of_a_linear_structure_is_that_of_the_normal_distribution() {
+    const NORMAL_AT_1: f64 = 0.841_344_746;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("linear.toml");
+    let (stiffness, ratio, damping): (f64, f64, f64) = (4000.0, 0.5, 0.05);
+    let inertia = 1.01 * ratio * ratio;
+    let response = 1.0 / ((1.0 - inertia).powi(2) + (2.0 * damping * ratio).powi(2)).sqrt();
+    let limit = 8.0 * 1.1 / stiffness * response;
+    let text = format!(
+        "title = 't'\nsource = 's'\n[oscillator]\nmass = \"1 kg\"\nstiffness = \"{stiffness:?} N/m\"\n\
+         damping_ratio = {damping:?}\n[absorber]\nmass = \"10 g\"\nclearance = \"1 m\"\nrestitution = 0.5\nfriction = 1.0\n\
+         [excitation]\nkind = \"force\"\namplitude = \"8 N\"\nfrequency = \"{:?} Hz\"\n\
+         [criteria]\npeak_displacement = \"<= {limit:?} m\"\n\
+         [uncertainty]\namplitude = \"0.8 N\"\nclearance = \"10 mm\"\nsamples = 1000\n",
+        ratio * stiffness.sqrt() / std::f64::consts::TAU
+    );
+    std::fs::write(&path, text).expect("written");
+    let found = &checked(path.to_str().expect("UTF-8"), &[])["reliability"];
+    let end = |k: usize| found["interval"][k]["value"].as_f64().expect("an end");
+    assert!(end(0) < NORMAL_AT_1 && NORMAL_AT_1 < end(1), "{found}");
+    // 1.96 standard errors of 1000 draws are 2.3 %; nothing is undecided, as all is exact.
+    assert!(end(1) - end(0) < 0.05 && found["undecided"] == 0, "{found}");
+    assert_eq!(found["causes"][0]["parameter"], "amplitude");
+    assert_eq!(found["causes"][0]["failures"], found["examined"]);
+    assert_eq!(found["causes"].as_array().map(Vec::len), Some(1), "{found}");
+}
+
+/// The share of designs that `check` passes, each a case file of its own with errors drawn here, against the probability.
+#[test]
+fn the_probability_is_the_share_of_designs_that_check_passes() {
+    const DESIGNS: u32 = 200;
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string("cases/li2016-8p5hz-fig4c.toml").expect("a case");
+    let text = format!(
+        "{text}\n[criteria]\npeak_displacement = \"<= 3.7 mm\"\ncount_inactive = false\n\n[simulation]\nstarts = 6\n"
+    );
+    let path = folder.path().join("uncertain.toml");
+    let uncertain = "\n[uncertainty]\nclearance = \"± 2 mm\"\namplitude = \"± 0.02 mm\"\nrestitution = \"± 0.05\"\n";
+    std::fs::write(&path, format!("{text}{uncertain}")).expect("written");
+    let found = &checked(path.to_str().expect("UTF-8"), &[])["reliability"];
+    // Additive recurrences of three irrational numbers fill the box evenly.
+    let (mut hold, mut undecided) = (0, 0);
+    let mut paths = Vec::new();
+    for k in 1..=DESIGNS {
+        let error = |step: f64, largest: f64| largest * (2.0 * (step * f64::from(k)).fract() - 1.0);
+        let mut text = with(&text, &["clearance"], 20.0 + error(0.819_172_513_396, 2.0), "mm");
+        text = with(&text, &["amplitude"], 0.25 + error(0.671_043_606_704, 0.02), "mm");
+        text = with(&text, &["restitution"], 0.6 + error(0.549_700_477_901, 0.05), "1");
+        let path = folder.path().join(format!("design-{k}.toml"));
+        std::fs::write(&path, text).expect("written");
+        paths.push(path.to_str().expect("UTF-8").to_owned());
+    }
+    let mut arguments = vec!["check", "--criteria-only", "--format", "json"];
+    arguments.extend(paths.iter().map(String::as_str));
+    let document: Value = serde_json::from_slice(&vinesink(&arguments).stdout).expect("JSON");
+    for case in document["cases"].as_array().expect("cases") {
+        let holds = case["holds"] == true;
+        hold += u32::from(holds);
+        undecided += u32::from(!holds && !fails(case));
+    }
+    let share = |count: u32| f64::from(count) / f64::from(DESIGNS);
+    let end = |k: usize| found["interval"][k]["value"].as_f64().expect("an end");
+    // Evenly spread designs are some percent off themselves at most: their share has no more than a third of the error of
+    // as many that are drawn.
+    let own = 0.03;
+    assert!(end(0) - own < share(hold + undecided), "{hold} {undecided} {found}");
+    assert!(share(hold) < end(1) + own, "{hold} {undecided} {found}");
+    assert!(hold > 40 && hold < 180, "both happen: {hold} {undecided}");
+}

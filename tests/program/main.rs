@@ -30,6 +30,7 @@ mod layers;
 mod live;
 mod metadata;
 mod optimize;
+mod proposal;
 mod readers;
 mod record;
 mod reduced;
@@ -39,6 +40,7 @@ mod report;
 mod review;
 mod run;
 mod sine_sweep;
+mod support;
 mod sweep;
 mod sweep_page;
 #[cfg(unix)]

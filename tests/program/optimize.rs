@@ -563,7 +563,9 @@ fn shares_in_strips_and_winners_on_bounds_are_told() {
     assert!(has(&told, sentence), "{told:?}");
     let more = "clearance = [\"12 mm\", \"14 mm\"]\nmass = [\"30 g\", \"32.01 g\"]\n";
     let text = band_without_criteria(&format!("[optimize]\n{more}"));
-    let (told, found) = (sentences(&text, None), optimized(&text, None).best.choice);
+    let (told, all) = (sentences(&text, None), optimized(&text, None));
+    let found = all.best.choice;
+    let page = vinesink::report::optimize::document(&case(&text), &all);
     let mass = found.value(Parameter::AbsorberMass).expect("a physical case");
     for (name, value, ends) in
         [("clearance", found.clearance(), [0.012, 0.014]), ("mass", mass, [0.03, 0.03201])]
@@ -571,6 +573,8 @@ fn shares_in_strips_and_winners_on_bounds_are_told() {
         let on_end = ends.iter().any(|end| (value / end - 1.0).abs() < 1e-3);
         let told = told.iter().any(|one| one.contains("on a bound") && one.contains(name));
         assert_eq!(told, on_end, "{name} {value}");
+        let rows = page["on_bounds"].as_array().expect("rows");
+        assert_eq!(rows.iter().any(|row| row["variable"] == name), on_end, "{rows:?}");
     }
 }
 
@@ -666,4 +670,57 @@ fn an_interrupted_command_leaves_nothing_half_written() {
     assert_eq!((status.code(), status.signal()), (None, Some(SIGTERM)));
     let left = fs::read_dir(folder.path()).expect("the folder").count();
     assert_eq!(left, 0, "files after an interrupt");
+}
+
+/// A board that is released with a velocity: a structure that swings alone moves by `v/omega0 exp(-zeta pi/2)` to one side, and
+/// by `exp(-zeta 3 pi/2)` of it to the other. Where both together are less than the cavity is long, an absorber in its middle
+/// is not reached.
+#[test]
+fn an_optimum_says_that_it_lies_at_an_edge() {
+    let text = "title = \"Board\"\nsource = \"s\"\n[oscillator]\nmass = \"0.1 kg\" # 0.1 kg on the scale\n\
+                frequency = \"200 Hz\"\ndamping_ratio = \"0.8 %\"\n[absorber]\nmass = \"2 g\"\n\
+                clearance = \"0.1 mm\" # a tenth of the 1 mm that there is\n  # and no more\n\
+                restitution = 0.75 # measured\n[excitation]\nkind = \"free\"\nvelocity = \"300 mm/s\"\n";
+    let folder = tempfile::tempdir().expect("a folder");
+    let optimize = |name: &str, text: &str, more: &[&str]| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).expect("written");
+        let mut command = Command::cargo_bin("vinesink").expect("the program");
+        let output = command.arg("optimize").arg(&path).args(more).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let document = |text: &str| -> serde_json::Value { serde_json::from_str(text).expect("JSON") };
+    let better = folder.path().join("better.toml");
+    let write = better.to_str().expect("UTF-8");
+    let found = document(&optimize("board.toml", text, &["--format", "json", "--write", write]));
+    let clearance = found["optimum"]["clearance"].as_f64().expect("a number");
+    let (zeta, omega) = (0.008_f64, std::f64::consts::TAU * 200.0);
+    let turn = |quarters: f64| libm::exp(-zeta * quarters * std::f64::consts::FRAC_PI_2);
+    let swing = |velocity: f64| velocity / omega * (turn(1.0) + turn(3.0));
+    assert!(swing(0.3) > 2.0 * clearance && swing(0.3 / 1.02) < 2.0 * clearance, "{clearance}");
+    // Then the structure comes down to a tenth as without it.
+    let alone = libm::log(10.0) / (zeta * omega);
+    for (parameter, at) in [("amplitude", 0.3 / 1.02), ("clearance", clearance * 1.02)] {
+        let edges = found["edges"].as_array().expect("edges");
+        let is_there = |one: &&serde_json::Value| {
+            one["parameter"] == parameter && one["at"]["value"].as_f64() == Some(at)
+        };
+        let edge = edges.iter().find(is_there).unwrap_or_else(|| panic!("{parameter}: {edges:?}"));
+        let [lost, instead] =
+            ["found", "instead"].map(|key| edge[key]["value"].as_f64().expect("a number"));
+        assert!((lost / alone - 1.0).abs() < 1e-3, "{lost} {alone}");
+        assert_eq!(Some(instead), found["checked"]["value"].as_f64());
+    }
+    let told = optimize("board.toml", text, &[]);
+    assert!(told.contains("\nAt an edge: instead of "), "{told}");
+    // Further inside nothing is lost.
+    let inside = format!("{text}[optimize]\nclearance = [\"0.1 mm\", \"0.12 mm\"]\n");
+    let safe = document(&optimize("inside.toml", &inside, &["--format", "json"]));
+    assert_eq!(safe["edges"], serde_json::json!([]));
+    // What stood behind the number that changed no longer fits; all else does.
+    let written = fs::read_to_string(&better).expect("written");
+    let value = format!("clearance = \"{} mm\"\nrestitution = 0.75 # measured\n", 1e3 * clearance);
+    assert!(written.contains(&value), "{value}{written}");
+    assert!(written.contains("mass = \"0.1 kg\" # 0.1 kg on the scale\n"), "{written}");
 }

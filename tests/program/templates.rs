@@ -67,6 +67,49 @@ fn page(name: &str, facts: &Value) -> String {
 }
 
 #[test]
+fn every_support_is_a_sentence() {
+    let mut facts = shipped("footbridge-jump");
+    let length = facts["support"]["length"].clone();
+    for (orientation, support, long, sentence) in [
+        (json!("horizontal"), "sliding", false, "Cavity: horizontal; the absorber slides in it.\n"),
+        (
+            json!("vertical"),
+            "spring",
+            true,
+            "vertical, held by a soft spring of 0.4 Hz that is stretched by 1.6 m.",
+        ),
+        (json!("horizontal"), "spring", false, "horizontal, held by a soft spring of 0.4 Hz. The"),
+        (
+            json!("horizontal"),
+            "pendulum",
+            true,
+            "the absorber on a pendulum of 0.4 Hz that is 1.6 m long. The",
+        ),
+        (json!(null), "spring", true, "Cavity: inclined by 90 deg, held by"),
+    ] {
+        facts["support"]["orientation"] = orientation;
+        facts["support"]["support"] = json!(support);
+        facts["support"]["length"] = if long { length.clone() } else { json!(null) };
+        let page = page("release.md", &facts);
+        assert!(page.contains(sentence), "{sentence}: {page}");
+    }
+    // No tilt and no friction acts on it, whatever its walls are.
+    let support = facts["support"].take();
+    let mut facts = shipped("li2016-8hz-b7p5mm");
+    facts["support"] = support;
+    let alike = page("steady.md", &facts);
+    assert!(alike.contains("Neither gravity nor friction acts along the cavity.\n"), "{alike}");
+    for end in ["restitution_at_plus_b", "restitution_at_minus_b"] {
+        facts["quantities"][end] = facts["quantities"]["restitution"].clone();
+    }
+    let unequal = page("steady.md", &facts);
+    assert!(
+        unequal.contains("acts along the cavity; restitution is 0.6 at x − y = +b"),
+        "{unequal}"
+    );
+}
+
+#[test]
 fn every_verdict_is_a_sentence() {
     for case in ["li2016-8hz-b7p5mm", "li2016-band", "reduced-unit-clearance"] {
         let mut facts = shipped(case);

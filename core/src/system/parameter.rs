@@ -45,6 +45,8 @@ names! { key:
         Mass = "mass",
         /// Stiffnesses of the oscillator, with a unit.
         Stiffness = "stiffness",
+        /// Natural frequencies of the oscillator, by its stiffness, with a unit.
+        NaturalFrequency = "natural_frequency",
         /// Viscous dampings of the oscillator, with a unit; lambda beside [reduced].
         Damping = "damping",
         /// Dampings of the oscillator over the critical one.
@@ -80,7 +82,11 @@ impl Parameter {
     pub fn is_ratio(self) -> bool {
         matches!(
             self,
-            Self::MassRatio | Self::DampingRatio | Self::GravityAlong | Self::FrictionAcceleration
+            Self::MassRatio
+                | Self::NaturalFrequency
+                | Self::DampingRatio
+                | Self::GravityAlong
+                | Self::FrictionAcceleration
         )
     }
 

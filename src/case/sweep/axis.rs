@@ -58,9 +58,11 @@ pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> 
     if design.form(parameter).is_none() {
         let structure = format!("a structure that is {}", design.scene().words());
         let writing = design.writing();
-        let (this, other) = match (design.counterpart(parameter), design.scene()) {
-            (Some(other), _) => (writing.words, other.key()),
-            (_, Scene::Steady) => (writing.words, writing.steady),
+        let other = (design.counterpart(parameter), design.carried(parameter), design.scene());
+        let (this, other) = match other {
+            (Some(other), ..) => (writing.words, other.key()),
+            (_, Some(carried), _) => (carried, "clearance"),
+            (.., Scene::Steady) => (writing.words, writing.steady),
             _ => (structure.as_str(), "clearance"),
         };
         reader.report(

@@ -178,6 +178,12 @@ impl Work {
         vec![Self::flights(case, factors, periods)]
     }
 
+    /// What lies a fiftieth beside a design: at most two steps of two numbers and six of the natural frequency, and what fails
+    /// once more in full.
+    pub fn edges(case: &Case) -> Vec<Self> {
+        Self::variants(case, 16)
+    }
+
     /// The motions that may not repeat where the excitation of the band is slowest.
     fn slowest(case: &Case) -> Self {
         let (band, effort) = (case.range(), case.effort());

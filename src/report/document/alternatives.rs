@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::criteria::criterion;
 use super::scale::Scale;
 use crate::alternatives::{Alternatives, Row, Which};
 use crate::answer::Answer;
@@ -10,9 +11,9 @@ use crate::case::Case;
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method::{self, ClosedForm};
-use crate::operating_range::HoldsFor;
-use crate::quantity::Quantity;
+use crate::operating_range::{Edge, HoldsFor, Reliability, Varied};
 use crate::quantity::catalogue as of;
+use crate::quantity::{Kind, Quantity};
 use crate::system::Parameter;
 
 /// Relative difference up to which two devices are as good as each other: half a decibel.
@@ -57,7 +58,8 @@ impl Alternatives {
 /// the templates.
 pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     // As it was not asked for.
-    if answer.alternatives.is_none() && answer.holds_for.is_empty() {
+    let decided = answer.alternatives.is_some() || answer.reliability.is_some();
+    if !decided && answer.holds_for.is_empty() {
         return;
     }
     let found = answer.alternatives.as_ref();
@@ -68,6 +70,7 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     let (rows, ranges): (Vec<Value>, Vec<Value>) = ranges.unzip();
     document["holds_for"] = json!(rows);
     document["ranges"] = json!(ranges);
+    document["reliability"] = json!(answer.reliability.as_ref().map(|one| reliability(case, one)));
 }
 
 /// Which device wins where.
@@ -104,16 +107,11 @@ fn choice(found: &Alternatives) -> Value {
 
 /// A row as CONTRACT.md has it; its numbers are quantities, by which two reports are compared.
 fn told(case: &Case, found: &Alternatives, row: &Row) -> Value {
-    let physical = case.units().physical;
     let damping_ratio = |damper: TunedMassDamper| {
         let method = if row.given_damping.is_some() { Method::Given } else { ClosedForm };
         Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, method)
     };
-    let with_unit = |quantity: Quantity| {
-        let mut told = json!(quantity);
-        told["unit"] = json!(quantity.kind.dimension.symbol(physical));
-        told
-    };
+    let with_unit = |quantity: Quantity| with_unit(case, quantity);
     json!({
         "which": row.which(),
         "device": row.device.word(),
@@ -129,6 +127,12 @@ fn told(case: &Case, found: &Alternatives, row: &Row) -> Value {
     })
 }
 
+fn with_unit(case: &Case, quantity: Quantity) -> Value {
+    let mut told = json!(quantity);
+    told["unit"] = json!(quantity.kind.dimension.symbol(case.units().physical));
+    told
+}
+
 /// Displacement of a device against the structure: the absorber has its clearance.
 fn stroke(case: &Case, row: &Row) -> Option<Quantity> {
     match row.device {
@@ -137,12 +141,62 @@ fn stroke(case: &Case, row: &Row) -> Option<Quantity> {
     }
 }
 
-/// How far the promise holds for a number: its row as CONTRACT.md has it, and quantities for a page.
-fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
-    let kind = match found.parameter.parameter(case) {
+/// With which probability all criteria hold, and what makes most designs fail.
+fn reliability(case: &Case, found: &Reliability) -> Value {
+    let probability = |value| Quantity::new(&of::PROBABILITY, value, Method::Simulation);
+    let (share, interval) = found.probability();
+    let error = interval.map(|end| (end - share).abs()).into_iter().fold(0.0, f64::max);
+    let cause = |(parameter, times): &(Parameter, u32)| {
+        let value = case.design.value(*parameter).unwrap_or_default();
+        let value = Quantity::new(case.design.kind(*parameter), value, Method::Given);
+        json!({ "parameter": parameter.key(), "value": value, "failures": times })
+    };
+    json!({
+        "probability": probability(share).with_error(error),
+        "interval": interval.map(probability),
+        "samples": found.samples,
+        "hold": found.hold,
+        "undecided": found.undecided,
+        "examined": found.examined,
+        "causes": found.causes.iter().map(cause).collect::<Vec<_>>(),
+    })
+}
+
+/// What a number of a case is whose range is looked for.
+fn kind_of(case: &Case, varied: Varied) -> &'static Kind {
+    match varied.parameter(case) {
         Some(Parameter::Stiffness) | None => &of::NATURAL_FREQUENCY,
         Some(parameter) => case.design.kind(parameter),
+    }
+}
+
+/// Edges of a case: the number, where it is and where a criterion fails, what that comes to there and in the case, and
+/// what was asked; an empty text where nobody did.
+pub fn edges(case: &Case, found: &[Edge]) -> Value {
+    let row = |edge: &Edge| {
+        let number = |value| Quantity::new(kind_of(case, edge.parameter), value, Method::Given);
+        let value = |value: f64, error: f64| {
+            let kind = edge.fails.criterion.measure.kind_under(edge.fails.records)?;
+            Some(Quantity::new(kind, value, edge.fails.decided_by).with_error(error))
+        };
+        let told = criterion(case, &edge.fails);
+        json!({
+            "parameter": edge.parameter,
+            "value": with_unit(case, number(edge.value)),
+            "at": with_unit(case, number(edge.at)),
+            "criterion": told["name"],
+            "asked": told["asked"],
+            "limit": told["limit"],
+            "found": edge.fails.found.and_then(|found| value(found, edge.fails.error)),
+            "instead": edge.instead.and_then(|found| value(found, 0.0)),
+        })
     };
+    found.iter().map(row).collect()
+}
+
+/// How far the promise holds for a number: its row as CONTRACT.md has it, and quantities for a page.
+fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
+    let kind = kind_of(case, found.parameter);
     let quantity = |value: f64| Quantity::new(kind, value, Method::Simulation);
     let row = json!({
         "parameter": found.parameter,

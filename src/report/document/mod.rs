@@ -30,7 +30,7 @@ use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
 use crate::system::Parameter;
 
-pub use alternatives::decide;
+pub use alternatives::{decide, edges};
 pub(super) use band::{AbsorberAlong, damper, outside};
 pub use notes::theory_limits;
 pub use scale::{Scale, cavity};
@@ -69,6 +69,9 @@ pub fn answer(case: &Case, content: Content, fields: Value) -> Value {
     });
     if let (Some(all), Value::Object(own)) = (document.as_object_mut(), fields) {
         all.extend(own);
+    }
+    if let Some(support) = scale::support(case) {
+        document["support"] = support;
     }
     document
 }

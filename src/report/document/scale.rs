@@ -1,6 +1,8 @@
 //! From dimensionless results to quantities in SI, or in the units of a reduced case.
 
-use crate::case::{BandOver, Case};
+use serde_json::{Value, json};
+
+use crate::case::{BandOver, Case, Design, Orientation};
 use crate::method::Method;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
@@ -36,6 +38,25 @@ pub fn cavity(case: &Case) -> Vec<Quantity> {
     all
 }
 
+/// How the cavity lies and what carries the absorber, where the case says so.
+pub fn support(case: &Case) -> Option<Value> {
+    let Design::Physical(physical) = &case.design else { return None };
+    let support = physical.support?;
+    let given = |kind, value| Quantity::new(kind, value, Method::Given);
+    let found = |kind, value: Option<f64>| {
+        value.map(|value| Quantity::new(kind, value, Method::ClosedForm))
+    };
+    Some(json!({
+        "orientation": physical.orientation().map(Orientation::name),
+        "inclination": given(&of::INCLINATION, physical.inclination_rad),
+        "support": support.kind.name(),
+        "frequency": support.frequency_hz.map(|one| given(&of::SUPPORT_FREQUENCY, one)),
+        // Of a pendulum its length, of a spring what the absorber's weight stretches it by.
+        "length": found(&of::SUPPORT_LENGTH, physical.support_length_m()),
+        "left_out": found(&of::SUPPORT_LEFT_OUT, case.support_left_out()),
+    }))
+}
+
 /// Makes the quantities of one case.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale {
@@ -45,6 +66,8 @@ pub struct Scale {
     frequency: &'static Kind,
     /// The case's excitation, and its amplitude in SI.
     excitation: (&'static Kind, f64),
+    /// Whether the absorber is carried, so that no tilt and no friction acts on it.
+    carried: bool,
 }
 
 impl Scale {
@@ -53,7 +76,13 @@ impl Scale {
         let design = &case.design;
         let amplitude = design.value(Parameter::Amplitude).unwrap_or_default();
         let excitation = (design.kind(Parameter::Amplitude), amplitude);
-        Self { units: case.units(), frequency: design.kind(Parameter::Frequency), excitation }
+        let carried = design.support().is_some_and(|support| support.carries());
+        Self {
+            units: case.units(),
+            frequency: design.kind(Parameter::Frequency),
+            excitation,
+            carried,
+        }
     }
 
     /// The unit of a quantity: of SI, or empty for a pure number and in a reduced case.
@@ -81,8 +110,12 @@ impl Scale {
         Quantity::new(self.excitation.0, over_own * self.excitation.1, method)
     }
 
-    /// The tilt of a cavity, or gravity along it for a reduced case; none where that is more than gravity.
+    /// The tilt of a cavity, or gravity along it for a reduced case; none where that is more than gravity, or acts on
+    /// no absorber.
     pub fn tilt(&self, acceleration: f64, method: Method) -> Option<Quantity> {
+        if self.carried {
+            return None;
+        }
         let (kind, value) = match self.units.physical {
             false => (&of::GRAVITY_ALONG, acceleration),
             true => (&of::INCLINATION, self.units.inclination(acceleration)?),
@@ -91,8 +124,11 @@ impl Scale {
     }
 
     /// The coefficient of friction of a cavity with such accelerations by gravity and friction, or the latter for a reduced
-    /// case.
+    /// case; none where it acts on no absorber.
     pub fn friction(&self, accelerations: [f64; 2], method: Method) -> Option<Quantity> {
+        if self.carried {
+            return None;
+        }
         let (kind, value) = match self.units.physical {
             false => (&of::FRICTION_ACCELERATION, accelerations[1]),
             true => (&of::FRICTION, self.units.friction(accelerations)?),

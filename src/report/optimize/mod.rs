@@ -6,7 +6,7 @@ mod figure;
 use serde_json::json;
 
 use super::document::criteria::criterion;
-use super::document::{AbsorberAlong, Scale, damper};
+use super::document::{AbsorberAlong, Scale, damper, edges};
 use super::render::{Files, RenderError, page_files};
 use super::template::{render, worded};
 use crate::case::{self, BandOver, Case, Objective};
@@ -82,6 +82,10 @@ pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
         // Where nothing meets all criteria, the absorber that misses them least.
         "closest": found.closest.as_ref().map(row),
         "robust": robust,
+        // Bounds of the search on which the optimum lies.
+        "on_bounds": on_bounds(found),
+        // Numbers a fiftieth beside which a criterion fails, or the worst displacement is half as large again.
+        "edges": edges(&best.written.case, &found.edges),
         // Clearances that are as good as the optimum's.
         "plateau": found.plateau,
         "bare": best.survey.bare().1 * best.choice.clearance(),
@@ -248,7 +252,6 @@ fn context(case: &Case, found: &Optimization) -> serde_json::Value {
             },
         })),
         "strips": found.strips.filter(|[a1, a2]| a1 + a2 > STRIPS),
-        "on_bounds": on_bounds(found),
         "places": places(over, found),
         "expectation": found.robust.is_some().then(|| [found.task.nodes(), found.task.deviations().len()]),
         "chart_at": figure::nearest(found).map(|one| scale.frequency(one.frequency_ratio, Method::Given)),

@@ -5,15 +5,17 @@ use serde_json::{Value, json};
 use crate::case::Case;
 use crate::excitation::Scene;
 use crate::method::Method;
+use crate::operating_range::Edge;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
-use crate::report::document::NOTICEABLE;
+use crate::report::document::{NOTICEABLE, edges};
 use crate::report::render::RenderError;
 use crate::report::template::render;
 use crate::transient::{ClearanceOptimum, WithError};
 
-/// What was found: `vinesink/optimization@3`, in SI. `written` is the document of the case with the best clearance.
-pub fn optimum(case: &Case, best: &ClearanceOptimum, written: &Value) -> Value {
+/// What was found: `vinesink/optimization@3`, in SI. `written` is the document of the case with the best clearance, `beside`
+/// the edges of that.
+pub fn optimum(case: &Case, best: &ClearanceOptimum, written: &Value, beside: &[Edge]) -> Value {
     let records = written["records"].as_u64().unwrap_or(1);
     let (objective, kind, [bare, damper]) = match case.design.scene() {
         Scene::Release => ("decay-time", &of::DECAY_TIME, ["bare_decay_time", "damper_decay_time"]),
@@ -50,6 +52,8 @@ pub fn optimum(case: &Case, best: &ClearanceOptimum, written: &Value) -> Value {
         "checked": all,
         "sample": written["sample"],
         "bound": best.bound.map(clearance),
+        // Numbers a fiftieth beside which a criterion fails, or the objective is half as large again.
+        "edges": edges(case, beside),
         "records": records,
         "feasible": written["criteria"].is_null() || written["criteria"]["failing"] == 0,
         "clearance": clearance(best.design.clearance()),

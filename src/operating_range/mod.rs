@@ -5,17 +5,22 @@
 //! looks at each, an end is narrowed down between the last step at which nothing fails and the next, and places at which
 //! an error could turn a criterion are told as not decided.
 
+mod reliability;
+
 use serde::Serialize;
 
 use crate::band::Survey;
-use crate::case::Case;
+use crate::case::{Case, Criterion};
 use crate::criteria::{self, Judged, Outcome};
 use crate::excitation::Transient;
 use crate::executor::{Executor, map};
 use crate::flights::{DrivenError, Places};
+use crate::measure::Measure;
 use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
 use crate::transient::Study;
+
+pub use reliability::Reliability;
 
 /// What all criteria together come to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,6 +59,8 @@ pub struct HoldsFor {
     pub open: [bool; 2],
     /// Places in it at which an error could turn a criterion: from one that is decided to the next.
     pub undecided: Vec<[f64; 2]>,
+    /// Places that were looked at, ascending, those beyond the ends too, and what the first criterion found there.
+    pub reached: Vec<[f64; 2]>,
 }
 
 /// What varies.
@@ -81,14 +88,15 @@ pub enum Varied {
 
 /// Steps outwards, as factors.
 const FACTORS: [f64; 13] = [1.02, 1.05, 1.1, 1.15, 1.22, 1.3, 1.4, 1.55, 1.75, 2.0, 2.4, 3.0, 4.0];
+/// The same of what decides less: the structure's damping and mass.
+const COARSE: [f64; 7] = [1.05, 1.12, 1.22, 1.4, 1.75, 2.4, 4.0];
 /// The same of the natural frequency, which a resonance makes narrow.
 const OF_FREQUENCY: [f64; 9] = [1.005, 1.01, 1.02, 1.035, 1.055, 1.08, 1.12, 1.18, 1.25];
-/// Steps that are added: of a restitution, of an inclination in rad (0.1 to 20 degrees), of gravity along a reduced cavity
+/// Steps that are added: of a restitution, of an inclination in rad (0.1 to 10 degrees), of gravity along a reduced cavity
 /// and of friction.
 const OF_RESTITUTION: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6];
-const OF_INCLINATION: [f64; 8] =
-    [0.001_745, 0.003_491, 0.008_727, 0.017_453, 0.034_907, 0.087_266, 0.174_533, 0.349_066];
-const OF_FRICTION: [f64; 8] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2];
+const OF_INCLINATION: [f64; 5] = [0.001_745, 0.005_236, 0.017_453, 0.052_36, 0.174_533];
+const OF_FRICTION: [f64; 5] = [0.002, 0.005, 0.02, 0.05, 0.2];
 /// How often an end is halved: to an eighth of its step.
 const HALVINGS: u32 = 3;
 /// How thoroughly a band is looked at on the way, and starts of a place.
@@ -157,6 +165,7 @@ impl Varied {
                 all
             }
             Self::NaturalFrequency => times(&OF_FREQUENCY),
+            Self::Damping | Self::Mass => times(&COARSE),
             _ => times(&FACTORS),
         }
     }
@@ -200,7 +209,7 @@ pub fn holds_for(
     let all: Vec<_> = Varied::ALL.into_iter().filter_map(of).collect();
     let side = |k: usize| {
         let (varied, parameter, value) = all[k / 2];
-        let side = Side { case, effort, varied, parameter, own: value };
+        let mut side = Side { case, effort, varied, parameter, own: value, reached: Vec::new() };
         let up = k % 2 == 1;
         // What is level and has ends alike does the mirrored thing at the mirrored inclination.
         let mirrored = varied == Varied::Inclination && !up && case.has_ideal_walls();
@@ -215,6 +224,10 @@ pub fn holds_for(
         let mut undecided: Vec<[f64; 2]> =
             below.undecided.into_iter().map(|[a, b]| [b, a]).chain(above.undecided).collect();
         undecided.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let here = judged.first().and_then(|first| first.found).map(|found| [value, found]);
+        let mut reached: Vec<[f64; 2]> =
+            below.reached.into_iter().chain(here).chain(above.reached).collect();
+        reached.sort_by(|a, b| a[0].total_cmp(&b[0]));
         undecided.dedup_by(|next, before| {
             let joins = next[0] <= before[1];
             if joins {
@@ -228,9 +241,68 @@ pub fn holds_for(
             range: [below.end, above.end],
             open: [below.open, above.open],
             undecided,
+            reached,
         });
     }
     Ok(found)
+}
+
+/// A number so close beside which a criterion fails that nobody holds it as closely.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Edge {
+    /// What varies, all else as it is.
+    pub parameter: Varied,
+    /// Its value in the case, in SI or the units of a reduced case.
+    pub value: f64,
+    /// The value at which the criterion fails.
+    pub at: f64,
+    /// The criterion there.
+    pub fails: Judged,
+    /// What it came to in the case itself.
+    pub instead: Option<f64>,
+}
+
+/// Numbers that are not held to a fiftieth: what drives a structure, what is built, what it is.
+const OF_EDGES: [Varied; 3] = [Varied::Amplitude, Varied::Clearance, Varied::NaturalFrequency];
+/// Factor within which an edge is looked for. A step that is this but for rounding is within.
+const EDGE: f64 = 1.02;
+/// How many times what it is in the case a value may be that is `watched`, and not asked for. Where an absorber is no longer
+/// woken it is several times as large; along a slope 2 % change it by less.
+const LOST: f64 = 1.5;
+
+/// Where a fiftieth less or more of a number makes a criterion fail, or a value that is watched half as large again: the
+/// first such place to either side. None where a criterion fails in the case itself.
+///
+/// # Errors
+/// [`DrivenError`] where a motion cannot be followed.
+pub fn edges(
+    case: &Case,
+    watched: Option<Measure>,
+    effort: &Effort,
+    on: &dyn Executor,
+) -> Result<Vec<Edge>, DrivenError> {
+    let (mut case, asked) = (case.clone(), case.criteria.len());
+    // No displacement is at most 0, which does not matter yet: the worst of all is found, whatever the limit.
+    case.criteria.extend(watched.and_then(|measure| Criterion::at_most(measure, 0.0)));
+    let own = judge(&case, effort, Looked::InFull)?;
+    if own.is_empty() || Together::of(&own[..asked.min(own.len())]) == Together::Fail {
+        return Ok(Vec::new());
+    }
+    for (limited, own) in case.criteria.iter_mut().zip(&own).skip(asked) {
+        limited.limit = LOST * own.found.unwrap_or(f64::INFINITY);
+    }
+    let of = |varied: Varied| {
+        let parameter = varied.parameter(&case)?;
+        Some((varied, parameter, varied.own(&case, parameter)?))
+    };
+    let all: Vec<_> = OF_EDGES.into_iter().filter_map(of).collect();
+    let sides = map(on, "edges", 2 * all.len(), |k| {
+        let (varied, parameter, value) = all[k / 2];
+        let reached = Vec::new();
+        let mut side = Side { case: &case, effort, varied, parameter, own: value, reached };
+        side.edge(k % 2 == 1, &own)
+    });
+    Ok(sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
 /// One direction of one number.
@@ -240,6 +312,8 @@ struct Side<'a> {
     varied: Varied,
     parameter: Parameter,
     own: f64,
+    /// See [`HoldsFor::reached`]; in the order in which they were looked at.
+    reached: Vec<[f64; 2]>,
 }
 
 /// What was found there.
@@ -248,18 +322,21 @@ struct Reach {
     open: bool,
     /// From a place that is decided, or the case's own, to the next, in the direction of the search.
     undecided: Vec<[f64; 2]>,
+    reached: Vec<[f64; 2]>,
 }
 
 impl Reach {
     fn mirrored(&self) -> Self {
         let undecided = self.undecided.iter().map(|ends| ends.map(|end| -end)).collect();
-        Self { end: -self.end, open: self.open, undecided }
+        let reached = self.reached.iter().map(|[at, found]| [-at, *found]).collect();
+        Self { end: -self.end, open: self.open, undecided, reached }
     }
 }
 
 impl Side<'_> {
-    fn search(&self, own: Together, up: bool) -> Result<Reach, DrivenError> {
-        let mut reach = Reach { end: self.own, open: true, undecided: Vec::new() };
+    fn search(&mut self, own: Together, up: bool) -> Result<Reach, DrivenError> {
+        let [undecided, reached] = [Vec::new(), Vec::new()];
+        let mut reach = Reach { end: self.own, open: true, undecided, reached };
         let mut looked = vec![(self.own, own)];
         for step in self.varied.steps(self.own, up) {
             let Some(outcome) = self.outcome(step, Looked::OnTheWay)? else { break };
@@ -304,15 +381,45 @@ impl Side<'_> {
                 reach.undecided.push([pair[0].0, pair[1].0]);
             }
         }
+        reach.reached = std::mem::take(&mut self.reached);
         Ok(reach)
     }
 
+    /// The first step that is no further than an edge at which a criterion fails.
+    fn edge(&mut self, up: bool, own: &[Judged]) -> Result<Option<Edge>, DrivenError> {
+        for at in self.varied.steps(self.own, up) {
+            if (at / self.own).max(self.own / at) > EDGE * (1.0 + f64::EPSILON) {
+                break;
+            }
+            if self.outcome(at, Looked::OnTheWay)? != Some(Together::Fail) {
+                continue;
+            }
+            let there = self.judged(at, Looked::InFull)?.unwrap_or_default();
+            let lost = there
+                .into_iter()
+                .zip(own)
+                .find(|(one, _)| matches!(one.outcome(), Outcome::Fails | Outcome::NotMeasured));
+            if let Some((fails, own)) = lost {
+                let (parameter, value) = (self.varied, self.own);
+                return Ok(Some(Edge { parameter, value, at, fails, instead: own.found }));
+            }
+        }
+        Ok(None)
+    }
+
     /// What the criteria come to at a value; none where there is no such case.
-    fn outcome(&self, value: f64, how: Looked) -> Result<Option<Together>, DrivenError> {
-        let Some(case) = self.varied.with(self.case, self.parameter, self.own, value) else {
-            return Ok(None);
-        };
-        judge(&case, self.effort, how).map(|judged| Some(Together::of(&judged)))
+    fn outcome(&mut self, value: f64, how: Looked) -> Result<Option<Together>, DrivenError> {
+        let Some(judged) = self.judged(value, how)? else { return Ok(None) };
+        // A place that is looked at again is known better then.
+        self.reached.retain(|[at, _]| *at != value);
+        self.reached.extend(judged.first().and_then(|first| Some([value, first.found?])));
+        Ok(Some(Together::of(&judged)))
+    }
+
+    /// The criteria at a value.
+    fn judged(&self, value: f64, how: Looked) -> Result<Option<Vec<Judged>>, DrivenError> {
+        let case = self.varied.with(self.case, self.parameter, self.own, value);
+        case.map(|case| judge(&case, self.effort, how)).transpose()
     }
 }
 
@@ -321,6 +428,8 @@ impl Side<'_> {
 enum Looked {
     /// With fewer starts and places.
     OnTheWay,
+    /// The same with windows as long as those of `check`: in short ones what has not settled may fail.
+    Longer,
     /// With those of `check`.
     InFull,
 }
@@ -335,6 +444,7 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
         let effort = match how {
             Looked::InFull => short,
             Looked::OnTheWay => Effort { starts: effort.starts.min(STARTS), band: BAND, ..short },
+            Looked::Longer => Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort },
         };
         settings.effort = settings.effort.map(|_| effort);
         let survey = Survey::of(&case.range(), &settings, None, on)?;
