@@ -253,6 +253,27 @@ fn a_structure_that_no_wall_reaches_shakes_as_a_sine() {
     }
 }
 
+/// Friction holds the absorber, which the structure then carries: `X = F/|1 - (1 + eps) Omega^2 + 2 i zeta Omega|`.
+#[test]
+fn a_structure_that_carries_its_absorber_shakes_as_a_sine() {
+    let system = System::new(Parameters {
+        mass_ratio: 0.05,
+        damping: 1.0,
+        restitution: 0.6,
+        frequency_ratio: 0.9,
+        forcing_per_clearance: 1.5,
+        excitation: Excitation::Force,
+        cavity: Cavity { friction_acceleration: 9.0, ..Cavity::IDEAL },
+    })
+    .expect("valid");
+    let x = 0.05 * 1.5 / libm::hypot(1.0 - 1.05 * 0.81, 0.05 * 0.9);
+    let found = motions(&[Place::new(&system, 1)], &asked(Effort::over(50)), &Serial);
+    let found = found.expect("finite");
+    let told = shaking(found[0].rest().expect("held")).map(|one| one.value);
+    assert!(apart(&told, &Shaking::of_sine(x, 0.9)) < 1e-11, "{told:?} {x}");
+    assert!((told.rms_velocity / (0.9 * x / 2.0_f64.sqrt()) - 1.0).abs() < 1e-11);
+}
+
 /// The orbits of Table 1 at 8 Hz, integrated for a period from where they stand.
 #[test]
 fn an_orbit_shakes_as_the_integration_says() {
