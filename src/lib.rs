@@ -33,6 +33,7 @@ pub mod operating_range;
 pub mod optimize;
 #[cfg(feature = "cli")]
 pub mod program;
+pub mod proposal;
 pub mod quantity;
 pub mod report;
 pub mod store;

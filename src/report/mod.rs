@@ -15,6 +15,7 @@ pub mod index;
 pub mod live;
 pub mod mathml;
 pub mod optimize;
+pub mod proposal;
 pub mod render;
 pub mod stored;
 pub mod sweep;

@@ -30,6 +30,7 @@ mod layers;
 mod live;
 mod metadata;
 mod optimize;
+mod proposal;
 mod readers;
 mod record;
 mod reduced;
