@@ -290,6 +290,11 @@ impl Comparator<'_> {
         for key in keys.into_iter().flatten().filter(|key| has(old, key) != has(new, key)) {
             self.on_one_side(&format!("{path}/{key}"), old.get(key), new.get(key));
         }
+        // A unit is there where a script reads the number alone.
+        if has(old, "unit") && has(new, "unit") && old["unit"] != new["unit"] {
+            let path = format!("{path}/unit");
+            self.found.states.push(change(&path, &old["unit"], &new["unit"]));
+        }
         let folded = &mut self.found.folded;
         let is_place = path.starts_with("band/") && old["id"] == new["id"];
         match moved(old, new) {

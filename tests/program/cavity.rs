@@ -219,7 +219,7 @@ fn reports_say_what_the_cavity_is() {
     for line in [
         "those of an ideal cavity with the mean restitution; in it the case would lie in area Z3.",
         "Fixed points of the slow flow by the theory of this cavity",
-        "stable for clearances from 4.592 mm (slip reversal, where exact orbits stop) to 16.44 mm (saddle-node)",
+        "in clearance: 4.592 mm (slip reversal, where exact orbits stop) and 16.44 mm (saddle-node)",
         "14 of 14 claims",
         "would, with an ideal cavity, lie in Z3",
     ] {

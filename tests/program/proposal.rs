@@ -183,6 +183,7 @@ fn a_footbridge_is_judged_as_another_integrator_judges_it() {
     let told = proposed(&[&FOOTBRIDGE[..], &limit].concat());
     told.keeps_its_promise(0);
     assert!((told.case.system().mass_ratio() - 0.02).abs() < 1e-12, "{}", told.printed);
+    assert!((told.case.criteria[0].limit - 4e-3).abs() < 1e-15, "{:?}", told.case.criteria);
     assert!(told.printed.contains("Restitution 0.3: about resonance"), "{}", told.printed);
     // (P/k)/(2 zeta + 0.55 eps), and P/k/(2 zeta) without an absorber.
     let still = 280.0 / (20e3 * 16.0 * PI * PI);
@@ -206,6 +207,7 @@ fn a_footbridge_is_judged_as_another_integrator_judges_it() {
 fn a_release_takes_as_long_by_another_integrator() {
     let told = proposed(&[&MAST[..], &["--limit", "5 s"]].concat());
     told.keeps_its_promise(0);
+    assert!((told.case.criteria[0].limit - 5.0).abs() < 1e-15, "{:?}", told.case.criteria);
     // The fold lies at the level: 0.1 x0 = b sqrt(R/(1 + R)) with R = (2 rho/pi)^2, rho = (1 - r)/(1 + r).
     let root = 2.0 * 0.7 / 1.3 / PI;
     let guess = 0.1 * 5.0 * (1.0 + root * root).sqrt() / root;

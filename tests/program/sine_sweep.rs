@@ -100,8 +100,8 @@ fn what_a_sweep_cannot_be_is_said() {
         ("\"0.25 mm\"", "\"2.9 N\"", "`N` is the unit of a force"),
         (
             "[excitation]",
-            "[uncertainty]\nclearance = \"1 %\"\n[excitation]",
-            "[uncertainty] has no meaning",
+            "[band]\nfrom = \"8 Hz\"\nto = \"9 Hz\"\n[excitation]",
+            "[band] has no meaning",
         ),
         (
             "[excitation]",
