@@ -385,11 +385,7 @@ impl Proposal {
         let Candidate { mass_ratio, guessed, ref case, .. } = best;
         let (text, case) = wishes.case(title, mass_ratio, &written(case.design.clearance()))?;
         let answer = Answer::of(&case, Asked::Decision, None, on)?;
-<<<<<<< HEAD
         let decides = Decided { alternatives: true, ..Decided::NOTHING };
-=======
-        let decides = Decided { alternatives: true, ranges: false };
->>>>>>> guide
         let answer = answer.decided(&case, decides, on)?;
         let given_restitution = has(Wish::Restitution);
         Ok(Self { text, case, answer, why, ruled_out, given_restitution, guessed, edges: beside })
