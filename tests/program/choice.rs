@@ -117,7 +117,7 @@ fn the_probability_of_a_linear_structure_is_that_of_the_normal_distribution() {
     let path = folder.path().join("linear.toml");
     let (stiffness, ratio, damping): (f64, f64, f64) = (4000.0, 0.5, 0.05);
     let inertia = 1.01 * ratio * ratio;
-    let response = 1.0 / ((1.0 - inertia).powi(2) + (2.0 * damping * ratio).powi(2)).sqrt();
+    let response = 1.0 / libm::hypot(1.0 - inertia, 2.0 * damping * ratio);
     let limit = 8.0 * 1.1 / stiffness * response;
     let text = format!(
         "title = 't'\nsource = 's'\n[oscillator]\nmass = \"1 kg\"\nstiffness = \"{stiffness:?} N/m\"\n\
