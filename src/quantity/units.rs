@@ -349,7 +349,7 @@ mod tests {
             (&of::RMS_VELOCITY, 0.018, "0.709 in/s"),
             (&of::PEAK_ACCELERATION, 9.15, "0.933 g"),
             (&of::FORCE_AMPLITUDE, 0.5, "0.1124 lbf"),
-            (&of::STIFFNESS, 11.47e3, "65.49 lbf/in"),
+            (&of::STIFFNESS, 11.47e3, "65.50 lbf/in"),
             (&of::WORK, 9.76e-3, "0.0864 in lbf"),
             (&of::EXCITATION_FREQUENCY, 8.0, "8.000 Hz"),
             (&of::Z3_SHARE, 0.728_21, "72.8 %"),
