@@ -3,7 +3,7 @@
 
 use crate::excitation::Scene;
 use crate::linear::reduction;
-use crate::motions::{Motion, Value};
+use crate::motions::{Fact, Motion, Value};
 use crate::quantity::catalogue as of;
 use crate::quantity::{ErrorKind, Kind, Units};
 
@@ -214,6 +214,20 @@ impl Measure {
         }
     }
 
+    /// The number of a motion that decides it; none of what no single number does.
+    pub const fn fact(self) -> Option<Fact> {
+        Some(match self {
+            Self::Peak | Self::ReductionDb | Self::ReductionDbTmd => Fact::Peak,
+            Self::Rms => Fact::Rms,
+            Self::ImpactSpeed => Fact::ImpactSpeed,
+            Self::PeakVelocity => Fact::PeakVelocity,
+            Self::RmsVelocity => Fact::RmsVelocity,
+            Self::PeakAcceleration => Fact::PeakAcceleration,
+            Self::RmsAcceleration => Fact::RmsAcceleration,
+            _ => return None,
+        })
+    }
+
     /// What a long-term motion has of it, with its error, in SI or the units of a reduced case; `peak` is its peak with the
     /// error that it has along a band. A reduction is [`Self::against`] an amplitude: one that nothing limits says nothing.
     pub fn of_motion(
@@ -236,10 +250,8 @@ impl Measure {
                 reduction(pair(peak), against)
             }
             Self::ImpactSpeed => pair(facts.impact_speed),
-            Self::PeakVelocity => along(facts.shaking?.peak_velocity),
-            Self::RmsVelocity => pair(facts.shaking?.rms_velocity),
-            Self::PeakAcceleration => along(facts.shaking?.peak_acceleration),
-            Self::RmsAcceleration => pair(facts.shaking?.rms_acceleration),
+            Self::PeakVelocity | Self::PeakAcceleration => along(self.fact()?.of(motion)?),
+            Self::RmsVelocity | Self::RmsAcceleration => pair(self.fact()?.of(motion)?),
             Self::ImpactsPerPeriod => pair(facts.impacts_per_period),
             Self::Efficiency => pair(facts.efficiency?),
             _ => return None,

@@ -104,8 +104,8 @@ const PLACES_OF_RECORD: u64 = 8;
 /// How much more than its room a penalty takes the stroke of a damper for: an optimum at the edge stays there.
 const PENALTY: f64 = 20.0;
 
-/// Relative error of what a designed damper does, which a simplex finds: from other starts it came to within 2e-7.
-const DESIGN: f64 = 1e-6;
+/// Relative error of a designed damper and of what it does, which a simplex finds: from other starts it came to within 2e-7.
+pub const DESIGN: f64 = 1e-6;
 /// Damping ratio with which any damper is as good as fixed, and how often the way there is halved.
 const MOST_DAMPING: f64 = 100.0;
 const HALVINGS: u32 = 40;

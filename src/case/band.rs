@@ -46,6 +46,11 @@ impl BandSettings {
             }
             _ => 0.0,
         };
+        self.moved(scale, shift)
+    }
+
+    /// The same with other frequency ratios, so many times as large and then shifted.
+    pub(super) fn moved(&self, scale: f64, shift: f64) -> Self {
         if self.over != BandOver::Frequency {
             return self.clone();
         }

@@ -15,6 +15,7 @@ use super::physical::{AbsorberTable, Physical};
 use super::reader::{Reader, Table};
 use super::{Case, Design, Rounding};
 use crate::excitation::{Scene, Transient};
+use crate::linear::{BandSystems, bare_along};
 use crate::quantity::numbers::rounded_to;
 use crate::quantity::unit::STANDARD_GRAVITY;
 use crate::system::{Band, BandOver, Parameter, System};
@@ -129,9 +130,6 @@ impl Design {
     }
 }
 
-/// Places of a range at which a response is looked at, its resonances besides: what is wanted is its size.
-const PLACES: u32 = 129;
-
 impl Case {
     /// The frequencies and amplitudes of a harmonic excitation that the case is about; none where it has another.
     fn harmonic(&self) -> Option<Band> {
@@ -147,22 +145,6 @@ impl Case {
         }
     }
 
-    /// The largest of something along what the case is about, looked at where the structure with or without the mass of
-    /// the absorber resonates as well.
-    fn largest_along(&self, of: impl Fn(&System) -> Option<f64>) -> Option<f64> {
-        let band = self.harmonic()?;
-        let [from, to] = band.range;
-        let tuned = [1.0, 1.0 / sqrt(1.0 + self.system().mass_ratio())];
-        let tuned = tuned
-            .into_iter()
-            .filter(|at| band.over == BandOver::Frequency && (from..=to).contains(at));
-        let each = band.places(PLACES).chain(tuned).map(|at| {
-            // Without damping nothing limits a resonance.
-            band.system(at).ok().map(|there| of(&there).unwrap_or(f64::INFINITY))
-        });
-        each.flatten().reduce(f64::max)
-    }
-
     /// The largest acceleration of the structure while it carries the absorber along, over `b omega0^2`; none where
     /// a record drives it, which has to be simulated for that.
     pub(super) fn acceleration_carried(&self) -> Option<f64> {
@@ -170,10 +152,14 @@ impl Case {
             // With the absorber the structure is slower and its acceleration smaller.
             return Some(release.amplitude(&self.units()));
         }
-        self.largest_along(|there| {
+        let band = self.harmonic()?;
+        let acceleration = |there: &System| {
             let omega = there.frequency_ratio();
-            Some(omega * omega * there.response_carried()?.amplitude())
-        })
+            // Without damping nothing limits a resonance.
+            let carried = there.response_carried();
+            carried.map_or(f64::INFINITY, |response| omega * omega * response.amplitude())
+        };
+        Some(BandSystems::of(&band).largest(acceleration).1)
     }
 
     /// The restoring acceleration of the support that the model leaves out, over the structure's, both at their
@@ -185,7 +171,7 @@ impl Case {
         let moves = match self.design.scene() {
             Scene::Record => None,
             Scene::Release => self.design.release().map(|one| one.amplitude(&self.units())),
-            _ => self.largest_along(|there| Some(there.linear_response()?.amplitude())),
+            _ => self.harmonic().map(|band| bare_along(&band).1),
         };
         let moves = moves.filter(|one| *one > 0.0).unwrap_or(1.0);
         Some((ratio * ratio / moves.min(1.0)).min(f64::MAX))

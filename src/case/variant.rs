@@ -1,6 +1,6 @@
 //! A case with another number, of which nothing is written.
 
-use super::{BandOver, Case, Design};
+use super::{Case, Design};
 use crate::system::{Excitation, Parameter};
 
 impl Case {
@@ -32,9 +32,9 @@ impl Case {
     pub(crate) fn with_natural_frequency(&self, factor: f64) -> Option<Self> {
         let mut design = self.design;
         match &mut design {
-            Design::Physical(of) => {
-                let stiffness = factor * factor * of.stiffness_n_per_m;
-                return self.varied(Parameter::Stiffness, stiffness);
+            Design::Physical(_) => {
+                let own = self.design.value(Parameter::NaturalFrequency)?;
+                return self.varied(Parameter::NaturalFrequency, factor * own);
             }
             Design::Reduced(of) if of.transient.is_none() => {
                 of.frequency_ratio = Some(of.frequency_ratio() / factor);
@@ -47,21 +47,13 @@ impl Case {
             }
             Design::Reduced(_) => return None,
         }
-        Some(self.with_design(design)?.with_band_scaled(1.0 / factor))
+        let band = self.band.as_ref().map(|band| band.moved(1.0 / factor, 0.0));
+        Some(Self { band, ..self.with_design(design)? })
     }
 
     /// Whether its cavity is level and its ends are alike: mirrored it is the same.
     pub(crate) fn has_ideal_walls(&self) -> bool {
         let cavity = self.system.cavity();
         cavity.gravity_along == 0.0 && cavity.restitution_difference == 0.0
-    }
-
-    fn with_band_scaled(mut self, ratio: f64) -> Self {
-        let band = self.band.as_mut().filter(|band| band.over == BandOver::Frequency);
-        if let Some(band) = band {
-            band.range = band.range.map(|end| ratio * end);
-            band.spectrum.iter_mut().for_each(|corner| corner[0] *= ratio);
-        }
-        self
     }
 }

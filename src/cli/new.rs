@@ -70,7 +70,7 @@ struct Known {
     /// Largest displacement that is allowed; with --release the longest time down to a tenth
     #[arg(long, value_name = "LIMIT")]
     limit: Option<String>,
-    /// Excitation frequencies that occur [default: 5 % about the natural frequency]
+    /// Excitation frequencies that occur [default: 10 % about the natural frequency]
     #[arg(long, value_names = ["FROM", "TO"], num_args = 2, conflicts_with = "release")]
     band: Option<Vec<String>>,
     /// Mass of the absorber over that of the structure [default: the smallest that holds the limit]

@@ -10,9 +10,9 @@ mod scope;
 
 use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation};
-use crate::measure::{Device, Measure};
+use crate::measure::Device;
 use crate::method::Method;
-use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
+use crate::motions::{Along, Extreme, Motion, MotionKind, RestKind};
 use crate::transient::Study;
 
 use scope::Scope;
@@ -93,17 +93,7 @@ pub fn needs_simulation(criteria: &[Criterion]) -> bool {
 /// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst
 /// value is known to the error that `[accuracy]` asks for.
 pub fn settings(case: &Case) -> SurveySettings {
-    let fact = |measure| match measure {
-        Measure::Peak | Measure::ReductionDb | Measure::ReductionDbTmd => Some(Fact::Peak),
-        Measure::Rms => Some(Fact::Rms),
-        Measure::ImpactSpeed => Some(Fact::ImpactSpeed),
-        Measure::PeakVelocity => Some(Fact::PeakVelocity),
-        Measure::RmsVelocity => Some(Fact::RmsVelocity),
-        Measure::PeakAcceleration => Some(Fact::PeakAcceleration),
-        Measure::RmsAcceleration => Some(Fact::RmsAcceleration),
-        _ => None,
-    };
-    let sides = case.criteria.iter().filter_map(|one| Some((fact(one.measure)?, one)));
+    let sides = case.criteria.iter().filter_map(|one| Some((one.measure.fact()?, one)));
     let extremes = sides.flat_map(|(of, one)| {
         let larger_is_worse = (one.relation == Relation::AtMost) != one.measure.against().is_some();
         let both = one.relation == Relation::Equal;

@@ -196,16 +196,17 @@ impl Task {
             Objective::WorstAmplitude => SIMULATED,
             Objective::StableShare | Objective::Margin => ORBITS,
         };
+        self.nodes_of(&counts)
+    }
+
+    fn nodes_of(&self, counts: &[usize; 7]) -> usize {
         counts[self.case.uncertainty.parameters().count().min(counts.len() - 1)]
     }
 
     /// The same while the best is looked for, which is then averaged over more.
     fn nodes_looked_at(&self) -> usize {
         match self.objective {
-            Objective::StableShare | Objective::Margin => {
-                let count = self.case.uncertainty.parameters().count();
-                ORBITS_LOOKED_AT[count.min(ORBITS_LOOKED_AT.len() - 1)]
-            }
+            Objective::StableShare | Objective::Margin => self.nodes_of(&ORBITS_LOOKED_AT),
             _ => self.nodes(),
         }
     }

@@ -181,7 +181,7 @@ catalogue! {
     Z3_SHARE = "z3_share", "", "share in area Z3", Share, Significant(3), Interval;
     A1_SHARE = "a1_share", "", "share in strip A1", Share, Significant(3), Interval;
     A2_SHARE = "a2_share", "", "share in strip A2", Share, Significant(3), Interval;
-    PROBABILITY = "probability", "", "probability that all criteria hold", Share, Significant(2), Interval;
+    PROBABILITY = "probability", "", "probability that all criteria hold", Share, Significant(3), Interval;
     STABLE_SHARE = "stable_share", "", "share with a stable 1:1 orbit", Share, Significant(3), Interval;
     REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Bound;
     OSCILLATOR_AMPLITUDE_RATIO = "oscillator_amplitude_over_clearance", "C/b", "oscillator amplitude", Number, Significant(3), Interval;

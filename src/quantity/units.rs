@@ -23,11 +23,13 @@ pub struct Units {
     scales: Scales,
     /// Whether pages are in inches and pounds.
     us: bool,
+    /// Whether accelerations on pages are in g.
+    in_g: bool,
 }
 
 impl From<Scales> for Units {
     fn from(scales: Scales) -> Self {
-        Self { scales, us: false }
+        Self { scales, us: false, in_g: false }
     }
 }
 
@@ -114,12 +116,12 @@ impl Units {
     /// Those of a page of quantities, with a clearance in metres, of an oscillator of 1 kg and 1 rad/s.
     pub const fn physical(clearance_m: f64) -> Self {
         let scales = Scales { physical: true, clearance: clearance_m, ..Scales::REDUCED };
-        Self { scales, us: false }
+        Self { scales, us: false, in_g: false }
     }
 
     /// Those of a reduced design whose clearance is 1.
     pub const fn reduced() -> Self {
-        Self { scales: Scales::REDUCED, us: false }
+        Self { scales: Scales::REDUCED, us: false, in_g: false }
     }
 
     /// The same with pages in inches and pounds; documents stay in SI, and a reduced design in its own units.
@@ -128,9 +130,16 @@ impl Units {
         Self { us: true, ..self }
     }
 
+    /// The same with accelerations on pages in g.
+    #[must_use]
+    pub const fn in_g(self) -> Self {
+        Self { in_g: true, ..self }
+    }
+
     /// The units of a dimension on a page, from the largest to the smallest.
     fn of_page(&self, dimension: Dimension) -> &'static [Unit] {
-        if self.us { dimension.us_units() } else { dimension.units() }
+        let in_g = self.in_g && dimension == Dimension::Acceleration;
+        if self.us || in_g { dimension.us_units() } else { dimension.units() }
     }
 
     /// What documents call them: SI, or a reduced design's.
@@ -357,6 +366,9 @@ mod tests {
             assert_eq!(units.text(kind, value), text, "{}", kind.id);
         }
         assert_eq!((units.length_symbol(), units.length_number(0.0254)), ("in", 1.0));
+        let in_g = Units::physical(7.5e-3).in_g();
+        assert_eq!(in_g.text(&of::PEAK_ACCELERATION, 9.15), "0.933 g");
+        assert_eq!(in_g.text(&of::PEAK, 3.561_9e-3), "3.56 mm");
         // What is stored stays in SI, and a reduced design has units of its own.
         assert_eq!((units.name(), units.length_unit()), ("si", "m"));
         assert_eq!(Units::reduced().in_us().text(&of::PEAK, 1.0342), "1.03 units");

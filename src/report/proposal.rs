@@ -36,6 +36,7 @@ pub fn text(proposal: &Proposal, file: &str) -> Result<String, RenderError> {
         },
         "by_closed_form": ruled_out[0].iter().map(|one| share(*one)).collect::<Vec<_>>(),
         "by_check": ruled_out[1].iter().map(|one| share(*one)).collect::<Vec<_>>(),
+        "proposed": MASS_RATIOS.map(share),
         "most": MASS_RATIOS.last().map(|most| share(*most)),
         "mass_ratio": share(case.system().mass_ratio()),
         "mass": number(Parameter::AbsorberMass),

@@ -94,14 +94,7 @@ impl Run for Linear {
 
 /// What velocity and acceleration have of a measure.
 pub(super) fn shaken(shaking: Option<&Shaking>, of: Measure) -> Option<f64> {
-    let shaking = shaking?;
-    Some(match of {
-        Measure::PeakVelocity => shaking.peak_velocity,
-        Measure::RmsVelocity => shaking.rms_velocity,
-        Measure::PeakAcceleration => shaking.peak_acceleration,
-        Measure::RmsAcceleration => shaking.rms_acceleration,
-        _ => return None,
-    })
+    of.fact()?.of_shaking(shaking?)
 }
 
 impl Run for Passage {

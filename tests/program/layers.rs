@@ -227,7 +227,18 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "case",
-        &["digest", "excitation", "measure", "motions", "names", "numerics", "quantity", "system"],
+        // What a structure alone does says which numbers of a case are slips.
+        &[
+            "digest",
+            "excitation",
+            "linear",
+            "measure",
+            "motions",
+            "names",
+            "numerics",
+            "quantity",
+            "system",
+        ],
     ),
     (
         "transient",

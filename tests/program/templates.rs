@@ -262,3 +262,22 @@ fn markdown_becomes_a_page() {
     assert!(html.contains("<section class=\"verdict bad\">") && html.contains("<table>"));
     assert_eq!(html.matches("<div class=\"table tiles\"").count(), 1);
 }
+
+/// A criterion that is not decided does not fail, and does not hold.
+#[test]
+fn criteria_are_counted_by_what_they_came_to() {
+    for (failing, undecided, words) in [
+        (0, 0, "all 3 criteria hold"),
+        (0, 1, "1 of 3 criteria is not decided"),
+        (0, 3, "3 of 3 criteria are not decided"),
+        (1, 2, "1 of 3 criteria fails, 2 are not decided"),
+        (2, 0, "2 of 3 criteria fail"),
+    ] {
+        let criteria = json!({
+            "failing": failing, "undecided": undecided, "count": 3, "too_close": 0,
+            "count_inactive": true, "all": [],
+        });
+        let text = page("check.txt", &json!({ "case": "c", "criteria": criteria }));
+        assert!(text.starts_with(&format!("c: {words}\n")), "{text}");
+    }
+}

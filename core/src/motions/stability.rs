@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::{Effort, Facts, Motion, Value, one_to_one};
 use crate::numerics::scan::{largest, sign_changes};
 use crate::orbits::{Orbit, symmetric_orbits, two_impact_orbits};
-use crate::system::{Band, Stretch};
+use crate::system::{Band, Shaking, Stretch};
 
 /// Pieces of a band in which beginnings and ends of stability are looked for. What decides it,
 /// multipliers and room between impacts, is smooth along an orbit; pairs of changes within a piece
@@ -44,11 +44,19 @@ impl Fact {
             Self::Peak => facts.peak,
             Self::Rms => facts.rms,
             Self::ImpactSpeed => facts.impact_speed,
-            Self::PeakVelocity => facts.shaking?.peak_velocity,
-            Self::RmsVelocity => facts.shaking?.rms_velocity,
-            Self::PeakAcceleration => facts.shaking?.peak_acceleration,
-            Self::RmsAcceleration => facts.shaking?.rms_acceleration,
+            _ => return self.of_shaking(facts.shaking.as_ref()?),
         })
+    }
+
+    /// Its value in what was measured of velocity and acceleration; none of a fact that is neither.
+    pub const fn of_shaking<T: Copy>(self, of: &Shaking<T>) -> Option<T> {
+        match self {
+            Self::PeakVelocity => Some(of.peak_velocity),
+            Self::RmsVelocity => Some(of.rms_velocity),
+            Self::PeakAcceleration => Some(of.peak_acceleration),
+            Self::RmsAcceleration => Some(of.rms_acceleration),
+            Self::Peak | Self::Rms | Self::ImpactSpeed => None,
+        }
     }
 
     /// By which power of its frequency a sine's number grows at one amplitude.

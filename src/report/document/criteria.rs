@@ -37,14 +37,16 @@ fn outcome(judged: &Judged) -> &'static str {
 
 /// All criteria of a case, one for each line of `[criteria]`; none where the case asks for nothing.
 pub fn criteria(case: &Case, judged: &[Judged]) -> Option<Value> {
-    let close = |one: &&Judged| outcome(one) == "too-close-to-call";
+    let count = |of: &str| judged.iter().filter(|one| outcome(one) == of).count();
+    let undecided = count("not-decided");
     badge(judged).map(|badge| {
         json!({
             "badge": badge,
             "count": judged.len(),
-            // Those too close to call that do not hold included.
-            "failing": judged.iter().filter(|one| one.holds != Some(true)).count(),
-            "too_close": judged.iter().filter(close).count(),
+            // Those too close to call that do not hold included, those that are not decided not.
+            "failing": judged.iter().filter(|one| one.holds != Some(true)).count() - undecided,
+            "undecided": undecided,
+            "too_close": count("too-close-to-call"),
             "count_inactive": case.count_inactive,
             "all": judged.iter().map(|one| criterion(case, one)).collect::<Vec<_>>(),
         })

@@ -5,10 +5,10 @@ pub mod motions;
 pub mod place;
 pub mod theory;
 
-mod alternatives;
 mod band;
 mod cavity;
 mod claims;
+mod decision;
 mod deviations;
 mod notes;
 mod scale;
@@ -30,8 +30,8 @@ use crate::study::CaseStudy;
 use crate::study::fidelity::Answers;
 use crate::system::Parameter;
 
-pub use alternatives::{decide, edges};
 pub(super) use band::{AbsorberAlong, damper, outside};
+pub use decision::{decide, edges};
 pub use notes::theory_limits;
 pub use scale::{Scale, cavity};
 pub use word::{Tone, Word};

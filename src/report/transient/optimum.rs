@@ -55,7 +55,8 @@ pub fn optimum(case: &Case, best: &ClearanceOptimum, written: &Value, beside: &[
         // Numbers a fiftieth beside which a criterion fails, or the objective is half as large again.
         "edges": edges(case, beside),
         "records": records,
-        "feasible": written["criteria"].is_null() || written["criteria"]["failing"] == 0,
+        "feasible": written["criteria"].is_null()
+            || ["failing", "undecided"].iter().all(|key| written["criteria"][key] == 0),
         "clearance": clearance(best.design.clearance()),
         "own": { "clearance": clearance(case.design.clearance()), "value": simulated(best.own) },
         "alone": alone,

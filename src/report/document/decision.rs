@@ -1,11 +1,12 @@
-//! What else could be done, as data: rows by device, room and drift, a table of them, and who wins.
+//! What decides whether an absorber is taken, as data: the devices beside it and who wins, how far each number may change,
+//! with which probability the criteria hold, and edges.
 
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::criteria::criterion;
 use super::scale::Scale;
-use crate::alternatives::{Alternatives, Row, Which};
+use crate::alternatives::{Alternatives, DESIGN, Row, Which};
 use crate::answer::Answer;
 use crate::case::Case;
 use crate::linear::TunedMassDamper;
@@ -108,9 +109,13 @@ fn choice(found: &Alternatives) -> Value {
 /// A row as CONTRACT.md has it; its numbers are quantities, by which two reports are compared.
 fn told(case: &Case, found: &Alternatives, row: &Row) -> Value {
     let damping_ratio = |damper: TunedMassDamper| {
-        let method = if row.given_damping.is_some() { Method::Given } else { ClosedForm };
-        Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, method)
+        let ratio = |method| Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, method);
+        match row.given_damping {
+            Some(_) => ratio(Method::Given),
+            None => designed(ratio(ClosedForm)),
+        }
     };
+    let frequency = |one: TunedMassDamper| designed(Scale::of(case).damper_frequency(one.tuning));
     let with_unit = |quantity: Quantity| with_unit(case, quantity);
     json!({
         "which": row.which(),
@@ -122,9 +127,14 @@ fn told(case: &Case, found: &Alternatives, row: &Row) -> Value {
         "drift": row.drift,
         "worst": with_unit(found.worst(row)),
         "stroke": stroke(case, row).map(with_unit),
-        "frequency": row.damper.map(|one| Scale::of(case).damper_frequency(one.tuning)),
+        "frequency": row.damper.map(frequency),
         "damping_ratio": row.damper.map(damping_ratio),
     })
+}
+
+/// A number of a damper, with the error of its design.
+fn designed(quantity: Quantity) -> Quantity {
+    quantity.with_error(DESIGN * quantity.value)
 }
 
 fn with_unit(case: &Case, quantity: Quantity) -> Value {
@@ -137,7 +147,9 @@ fn with_unit(case: &Case, quantity: Quantity) -> Value {
 fn stroke(case: &Case, row: &Row) -> Option<Quantity> {
     match row.device {
         Device::Absorber => Some(case.units().quantity(&of::CLEARANCE, 1.0, Method::Given)),
-        _ => row.stroke.map(|stroke| Quantity::new(&of::DAMPER_STROKE, stroke, ClosedForm)),
+        _ => {
+            row.stroke.map(|stroke| designed(Quantity::new(&of::DAMPER_STROKE, stroke, ClosedForm)))
+        }
     }
 }
 
@@ -164,10 +176,7 @@ fn reliability(case: &Case, found: &Reliability) -> Value {
 
 /// What a number of a case is whose range is looked for.
 fn kind_of(case: &Case, varied: Varied) -> &'static Kind {
-    match varied.parameter(case) {
-        Some(Parameter::Stiffness) | None => &of::NATURAL_FREQUENCY,
-        Some(parameter) => case.design.kind(parameter),
-    }
+    varied.parameter(case).map_or(&of::NATURAL_FREQUENCY, |one| case.design.kind(one))
 }
 
 /// Edges of a case: the number, where it is and where a criterion fails, what that comes to there and in the case, and
