@@ -100,7 +100,8 @@ fn decide(
             choice::over_amplitude(case, found, ranges, document),
         ]
     });
-    let drawn = drawn.into_iter().flatten().flatten().collect();
+    let combined = choice::combined(case, &answer.combined, document);
+    let drawn = drawn.into_iter().flatten().chain([combined]).flatten().collect();
     for figure in template::worded(drawn, &case.units())? {
         let row = document::figure_row(&figure);
         document["figures"].as_array_mut().into_iter().for_each(|rows| rows.push(row.clone()));

@@ -6,6 +6,7 @@ use crate::linear::reduction;
 use crate::motions::{Fact, Motion, Value};
 use crate::quantity::catalogue as of;
 use crate::quantity::{ErrorKind, Kind, Units};
+use crate::system::Shaking;
 
 /// Which structure a measure is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,7 +43,7 @@ pub enum Measure {
     PeakVelocity,
     /// Root mean square velocity.
     RmsVelocity,
-    /// Largest absolute acceleration of the structure between impacts.
+    /// Largest absolute acceleration of the structure: between impacts, unless they have a pulse.
     PeakAcceleration,
     /// Root mean square acceleration between impacts.
     RmsAcceleration,
@@ -228,6 +229,16 @@ impl Measure {
         })
     }
 
+    /// What a structure has of it that moves in a sine of this amplitude at this frequency ratio; none of what is not of the
+    /// structure alone.
+    pub fn of_sine(self, amplitude: f64, frequency: f64) -> Option<f64> {
+        match self {
+            Self::Peak => Some(amplitude),
+            Self::Rms => Some(amplitude * std::f64::consts::FRAC_1_SQRT_2),
+            _ => self.fact()?.of_shaking(&Shaking::of_sine(amplitude, frequency)),
+        }
+    }
+
     /// What a long-term motion has of it, with its error, in SI or the units of a reduced case; `peak` is its peak with the
     /// error that it has along a band. A reduction is [`Self::against`] an amplitude: one that nothing limits says nothing.
     pub fn of_motion(
@@ -250,7 +261,12 @@ impl Measure {
                 reduction(pair(peak), against)
             }
             Self::ImpactSpeed => pair(facts.impact_speed),
-            Self::PeakVelocity | Self::PeakAcceleration => along(self.fact()?.of(motion)?),
+            Self::PeakAcceleration => {
+                let flights = along(self.fact()?.of(motion)?).map(|one| units.acceleration(one));
+                let speed = pair(facts.impact_speed).map(|one| units.velocity(one));
+                return Some(units.peak_acceleration(flights, speed));
+            }
+            Self::PeakVelocity => along(self.fact()?.of(motion)?),
             Self::RmsVelocity | Self::RmsAcceleration => pair(self.fact()?.of(motion)?),
             Self::ImpactsPerPeriod => pair(facts.impacts_per_period),
             Self::Efficiency => pair(facts.efficiency?),

@@ -6,9 +6,11 @@ mod structure;
 
 use serde::Serialize;
 
-use crate::band::{Survey, Worst};
+use crate::band::{Survey, SurveySettings, Worst};
 use crate::case::Case;
+use crate::criteria;
 use crate::dampers::{self, Designing};
+use crate::excitation::Scene;
 use crate::executor::Executor;
 use crate::flights::{DrivenError, Places};
 use crate::linear::TunedMassDamper;
@@ -285,14 +287,21 @@ fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].max(b[0]), a[1].max(b[1])]
 }
 
-/// What devices are compared by.
+/// What devices are compared by: what the first criterion asks about, where a damper has a closed form of it.
 fn asked(case: &Case) -> Measure {
     let first = case.criteria.first().map(|one| one.measure);
-    match (case.design.transient().is_some(), first) {
-        (true, Some(Measure::Rms)) if case.recording.is_some() => Measure::Rms,
-        (_, _) if case.design.release().is_some() => Measure::DecayTime,
+    match (case.design.scene(), first) {
+        (Scene::Release, _) => Measure::DecayTime,
+        (Scene::Record, Some(Measure::Rms)) => Measure::Rms,
+        (Scene::Steady, Some(asked)) if asked.of_sine(1.0, 1.0).is_some() => asked,
         _ => Measure::Peak,
     }
+}
+
+/// What the first criterion of a case that is driven steadily found, and whether in an absorber that stays at rest.
+fn by_first_criterion(case: &Case, survey: &Survey) -> Option<([f64; 2], bool)> {
+    let judged = criteria::judge(case, survey).into_iter().next()?;
+    Some(([judged.found?, judged.error], judged.inactive.is_some()))
 }
 
 /// The absorber as every page tells it, and whether that is one which stays at rest.
@@ -302,6 +311,9 @@ fn own(case: &Case, known: Known<'_>, measure: Measure) -> Option<([f64; 2], boo
         let found = study.quantity(&units, measure, Device::Absorber)?;
         let inactive = matches!(study, Study::Release(of) if of.decay().inactive);
         return Some(([found.value, found.error], inactive));
+    }
+    if measure != Measure::Peak {
+        return by_first_criterion(case, known.survey?);
     }
     let worst = known.survey?.worst()?;
     let peak = [worst.peak.value, worst.peak.error].map(|one| units.length(one));
@@ -318,6 +330,11 @@ fn absorber(
     let units = case.units();
     if case.design.transient().is_none() {
         let effort = Effort { band: BAND, ..effort.short() };
+        if measure != Measure::Peak {
+            let settings = SurveySettings { effort: Some(effort), ..criteria::settings(case) };
+            let survey = Survey::of(&case.range(), &settings, None, on)?;
+            return Ok(by_first_criterion(case, &survey).map(|(found, _)| found));
+        }
         let found = along(&case.range(), &[], None, Some(&effort), on)?;
         let worst = Worst::of(&found, case.count_inactive);
         return Ok(worst.map(|one| [one.peak.value, one.peak.error].map(|one| units.length(one))));

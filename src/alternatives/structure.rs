@@ -7,8 +7,8 @@ use crate::excitation::{Piece, Record, Transient};
 use crate::linear::{
     BandSystems, TunedMassDamper, bare_amplitude, bare_decay, driven, released_between, swept,
 };
-use crate::measure::Measure;
-use crate::system::Band;
+use crate::measure::{Device, Measure};
+use crate::system::{Band, System};
 use crate::transient::longest;
 
 /// Its case, and what drives it.
@@ -90,20 +90,26 @@ impl Structure {
         };
         let worst = match self.measure {
             Measure::DecayTime => units.time(std::f64::consts::TAU * worst),
-            _ => units.length(worst),
+            of => {
+                of.kind(Device::Damper).map_or(f64::NAN, |kind| units.number(kind.dimension, worst))
+            }
         };
         [worst, units.length(stroke)]
     }
 
-    /// The largest amplitude and stroke along the band.
+    /// The largest value and stroke along the band.
     fn along(&self, damper: Option<&TunedMassDamper>) -> [f64; 2] {
         let along = BandSystems::of(&self.band);
+        let largest = |amplitude: &dyn Fn(&System) -> f64| {
+            let of = |one: &System| self.measure.of_sine(amplitude(one), one.frequency_ratio());
+            along.largest(|system| of(system).unwrap_or(f64::INFINITY)).1
+        };
         match damper {
             Some(damper) => {
-                let found = along.damped(*damper);
-                [found.amplitude, found.stroke]
+                let stroke = along.largest(|system| damper.stroke(system)).1;
+                [largest(&|system| damper.amplitude(system)), stroke]
             }
-            None => [along.largest(bare_amplitude).1, 0.0],
+            None => [largest(&bare_amplitude), 0.0],
         }
     }
 }

@@ -15,7 +15,7 @@ use crate::criteria::{self, Judged};
 use crate::excitation::Scene;
 use crate::executor::Executor;
 use crate::motions::{Effort, Measured, Motions, Place, measured, motions};
-use crate::operating_range::{HoldsFor, Reliability, holds_for};
+use crate::operating_range::{Combined, HoldsFor, Reliability, Varied, combined, holds_for};
 use crate::orbits::FullSystem;
 use crate::simulation::ImpactLog;
 use crate::study::fidelity::{Answers, LayerPlan};
@@ -45,17 +45,21 @@ pub enum Asked {
 pub struct Decided {
     /// What else could be done.
     pub alternatives: bool,
-    /// How far each number may change before a criterion fails.
-    pub ranges: bool,
+    /// How far each of these numbers may change before a criterion fails.
+    pub ranges: &'static [Varied],
+    /// What holds where amplitude and natural frequency change at once.
+    pub combined: bool,
     /// With which probability all criteria hold where numbers are uncertain.
     pub reliability: bool,
 }
 
 impl Decided {
     /// All of it.
-    pub const ALL: Self = Self { alternatives: true, ranges: true, reliability: true };
+    pub const ALL: Self =
+        Self { alternatives: true, ranges: &Varied::ALL, combined: true, reliability: true };
     /// None of it.
-    pub const NOTHING: Self = Self { alternatives: false, ranges: false, reliability: false };
+    pub const NOTHING: Self =
+        Self { alternatives: false, ranges: &[], combined: false, reliability: false };
 }
 
 /// Theory and exact orbits of a case.
@@ -88,8 +92,10 @@ pub struct Answer {
     pub transient: Option<Study>,
     /// What else could be done; none where it was not asked for.
     pub alternatives: Option<Alternatives>,
-    /// How far each number of the case may change before a criterion fails; empty where one does, or nobody asked.
+    /// How far numbers of the case may change before a criterion fails; empty where one does, or nobody asked.
     pub holds_for: Vec<HoldsFor>,
+    /// The same where amplitude and natural frequency change at once.
+    pub combined: Vec<Combined>,
     /// With which probability its criteria hold; none where nothing is uncertain, or nobody asked.
     pub reliability: Option<Reliability>,
 }
@@ -147,15 +153,16 @@ impl Answer {
             true => Alternatives::of(case, known, on)?,
             false => None,
         };
-        let holds_for = match what.ranges {
-            true => holds_for(case, &self.judged, &self.effort, on)?,
+        let holds_for = holds_for(case, &self.judged, what.ranges, &self.effort, on)?;
+        let combined = match what.combined {
+            true => combined(case, &holds_for, &self.effort, on)?,
             false => Vec::new(),
         };
         let reliability = match what.reliability {
             true => Reliability::of(case, &self.effort, on)?,
             false => None,
         };
-        Ok(Self { alternatives, holds_for, reliability, ..self })
+        Ok(Self { alternatives, holds_for, combined, reliability, ..self })
     }
 
     /// That of a case that is driven steadily; who calls this links nothing of what is not steady, as the live page.
@@ -230,6 +237,7 @@ impl Answer {
             transient: None,
             alternatives: None,
             holds_for: Vec::new(),
+            combined: Vec::new(),
             reliability: None,
         }
     }

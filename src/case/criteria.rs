@@ -31,7 +31,8 @@ names! { key:
         PeakVelocity = "peak_velocity",
         /// Root mean square velocity of the oscillator.
         RmsVelocity = "rms_velocity",
-        /// Largest absolute acceleration of the oscillator in the flights between impacts; at an impact it is infinite.
+        /// Largest absolute acceleration of the oscillator in the flights between impacts; with `contact_time` of the absorber
+        /// that of the fastest impact's pulse.
         Acceleration = "acceleration",
         /// Root mean square acceleration of the oscillator in the flights between impacts.
         RmsAcceleration = "rms_acceleration",

@@ -7,6 +7,8 @@
 //! `P`; `gamma = G/b`. Accelerations are over `b omega0^2`: of a cavity's gravity `g sin(alpha)` and friction
 //! `mu g cos(alpha)`, with standard gravity `g = 9.80665 m/s^2`.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::{Design, Physical};
 use crate::excitation::{Release, Scene, SineSweep, Transient};
 use crate::quantity::Units;
@@ -84,7 +86,7 @@ impl Design {
 
     /// The units of its results.
     pub fn units(&self) -> Units {
-        let scales = match self {
+        let scales: Scales = match self {
             Self::Physical(p) => Scales {
                 natural_frequency: p.natural_frequency_rad_per_s(),
                 oscillator_mass: p.mass_kg,
@@ -93,7 +95,17 @@ impl Design {
             },
             Self::Reduced(r) => Scales { clearance: r.clearance, ..Scales::REDUCED },
         };
-        scales.into()
+        Units::from(scales).with_pulse(self.pulse())
+    }
+
+    /// Acceleration of the oscillator at the top of the half-sine pulse of an impact, over the relative speed of the impact,
+    /// in 1/s: its integral over the contact is the change of the velocity. None where impacts take no time.
+    fn pulse(&self) -> Option<f64> {
+        let Self::Physical(p) = self else { return None };
+        let ratio = p.absorber_mass_kg / p.mass_kg;
+        let restitution = p.restitution + 0.5 * p.restitution_difference.abs();
+        let change = ratio / (1.0 + ratio) * (1.0 + restitution);
+        Some(FRAC_PI_2 * change / p.contact_time_s?)
     }
 
     /// `G`, the reduced forcing, in metres or the design's own unit.

@@ -288,6 +288,12 @@ impl Case {
         }
     }
 
+    /// How long an impact takes in s, where its pulse is asked for.
+    pub fn contact_time(&self) -> Option<f64> {
+        let Design::Physical(of) = &self.design else { return None };
+        of.contact_time_s
+    }
+
     /// Places of the absorber from which a case that is not driven steadily is flown; none for one that is.
     pub fn absorber_places(&self) -> Option<u64> {
         let records = self.recording.as_ref().map_or(1, Recording::count);

@@ -14,6 +14,7 @@ use super::schema::one_of;
 use super::support::{self, Orientation, Support, SupportKind};
 use crate::excitation::Transient;
 use crate::quantity::Dimension;
+use crate::quantity::numbers::rounded_to;
 use crate::system::Excitation;
 
 /// The linear oscillator whose vibration is to be reduced.
@@ -81,6 +82,10 @@ pub(super) struct AbsorberTable {
     /// 0.25 m / (f_s / 1 Hz)^2, above 0: more is refused. Any length unless given.
     #[schemars(extend("x-measurand" = "a length", "exclusiveMinimum" = 0, "x-symbol" = r"\ell_\mathrm{s}"), example = "2 m")]
     pub(super) support_room: Option<f64>,
+    /// How long the absorber touches a wall in an impact, above 0, at most a fiftieth of the structure's natural period:
+    /// `acceleration` then includes the impact, a half-sine pulse of that length. Impacts take no time unless given.
+    #[schemars(extend("x-measurand" = "a time", "exclusiveMinimum" = 0, "x-symbol" = r"t_\mathrm{c}"), example = "0.2 ms")]
+    contact_time: Option<f64>,
 }
 
 /// A design in SI units. [`Case::parse`](super::Case::parse) proves every value finite, masses,
@@ -108,6 +113,8 @@ pub struct Physical {
     pub support: Option<Support>,
     /// `mu`, the coefficient of sliding friction between absorber and cavity.
     pub friction: f64,
+    /// How long an impact takes, where its pulse is asked for.
+    pub contact_time_s: Option<f64>,
     /// What drives the oscillator.
     pub excitation: Excitation,
     /// `F` in m, the base's displacement, or `P` in N, the force on the oscillator's mass.
@@ -130,6 +137,9 @@ impl Physical {
         2.0 * sqrt(self.stiffness_n_per_m) * sqrt(self.mass_kg)
     }
 }
+
+/// Longest impact over the natural period: its pulse would be a part of the motion, which the model has not.
+const MOST_CONTACT: f64 = 0.02;
 
 pub(super) const TABLES: [&str; 3] = ["oscillator", "absorber", "excitation"];
 
@@ -162,6 +172,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         inclination_rad,
         support,
         friction: absorber.friction.unwrap_or_default(),
+        contact_time_s: absorber.contact_time,
         excitation: excitation.enters(),
         amplitude: excitation.amplitude.unwrap_or_default(),
         frequency_hz: 0.0,
@@ -172,6 +183,14 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         None => excitation.frequency?,
         _ => physical.natural_frequency_rad_per_s() / TAU,
     };
+    let period = TAU / physical.natural_frequency_rad_per_s();
+    if physical.contact_time_s.is_some_and(|time| time > MOST_CONTACT * period) {
+        let message = "an impact takes more than a fiftieth of the structure's natural period";
+        let expected = format!("expected at most {} s", rounded_to(MOST_CONTACT * period, 3));
+        let help = "between steel or hard rubber it takes 0.1 to 5 ms; without the line impacts take no time";
+        reader.report(cavity.span_of_value("contact_time"), message, expected, help);
+        return None;
+    }
     physical.damping_n_s_per_m = match (oscillator.damping, oscillator.damping_ratio) {
         (Some(damping), _) => damping,
         (None, ratio) => ratio? * physical.critical_damping_n_s_per_m(),

@@ -18,9 +18,11 @@ pub use work::{BEST_ANSWER, Work};
 
 /// Seconds that are ordinary: every shipped case takes a few.
 const ORDINARY: f64 = 60.0;
-/// Cases beside a case: where its frequency is another, and where each of its numbers is.
+/// Cases beside a case: where its frequency is another, and where one of its numbers is.
 const DRIFTS: u64 = 8;
-const VARIANTS: u64 = 160;
+const VARIANTS: u64 = 20;
+/// Designs with another amplitude and another natural frequency, with windows as long as those of `check`.
+const COMBINED: u64 = 2 * 16;
 /// Seconds of a whole sweep that are ordinary, on all processors of this machine: the largest that is shipped takes a
 /// minute and a half on two.
 const ORDINARY_SWEEP: f64 = 3600.0;
@@ -44,8 +46,8 @@ impl Long {
         self.refused(path, case, seconds, &longest.map(Work::to_string).unwrap_or_default())
     }
 
-    /// What of alternatives and ranges is looked at beside so much work; what takes too long is left out, and said.
-    pub fn decides(self, path: &Path, case: &Case, work: &[Work]) -> Decided {
+    /// What of that which is asked is looked at beside so much work; what takes too long is left out, and said.
+    pub fn decides(self, path: &Path, case: &Case, work: &[Work], asked: Decided) -> Decided {
         let own = seconds(work);
         let allowed = |what: &str, variants: u64| {
             let seconds = seconds(&Work::variants(case, variants));
@@ -60,10 +62,20 @@ impl Long {
             allowed
         };
         Decided {
-            alternatives: allowed("the tuned mass dampers beside the absorber are", DRIFTS),
-            ranges: !case.criteria.is_empty()
-                && allowed("the ranges over which the criteria hold are", VARIANTS),
-            reliability: drawn(case) > 0
+            alternatives: asked.alternatives
+                && allowed("the tuned mass dampers beside the absorber are", DRIFTS),
+            ranges: match variants(case, asked) {
+                0 => &[],
+                some if allowed("the ranges over which the criteria hold are", some) => {
+                    asked.ranges
+                }
+                _ => &[],
+            },
+            combined: asked.combined
+                && !case.criteria.is_empty()
+                && allowed("the combinations of amplitude and frequency are", COMBINED),
+            reliability: asked.reliability
+                && drawn(case) > 0
                 && allowed("the probability that the criteria hold is", drawn(case)),
         }
     }
@@ -90,6 +102,11 @@ impl Long {
     }
 }
 
+/// Designs that are looked at for the ranges of a case.
+fn variants(case: &Case, asked: Decided) -> u64 {
+    if case.criteria.is_empty() { 0 } else { VARIANTS * asked.ranges.len() as u64 }
+}
+
 /// Designs that are looked at for the probability that criteria hold, with those of its causes.
 fn drawn(case: &Case) -> u64 {
     2 * u64::from(Reliability::samples(case))
@@ -102,12 +119,10 @@ pub fn seconds(work: &[Work]) -> f64 {
 
 /// Seconds for what is looked at beside a case.
 pub fn of_decision(case: &Case, decides: Decided) -> f64 {
-    let ranges = match decides {
-        Decided { ranges: true, .. } => VARIANTS,
-        Decided { alternatives: true, .. } => DRIFTS,
-        _ => 0,
-    };
-    let variants = ranges + if decides.reliability { drawn(case) } else { 0 };
+    let alternatives = if decides.alternatives { DRIFTS } else { 0 };
+    let combined = if decides.combined { COMBINED } else { 0 };
+    let reliability = if decides.reliability { drawn(case) } else { 0 };
+    let variants = variants(case, decides) + alternatives + combined + reliability;
     if variants == 0 { 0.0 } else { seconds(&Work::variants(case, variants)) }
 }
 

@@ -7,6 +7,7 @@ use miette::{IntoDiagnostic, Report, Result};
 use serde_json::json;
 use vinesink::answer::{Answer, Asked, Decided};
 use vinesink::case::{Case, CaseError};
+use vinesink::operating_range::Varied;
 use vinesink::program::case_file::{self, Reading};
 use vinesink::program::output;
 use vinesink::program::parallel::Parallel;
@@ -113,10 +114,16 @@ fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
     let asked = if arguments.criteria_only { Asked::Criteria } else { Asked::Decision };
     let work = Work::of(&case, asked, None);
     long.allows(path, &case, &work)?;
-    let decides = match asked {
-        Asked::Decision => long.decides(path, &case, &work),
-        _ => Decided::NOTHING,
+    // What no format tells is not looked for.
+    let told = match arguments.format {
+        _ if arguments.criteria_only => Decided::NOTHING,
+        CheckFormat::Json => Decided { combined: false, ..Decided::ALL },
+        CheckFormat::Text | CheckFormat::Markdown => {
+            Decided { ranges: &Varied::FIRST, combined: false, ..Decided::ALL }
+        }
+        CheckFormat::Github | CheckFormat::Junit => Decided::NOTHING,
     };
+    let decides = long.decides(path, &case, &work, told);
     let besides = budget::of_decision(&case, decides);
     let _progress = budget::progress("check", &case, &work, besides);
     let answer = Answer::of(&case, asked, None, &Parallel).into_diagnostic()?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::answer::Asked;
+use vinesink::answer::{Asked, Decided};
 use vinesink::case::{Case, Objective, Rounding};
 use vinesink::case_report::Report;
 use vinesink::criteria;
@@ -144,9 +144,8 @@ impl Arguments {
         let written =
             case.rewritten(&name, text, &best.design, Rounding::Down).into_diagnostic()?;
         self.one.long.allows(path, &written.case, &Work::of(&written.case, Asked::Report, None))?;
-        let decides = self.one.long.decides(path, &written.case, &[]);
         let name = case_file::name(path)?;
-        let report = Report::of(&name, &written.case, None, decides, &Parallel);
+        let report = Report::of(&name, &written.case, None, Decided::NOTHING, &Parallel);
         let report = report.into_diagnostic()?;
         let watched = match case.design.scene() {
             Scene::Release => Measure::DecayTime,

@@ -175,10 +175,8 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
     let plan = LayerPlan::of_case(case, arguments.fidelity).into_diagnostic()?;
     let work = Work::of(case, Asked::Report, plan.as_ref());
     arguments.long.allows(path, case, &work)?;
-    let decides = match arguments.criteria_only {
-        true => Decided::NOTHING,
-        false => arguments.long.decides(path, case, &work),
-    };
+    let asked = if arguments.criteria_only { Decided::NOTHING } else { Decided::ALL };
+    let decides = arguments.long.decides(path, case, &work, asked);
     let besides = ORDINARY + budget::of_decision(case, decides);
     let _progress = budget::progress(name, case, &work, besides);
     let report = Report::of(name, case, plan.as_ref(), decides, &Parallel).into_diagnostic()?;

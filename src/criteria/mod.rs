@@ -10,9 +10,9 @@ mod scope;
 
 use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation};
-use crate::measure::Device;
+use crate::measure::{Device, Measure};
 use crate::method::Method;
-use crate::motions::{Along, Extreme, Motion, MotionKind, RestKind};
+use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
 use crate::transient::Study;
 
 use scope::Scope;
@@ -93,7 +93,12 @@ pub fn needs_simulation(criteria: &[Criterion]) -> bool {
 /// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst
 /// value is known to the error that `[accuracy]` asks for.
 pub fn settings(case: &Case) -> SurveySettings {
-    let sides = case.criteria.iter().filter_map(|one| Some((one.measure.fact()?, one)));
+    let shocks = case.units().has_pulse();
+    let facts = |one: Measure| {
+        let speed = (shocks && one == Measure::PeakAcceleration).then_some(Fact::ImpactSpeed);
+        one.fact().into_iter().chain(speed)
+    };
+    let sides = case.criteria.iter().flat_map(|one| facts(one.measure).map(move |of| (of, one)));
     let extremes = sides.flat_map(|(of, one)| {
         let larger_is_worse = (one.relation == Relation::AtMost) != one.measure.against().is_some();
         let both = one.relation == Relation::Equal;

@@ -51,12 +51,13 @@ const STATES: [&str; 8] = [
 const FURTHER_STATES: usize = 5;
 
 /// What a reader calls the keys of a document; others are called as they are.
-const WORDS: [(&str, &str); 16] = [
+const WORDS: [(&str, &str); 17] = [
     ("alternatives", ""),
     ("answers", "answer"),
     ("boundaries", "boundary"),
     ("choice", ""),
     ("claims", "claim"),
+    ("combined", "combination"),
     ("deviations", "deviation"),
     ("fixed_points", "fixed point"),
     ("main", "main motion"),

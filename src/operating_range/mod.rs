@@ -5,9 +5,12 @@
 //! looks at each, an end is narrowed down between the last step at which nothing fails and the next, and places at which
 //! an error could turn a criterion are told as not decided.
 
+mod combined;
 mod edges;
 mod reliability;
 mod varied;
+
+use serde::Serialize;
 
 use crate::band::Survey;
 use crate::case::Case;
@@ -19,13 +22,15 @@ use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
 use crate::transient::Study;
 
+pub use combined::{Combined, combined};
 pub use edges::{Edge, edges};
 pub use reliability::Reliability;
 pub use varied::Varied;
 
 /// What all criteria together come to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Together {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Together {
     /// Every criterion holds with its error.
     Hold,
     /// None fails, and an error or a motion that still settles could turn one.
@@ -74,13 +79,14 @@ const STARTS: u32 = 8;
 const PLACES_OF_SWEEP: u64 = 16;
 const PLACES_OF_RECORD: u64 = 4;
 
-/// The ranges of a case and what is known of it; none where a criterion fails at the case itself, or it has none.
+/// The ranges of these numbers of a case and what is known of it; none where a criterion fails at the case itself, or it has none.
 ///
 /// # Errors
 /// [`DrivenError`] where a motion cannot be followed.
 pub fn holds_for(
     case: &Case,
     judged: &[Judged],
+    numbers: &[Varied],
     effort: &Effort,
     on: &dyn Executor,
 ) -> Result<Vec<HoldsFor>, DrivenError> {
@@ -88,7 +94,7 @@ pub fn holds_for(
         return Ok(Vec::new());
     }
     let own = Together::of(judged);
-    let all = Number::all(case, &Varied::ALL, effort);
+    let all = Number::all(case, numbers, effort);
     let side = |k: usize| {
         let (number, up) = (all[k / 2], k % 2 == 1);
         // What is level and has ends alike does the mirrored thing at the mirrored inclination.

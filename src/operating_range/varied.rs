@@ -52,6 +52,9 @@ impl Varied {
         Self::Friction,
     ];
 
+    /// What a page tells first: nobody builds them.
+    pub const FIRST: [Self; 2] = [Self::Amplitude, Self::NaturalFrequency];
+
     /// The parameter of a case that it is; none where the case has no such number.
     pub fn parameter(self, case: &Case) -> Option<Parameter> {
         let all: &[Parameter] = match self {

@@ -145,6 +145,7 @@ catalogue! {
     CHANGE_DB = "change_db", "", "change against the structure without absorber", Level, Decimals(1), Interval;
     RMS_CHANGE_DB = "rms_change_db", "", "change of the rms against the structure without absorber", Level, Decimals(1), Interval;
     IMPACTS_PER_PERIOD = "impacts_per_period", "z", "impacts per period", Number, Significant(4), Interval;
+    CONTACT_TIME = "contact_time", "", "duration of an impact", Time, Significant(3), Interval;
     IMPACT_SPEED = "impact_speed", "", "impact speed", Velocity, Significant(3), Bound;
     START_SHARE = "start_share", "", "share of the starts", Share, Significant(2), Interval;
     MODULATION = "modulation_depth", "", "modulation", Share, Significant(2), Interval;
@@ -196,7 +197,7 @@ catalogue! {
     ACCELERATION = "acceleration", "ẍ", "acceleration", Acceleration, Significant(3), Interval;
     PEAK_VELOCITY = "peak_velocity", "", "peak velocity", Velocity, Significant(3), Bound;
     RMS_VELOCITY = "rms_velocity", "", "rms velocity", Velocity, Significant(3), Interval;
-    PEAK_ACCELERATION = "peak_acceleration", "", "peak acceleration between impacts", Acceleration, Significant(3), Bound;
+    PEAK_ACCELERATION = "peak_acceleration", "", "peak acceleration", Acceleration, Significant(3), Bound;
     RMS_ACCELERATION = "rms_acceleration", "", "rms acceleration between impacts", Acceleration, Significant(3), Interval;
     IMPULSE = "impulse", "", "impulse", Impulse, Significant(3), Interval;
     IMPACT_INTERVAL = "impact_interval", "Δt/T", "time between impacts", Number, Significant(3), Interval;
@@ -231,7 +232,7 @@ catalogue! {
     LARGEST_RMS_VELOCITY = "largest_rms_velocity", "", "largest rms velocity", Velocity, Significant(3), Bound;
     LARGEST_RMS_ACCELERATION = "largest_rms_acceleration", "", "largest rms acceleration between impacts", Acceleration, Significant(3), Bound;
     MEAN_PEAK_VELOCITY = "mean_peak_velocity", "", "mean peak velocity", Velocity, Significant(3), Interval;
-    MEAN_PEAK_ACCELERATION = "mean_peak_acceleration", "", "mean peak acceleration between impacts", Acceleration, Significant(3), Interval;
+    MEAN_PEAK_ACCELERATION = "mean_peak_acceleration", "", "mean peak acceleration", Acceleration, Significant(3), Interval;
     MEAN_PEAK = "mean_peak", "", "mean peak displacement", Length, Significant(3), Interval;
     MEAN_REDUCTION_DB = "mean_reduction_db", "", "mean reduction against the structure without absorber", Level, Decimals(1), Interval;
     MEAN_REDUCTION_DB_TMD = "mean_reduction_db_tmd", "", "mean reduction against a tuned mass damper", Level, Decimals(1), Interval;

@@ -25,11 +25,13 @@ pub struct Units {
     us: bool,
     /// Whether accelerations on pages are in g.
     in_g: bool,
+    /// Acceleration of the oscillator at the top of an impact's pulse, over the relative speed of the impact.
+    pulse: Option<f64>,
 }
 
 impl From<Scales> for Units {
     fn from(scales: Scales) -> Self {
-        Self { scales, us: false, in_g: false }
+        Self { scales, us: false, in_g: false, pulse: None }
     }
 }
 
@@ -94,6 +96,26 @@ impl Units {
         Dimension::Length.symbol(self.physical)
     }
 
+    /// The same of an oscillator on which an impact of unit relative speed has a pulse with this largest acceleration.
+    #[must_use]
+    pub const fn with_pulse(self, pulse: Option<f64>) -> Self {
+        Self { pulse, ..self }
+    }
+
+    /// Whether impacts have a pulse.
+    pub const fn has_pulse(&self) -> bool {
+        self.pulse.is_some()
+    }
+
+    /// The largest acceleration of the oscillator, by that between impacts and the largest relative speed of an impact, each
+    /// with its error: that between impacts, unless impacts have a pulse. Which acceleration the pulse of the fastest impact
+    /// rides on is not known, so that of the flights is an error of their sum.
+    pub fn peak_acceleration(&self, flights: [f64; 2], speed: [f64; 2]) -> [f64; 2] {
+        let Some(pulse) = self.pulse.filter(|_| speed[0] > 0.0) else { return flights };
+        let top = pulse * speed[0];
+        [top.max(flights[0]), top.min(flights[0]) + pulse * speed[1] + flights[1]]
+    }
+
     /// The inclination in rad of a cavity along which gravity accelerates by so much over `b omega0^2`; none where that is
     /// more than gravity.
     pub fn inclination(&self, along: f64) -> Option<f64> {
@@ -116,12 +138,12 @@ impl Units {
     /// Those of a page of quantities, with a clearance in metres, of an oscillator of 1 kg and 1 rad/s.
     pub const fn physical(clearance_m: f64) -> Self {
         let scales = Scales { physical: true, clearance: clearance_m, ..Scales::REDUCED };
-        Self { scales, us: false, in_g: false }
+        Self { scales, us: false, in_g: false, pulse: None }
     }
 
     /// Those of a reduced design whose clearance is 1.
     pub const fn reduced() -> Self {
-        Self { scales: Scales::REDUCED, us: false, in_g: false }
+        Self { scales: Scales::REDUCED, us: false, in_g: false, pulse: None }
     }
 
     /// The same with pages in inches and pounds; documents stay in SI, and a reduced design in its own units.

@@ -9,7 +9,7 @@ use super::transient::DAMPER;
 use crate::alternatives::{Alternatives, Which};
 use crate::case::Case;
 use crate::measure::{Device, Measure};
-use crate::operating_range::{HoldsFor, Varied};
+use crate::operating_range::{Combined, HoldsFor, Together, Varied};
 use crate::quantity::catalogue as of;
 
 /// A damper in the absorber's room.
@@ -21,6 +21,17 @@ pub const NAME: &str = "choice";
 
 /// That over the amplitude of what excites the structure.
 const AMPLITUDE: &str = "choice-amplitude";
+
+/// That over the amplitude and the natural frequency.
+const COMBINED: &str = "choice-combined";
+/// What criteria come to, as marks.
+const OUTCOMES: [(Together, Marker, Color, &str); 3] = [
+    (Together::Hold, Marker::filled(Shape::Circle).sized(11.0), Color::BluishGreen, "all hold"),
+    (Together::Undecided, Marker::hollow(Shape::Circle).sized(11.0), Color::Black, "not decided"),
+    (Together::Fail, Marker::filled(Shape::Cross).sized(11.0), Color::Vermillion, "one fails"),
+];
+/// Room beyond the outermost marks, over their distance.
+const ROOM: f64 = 0.12;
 
 /// What was asked over the amplitude, where ranges were looked for and the first criterion is about it: places along the
 /// range and beyond it with the absorber, lines in proportion to the amplitude for what is linear.
@@ -59,6 +70,31 @@ pub fn over_amplitude(
         Figure::new(AMPLITUDE, "")
             .with_panel(panel)
             .with_facts("captions/choice-amplitude", facts.clone()),
+    )
+}
+
+/// Where criteria hold with another amplitude and another natural frequency at once; none where that was not looked for.
+pub fn combined(case: &Case, found: &[Combined], facts: &Value) -> Option<Figure> {
+    let (first, last) = (found.first()?, found.last()?);
+    let [x, y] = [0, 1].map(|k| {
+        let parameter = Varied::FIRST[k].parameter(case)?;
+        let own = case.design.value(parameter)?;
+        let ends = [first.at[k].min(own), last.at[k].max(own)];
+        let room = ROOM * (ends[1] - ends[0]);
+        let ends = [ends[0] - room, ends[1] + room];
+        Some((own, AxisOf::si(case.units(), case.design.kind(parameter)).axis(ends)))
+    });
+    let ((amplitude, x), (frequency, y)) = (x?, y?);
+    let marks = OUTCOMES.into_iter().map(|(outcome, marker, color, name)| {
+        let there = found.iter().filter(|one| one.outcome == outcome).map(|one| one.at);
+        Layer::marked(marker, color, there).labelled(name)
+    });
+    let panel = marks.fold(Panel::new(x, y), Panel::with);
+    let panel = panel.with(Layer::this_case([amplitude, frequency], None));
+    Some(
+        Figure::new(COMBINED, "")
+            .with_panel(panel)
+            .with_facts("captions/choice-combined", facts.clone()),
     )
 }
 

@@ -104,6 +104,17 @@ impl Study {
 
     /// The same in SI, or in the units of a reduced case.
     pub fn quantity(&self, units: &Units, of: Measure, by: Device) -> Option<Quantity> {
+        let found = self.told(units, of, by)?;
+        if (of, by) != (Measure::PeakAcceleration, Device::Absorber) {
+            return Some(found);
+        }
+        let pair = |one: Quantity| [one.value, one.error];
+        let speed = self.told(units, Measure::ImpactSpeed, by).map_or([0.0; 2], pair);
+        let [value, error] = units.peak_acceleration(pair(found), speed);
+        Some(Quantity::new(found.kind, value, found.method).with_error(error))
+    }
+
+    fn told(&self, units: &Units, of: Measure, by: Device) -> Option<Quantity> {
         let AskedValue { value, method } = self.ask(of, by)?;
         let kind = match by {
             Device::Absorber => of.kind_under(self.records()),

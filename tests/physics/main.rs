@@ -30,6 +30,7 @@ mod orbit_branches;
 mod orbit_equations;
 mod orbits;
 mod published;
+mod pulse;
 mod real_cavity;
 mod real_cavity_branches;
 mod real_cavity_engine;

@@ -34,6 +34,7 @@ prop_compose! {
         Physical {
             mass_kg, stiffness_n_per_m, damping_n_s_per_m, absorber_mass_kg, clearance_m,
             restitution, restitution_difference, inclination_rad, friction, excitation, amplitude, frequency_hz,
+            contact_time_s: None,
             support: None, transient: None,
         }
     }
@@ -216,6 +217,7 @@ fn restored(units: &Units, system: &System) -> Design {
         restitution_difference: cavity.restitution_difference,
         inclination_rad,
         friction: cavity.friction_acceleration / (gravity * libm::cos(inclination_rad)),
+        contact_time_s: None,
         excitation,
         amplitude: match excitation {
             Excitation::BaseDisplacement => displacement,

@@ -93,6 +93,56 @@ fn ranges_end_where_check_says_so() {
     assert!(ends >= 12, "{ends} ends");
 }
 
+/// What is said of an amplitude and a natural frequency that change at once is what `check` says of that case, on designs that
+/// nobody tuned to: what fails there fails, and what holds does not fail.
+#[test]
+fn combinations_are_what_check_says_of_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    let path = path.to_str().expect("UTF-8");
+    let mut seen = [0; 2];
+    for name in ["tests/designs/floor", "cases/arm-empty"] {
+        let text = std::fs::read_to_string(format!("{name}.toml")).expect("a case");
+        std::fs::write(path, &text).expect("written");
+        let out = folder.path().join("out");
+        vinesink(&["report", path, "--out", out.to_str().expect("UTF-8")]);
+        let report = std::fs::read(out.join("case/report.json")).expect("a report");
+        let report: Value = serde_json::from_slice(&report).expect("JSON");
+        let own = report["holds_for"].as_array().expect("ranges");
+        let unit = |name: &str| {
+            let row = own.iter().find(|row| row["parameter"] == name).expect(name);
+            (row["value"].as_f64().expect("a value"), row["unit"].as_str().expect("a unit"))
+        };
+        let ((_, of_amplitude), (natural, hertz)) = (unit("amplitude"), unit("natural-frequency"));
+        let damping = text.lines().find_map(|line| line.strip_prefix("damping_ratio = "));
+        let damping = damping.expect("a ratio").trim_matches('"').trim_end_matches(" %");
+        let damping: f64 = damping.parse().expect("a number");
+        for one in report["combined"].as_array().expect("combinations") {
+            let value = |key: &str| one[key]["value"].as_f64().expect(key);
+            let (amplitude, frequency) = (value("amplitude"), value("natural_frequency"));
+            // Its stiffness changes, not its damping constant.
+            let ratio = damping * natural / frequency;
+            let there = with(&text, &["amplitude", "velocity"], amplitude, of_amplitude);
+            let there = with(&there, &["frequency"], frequency, hertz);
+            let there = with(&there, &["damping_ratio"], ratio, "%");
+            std::fs::write(path, there).expect("written");
+            let fails = fails(&checked(path, &["--criteria-only"]));
+            match one["outcome"].as_str() {
+                Some("fail") => {
+                    assert!(fails, "{name} holds at {one}");
+                    seen[0] += 1;
+                }
+                Some("hold") => {
+                    assert!(!fails, "{name} fails at {one}");
+                    seen[1] += 1;
+                }
+                _ => {}
+            }
+        }
+    }
+    assert!(seen[0] >= 5 && seen[1] >= 5, "{seen:?} fail and hold");
+}
+
 /// Criteria alone: no device beside the absorber, no range.
 #[test]
 fn criteria_alone_are_judged_alone() {

@@ -50,7 +50,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     // What may be asked, one list for criteria, sweeps, pages and optima.
-    ("measure", &["excitation", "linear", "motions", "quantity"]),
+    ("measure", &["excitation", "linear", "motions", "quantity", "system"]),
     // One search, one rule of identity: every command reads what this room has found.
     (
         "motions",
@@ -62,6 +62,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "band",
             "case",
+            "criteria",
             "dampers",
             "excitation",
             "executor",

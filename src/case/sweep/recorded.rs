@@ -49,7 +49,7 @@ names! { key:
         PeakVelocity = "peak_velocity",
         /// Its root mean square velocity of the oscillator.
         RmsVelocity = "rms_velocity",
-        /// Its largest absolute acceleration of the oscillator between impacts.
+        /// Its largest absolute acceleration of the oscillator between impacts, or that of the fastest impact's pulse.
         Acceleration = "acceleration",
         /// Its root mean square acceleration of the oscillator between impacts.
         RmsAcceleration = "rms_acceleration",

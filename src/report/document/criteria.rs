@@ -48,6 +48,9 @@ pub fn criteria(case: &Case, judged: &[Judged]) -> Option<Value> {
             "undecided": undecided,
             "too_close": count("too-close-to-call"),
             "count_inactive": case.count_inactive,
+            "contact_time": case
+                .contact_time()
+                .map(|time| Quantity::new(&of::CONTACT_TIME, time, Method::Given)),
             "all": judged.iter().map(|one| criterion(case, one)).collect::<Vec<_>>(),
         })
     })

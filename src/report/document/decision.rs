@@ -12,7 +12,7 @@ use crate::case::Case;
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method::{self, ClosedForm};
-use crate::operating_range::{Edge, HoldsFor, Reliability, Varied};
+use crate::operating_range::{Combined, Edge, HoldsFor, Reliability, Varied};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 use crate::system::Parameter;
@@ -70,6 +70,7 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     let ranges = answer.holds_for.iter().map(|one| range(case, one));
     let (rows, ranges): (Vec<Value>, Vec<Value>) = ranges.unzip();
     document["holds_for"] = json!(rows);
+    document["combined"] = answer.combined.iter().map(|one| together(case, one)).collect();
     document["ranges"] = json!(ranges);
     document["reliability"] = json!(answer.reliability.as_ref().map(|one| reliability(case, one)));
 }
@@ -92,7 +93,7 @@ fn choice(found: &Alternatives) -> Value {
     let lost = drifts.iter().rposition(|one| winner(Which::Damper, *one) != Some(Winner::Absorber));
     let wins_from = drifts.get(lost.map_or(0, |last| last + 1));
     json!({
-        "measure": if found.measure == Measure::DecayTime { "decay-time" } else if found.measure == Measure::Rms { "rms" } else { "peak" },
+        "of_time": found.measure == Measure::DecayTime,
         "inactive": found.inactive,
         "devices": devices,
         "drifts": drifts.iter().skip(1).map(|one| drift(*one)).collect::<Vec<_>>(),
@@ -201,6 +202,15 @@ pub fn edges(case: &Case, found: &[Edge]) -> Value {
         })
     };
     found.iter().map(row).collect()
+}
+
+/// What holds for another amplitude and another natural frequency at once.
+fn together(case: &Case, found: &Combined) -> Value {
+    let [amplitude, frequency] = [0, 1].map(|k| {
+        let kind = kind_of(case, Varied::FIRST[k]);
+        Quantity::new(kind, found.at[k], Method::Given)
+    });
+    json!({ "amplitude": amplitude, "natural_frequency": frequency, "outcome": found.outcome })
 }
 
 /// How far the promise holds for a number: its row as CONTRACT.md has it, and quantities for a page.

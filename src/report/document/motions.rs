@@ -262,12 +262,16 @@ pub fn headline(
         let all = [
             ("peak_velocity", &of::PEAK_VELOCITY, of.peak_velocity),
             ("rms_velocity", &of::RMS_VELOCITY, of.rms_velocity),
-            ("peak_acceleration", &of::PEAK_ACCELERATION, of.peak_acceleration),
             ("rms_acceleration", &of::RMS_ACCELERATION, of.rms_acceleration),
         ];
-        all.map(|(key, kind, one)| {
-            (key, scale.units.quantity_with(kind, [one.value, one.error], method))
-        })
+        let units = &scale.units;
+        let pair = |of: motions::Value| [of.value, of.error];
+        let largest = pair(of.peak_acceleration).map(|one| units.acceleration(one));
+        let speed = pair(facts.impact_speed).map(|one| units.velocity(one));
+        let [value, error] = units.peak_acceleration(largest, speed);
+        let largest = Quantity::new(&of::PEAK_ACCELERATION, value, method).with_error(error);
+        let all = all.map(|(key, kind, one)| (key, units.quantity_with(kind, pair(one), method)));
+        all.into_iter().chain([("peak_acceleration", largest)])
     });
     let numbers = numbers(scale, facts, method).into_iter().chain(changes.into_iter().flatten());
     numbers.chain(shaking.into_iter().flatten()).collect()
