@@ -316,3 +316,47 @@ fn a_flag_is_refused_as_a_line_of_a_case_is() {
     let told = refused(&FOOTBRIDGE);
     assert!(told.contains("exists already"), "{told}");
 }
+
+/// A person at a terminal, which `script` of util-linux is here: what is not understood is asked again, what may be left out
+/// is, and the case is that of the same flags.
+#[cfg(target_os = "linux")]
+#[test]
+fn answers_on_a_terminal_are_as_good_as_flags() {
+    let known =
+        "--mass 30kg --frequency 6.9Hz --damping 0.5% --release 5mm --limit 2s --restitution 0.4";
+    let told = proposed(&known.split(' ').collect::<Vec<_>>());
+    let answers = [
+        ("shove", Some("write force, base or release")),
+        ("release", None),
+        ("", Some("this is needed")),
+        ("30 kg", None),
+        ("-1 Hz", Some("`frequency` is -1 Hz")),
+        ("6.9 Hz", None),
+        ("0.5 %", None),
+        ("5 mm", None),
+        ("2 N", Some("unit of a force")),
+        ("2 s", None),
+        ("", None),
+        ("0.4", None),
+    ];
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = assert_cmd::cargo::cargo_bin("vinesink");
+    let command = format!("'{}' new damper --guide", program.display());
+    let typed = answers.map(|(answer, _)| format!("{answer}\r")).concat();
+    let output = Command::new("script")
+        .args(["-qec", &command, "/dev/null"])
+        .env("VINESINK_PROGRESS_SECONDS", "1000000")
+        .current_dir(folder.path())
+        .timeout(std::time::Duration::from_secs(120))
+        .write_stdin(typed)
+        .output()
+        .expect("it runs");
+    let seen = text(&output.stdout);
+    for complaint in answers.iter().filter_map(|(_, complaint)| *complaint) {
+        assert!(seen.contains(complaint), "{complaint}: {seen}");
+    }
+    let written = |folder: &Path| std::fs::read_to_string(folder.join("damper.toml")).expect(&seen);
+    let one = |text: String| Case::parse("damper.toml", &text).expect("valid").design;
+    assert_eq!(one(written(folder.path())), one(written(told.folder.path())));
+    assert_eq!(output.status.code(), told.code, "{seen}");
+}
