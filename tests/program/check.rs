@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use assert_cmd::Command;
 use tempfile::TempDir;
 
+use serde_json::json;
+use vinesink::answer::{Answer, Asked};
 use vinesink::band::{Survey, theory};
 use vinesink::case::Case;
 use vinesink::criteria::{self, Judged};
@@ -12,6 +14,7 @@ use vinesink::executor::Serial;
 use vinesink::method::Method;
 use vinesink::motions::stability;
 use vinesink::orbits::attracting_orbit;
+use vinesink::report::document::criteria as document;
 
 const DESIGN: &str = "\
 title = \"a band\"
@@ -265,12 +268,28 @@ fn velocities_and_accelerations_are_those_of_the_structure() {
     assert_eq!(holds, [true, false, true, true]);
 }
 
+/// What is not decided does not hold, and does not fail either.
+#[test]
+fn what_is_not_decided_is_not_counted_as_failing() {
+    let (_folder, path) = written("peak_displacement = \"<= 1 m\"\nrms_displacement = \"<= 1 mm\"");
+    let text = std::fs::read_to_string(&path).expect("written");
+    let case = Case::parse("x", &text).expect("valid");
+    let mut judged = Answer::of(&case, Asked::Criteria, None, &Serial).expect("answered").judged;
+    judged[0].holds = Some(false);
+    judged[0].undecided = Some(100);
+    let told = document::criteria(&case, &judged).expect("criteria");
+    assert_eq!((&told["failing"], &told["undecided"]), (&json!(1), &json!(1)), "{told}");
+    assert_eq!(told["all"][0]["outcome"], "not-decided");
+}
+
 /// What they are of is said with them, for people and programs.
 #[test]
 fn accelerations_are_told_to_be_between_impacts() {
     let (_folder, path) = written("acceleration = \"<= 1 g\"\nrms_velocity = \"<= 1 in/s\"");
     let (_, text) = check(&path, "text");
     assert!(text.contains("peak acceleration") && text.contains("rms velocity"));
+    // What is asked in g is told in g.
+    assert!(!text.contains("m/s²"), "{text}");
     assert!(text.contains("The acceleration is that of the structure between impacts"), "{text}");
     let (_, markdown) = check(&path, "markdown");
     assert!(markdown.contains("that of the structure between impacts"), "{markdown}");
