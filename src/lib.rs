@@ -23,6 +23,7 @@ pub mod answer;
 pub mod band;
 pub mod case;
 pub mod case_input;
+pub mod case_optimum;
 pub mod case_report;
 pub mod criteria;
 pub mod dampers;

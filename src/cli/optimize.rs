@@ -5,19 +5,14 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::answer::{Asked, Decided};
-use vinesink::case::{Case, Objective, Rounding};
-use vinesink::case_report::Report;
-use vinesink::criteria;
+use vinesink::case::{Case, Objective};
+use vinesink::case_optimum::Optimum;
 use vinesink::excitation::Scene;
-use vinesink::measure::Measure;
-use vinesink::operating_range::edges;
 use vinesink::optimize::{Optimization, Task};
 use vinesink::program::parallel::Parallel;
 use vinesink::program::{case_file, output, reports};
 use vinesink::report::{optimize as page, transient as clearance};
 use vinesink::store;
-use vinesink::transient::best_clearance;
 
 use super::budget::Work;
 use super::one_case::{self, Format, OneCase};
@@ -104,66 +99,46 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let given =
         [("--objective", arguments.objective.is_some()), ("--out", arguments.out.is_some())];
     one_case::without(&case, path, &given)?;
-    if case.design.scene() != Scene::Steady {
-        return arguments.clearance(&case, &text);
-    }
-    let task = Task::of(&case, arguments.objective).map_err(|error| {
-        miette!(help = "give the excitation an amplitude above 0", "{}: {error}", path.display())
-    })?;
-    let mut work = Work::designs(&task);
+    let mut work = match steady {
+        true => Work::designs(&Task::of(&case, arguments.objective).map_err(|error| {
+            miette!(
+                help = "give the excitation an amplitude above 0",
+                "{}: {error}",
+                path.display()
+            )
+        })?),
+        false => Work::clearances(&case),
+    };
     work.extend(Work::edges(&case));
     long.allows(path, &case, &work)?;
-    let found = Optimization::of(&task, &text, &Parallel).into_diagnostic()?;
+    let name = path.display().to_string();
+    let found = Optimum::of(&name, &case, &text, arguments.objective, &Parallel);
+    let found = found.into_diagnostic()?;
+    let Some(search) = &found.search else {
+        arguments
+            .one
+            .print(|| clearance::optimum_text(&case, &found.document), || &found.document)?;
+        if let (Some(new), Some(better)) = (&arguments.write, &found.better) {
+            store::write_new(new, better.text.as_bytes())?;
+            arguments.tell(&format!("written: {}", new.display()), "")?;
+        }
+        return Ok(found.succeeds);
+    };
     if let Some(out) = &arguments.out {
-        reports::add_to_report(out, path, &page::files(&case, &found).into_diagnostic()?)?;
+        reports::add_to_report(out, path, &page::files(&case, search).into_diagnostic()?)?;
     }
     let written = match &arguments.write {
-        Some(new) => Some(written(new, &case, &found, arguments.robust)?),
+        Some(new) => Some(written(new, &case, search, arguments.robust)?),
         None => None,
     };
-    arguments.one.print(|| page::summary(&case, &found), || page::document(&case, &found))?;
+    arguments.one.print(|| page::summary(&case, search), || &found.document)?;
     if let Some(line) = written {
         arguments.tell(&line, "\n")?;
     }
-    Ok(found.succeeds())
+    Ok(found.succeeds)
 }
 
 impl Arguments {
-    /// The clearance that serves a structure best which is not driven steadily, written into a new file where that is asked
-    /// for.
-    fn clearance(&self, case: &Case, text: &str) -> Result<bool> {
-        let path = &self.one.path;
-        let mut work = Work::clearances(case);
-        work.extend(Work::edges(case));
-        self.one.long.allows(path, case, &work)?;
-        let found = best_clearance(case, &Parallel);
-        let best = found.ok_or_else(|| miette!("{} is driven steadily", path.display()))?;
-        let name = path.display().to_string();
-        // A larger one might leave the absorber of a released structure where no wall reaches it; and in a sweep, or under a
-        // record, the absorber is lost above the best, where the displacement rises to that of the structure alone.
-        let written =
-            case.rewritten(&name, text, &best.design, Rounding::Down).into_diagnostic()?;
-        self.one.long.allows(path, &written.case, &Work::of(&written.case, Asked::Report, None))?;
-        let name = case_file::name(path)?;
-        let report = Report::of(&name, &written.case, None, Decided::NOTHING, &Parallel);
-        let report = report.into_diagnostic()?;
-        let watched = match case.design.scene() {
-            Scene::Release => Measure::DecayTime,
-            _ => Measure::Peak,
-        };
-        let beside = edges(&written.case, Some(watched), &written.case.effort(), &Parallel);
-        let beside = beside.into_diagnostic()?;
-        let document = clearance::optimum(case, &best, &report.document, &beside);
-        self.one.print(|| clearance::optimum_text(case, &document), || &document)?;
-        let found = document["answer"] == "found";
-        if let Some(new) = self.write.as_ref().filter(|_| found) {
-            let written = written.with_fitting_comments(case).into_diagnostic()?;
-            store::write_new(new, written.text.as_bytes())?;
-            self.tell(&format!("written: {}", new.display()), "")?;
-        }
-        Ok(found && criteria::all_hold(&report.answer.judged))
-    }
-
     /// What is said beside the result, after a text before it.
     fn tell(&self, line: &str, before: &str) -> Result<()> {
         match self.one.format {
