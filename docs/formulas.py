@@ -1,4 +1,5 @@
-"""A preprocessor of mdBook: formulas between dollar signs become MathML, as `formulas.json` has it.
+"""A preprocessor of mdBook, whose sources read well without it: formulas between dollar signs become MathML, as
+`formulas.json` has it, and a picture that leads to the live page becomes the page itself, in a frame.
 
 `cargo test --test book` holds that file against the program's own converter, and writes it with
 SNAPSHOTS=overwrite.
@@ -10,6 +11,9 @@ import sys
 from pathlib import Path
 
 FORMULA = re.compile(r"(`+)(?:.+?)\1|\$\$(?P<block>.+?)\$\$|\$(?P<inline>[^$\n]+?)\$")
+# The title of such a link says how high the frame is, and what the page shows.
+LIVE = re.compile(r'\[!\[(?P<name>[^]]*)\]\([^)]*\)\]\(live\.md "live (?P<height>\d+)px ?(?P<shown>[^"]*)"\)')
+FILE = re.compile(r'\]\(live\.md "live"\)')
 FENCE = re.compile(r"^\s*(```+|~~~+)")
 
 
@@ -26,6 +30,13 @@ def convert(text: str, known: dict[str, str], page: str) -> str:
         # A bar would end a cell of a table.
         return mathml.replace("|", "&#124;")
 
+    def frame(match: re.Match) -> str:
+        shown = "?" + match["shown"].replace("&", "&amp;") if match["shown"] else ""
+        return (
+            f'<iframe class="live" style="height: {match["height"]}px" src="live.html{shown}" '
+            f'title="{match["name"]}" loading="lazy"></iframe>'
+        )
+
     lines, fence = [], None
     for line in text.split("\n"):
         mark = FENCE.match(line)
@@ -34,7 +45,7 @@ def convert(text: str, known: dict[str, str], page: str) -> str:
         elif mark and mark[1].startswith(fence):
             fence = None
         elif fence is None:
-            line = FORMULA.sub(replace, line)
+            line = FILE.sub("](live.html)", LIVE.sub(frame, FORMULA.sub(replace, line)))
         lines.append(line)
     return "\n".join(lines)
 

@@ -43,7 +43,7 @@ def python() -> list[float]:
     return [
         seconds(lambda: CASE.simulate(**follow, measure=False)),
         seconds(lambda: CASE.simulate(**follow)),
-        seconds(lambda: vinesink.simulate_many(CASE, clearance=clearance)),
+        seconds(lambda: vinesink.single_trajectories(CASE, clearance=clearance)),
     ]
 
 

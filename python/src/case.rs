@@ -4,8 +4,6 @@ use std::path::PathBuf;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, NamedSource, Report};
 use numpy::{IntoPyArray, PyArray1};
-use pyo3::create_exception;
-use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
@@ -19,13 +17,12 @@ use vinesink::report::document::Content;
 use vinesink::report::transient as page;
 use vinesink::store::Reach;
 use vinesink::study::fidelity::LayerPlan;
-use vinesink::system::State;
+use vinesink::system::{Parameter, State};
 
+use crate::errors::{CaseError, FileError};
 use crate::simulate::{self, Impacts, Wanted};
 use crate::work::{self, WorkState, refused};
-use crate::{branch, report};
-
-create_exception!(vinesink, CaseError, PyValueError, "A case that cannot be read.");
+use crate::{branch, decide, report};
 
 /// Width of messages, as the program writes them where no terminal tells another.
 const WIDTH: usize = 80;
@@ -195,6 +192,54 @@ impl Case {
         Ok(holds)
     }
 
+    /// As `vinesink check --format json` says it of this case.
+    fn check(
+        &self,
+        py: Python<'_>,
+        criteria_only: bool,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<String> {
+        let check =
+            |work: &WorkState| decide::checked(&self.inner, &self.stem, criteria_only, work);
+        work::done(py, progress, check)
+    }
+
+    /// As `vinesink optimize --format json`, the text of the better case, and whether it is a success.
+    fn optimize(
+        &self,
+        py: Python<'_>,
+        objective: Option<&str>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(String, Option<String>, bool)> {
+        let optimum = |work: &WorkState| decide::optimum(&self.inner, &self.text, objective, work);
+        work::done(py, progress, optimum)
+    }
+
+    /// The columns of `vinesink sweep`.
+    fn sweep<'py>(&self, py: Python<'py>, progress: Option<Py<PyAny>>) -> PyResult<Columns<'py>> {
+        let found = work::done(py, progress, |work| decide::swept(&self.inner, work))?;
+        decide::lists(py, &found)
+    }
+
+    /// The tables of its text, as JSON.
+    fn document(&self) -> PyResult<String> {
+        let text = self.text.strip_prefix('\u{feff}').unwrap_or(&self.text);
+        let read: serde_json::Value = toml::from_str(text).map_err(refused)?;
+        json(&read)
+    }
+
+    /// A number of the case by its name, in SI or the units of a reduced case; none of what it has not.
+    fn value(&self, name: &str) -> Option<f64> {
+        self.inner.design.value(Parameter::of_name(name)?)
+    }
+
+    /// The unit in which numbers of this name are, "1" for a plain number.
+    fn unit(&self, name: &str) -> PyResult<&'static str> {
+        let known = Parameter::of_name(name);
+        let known = known.ok_or_else(|| refused(format!("there is no `{name}` to vary")))?;
+        Ok(self.inner.design.unit(known))
+    }
+
     /// A branch of exact orbits: its points as columns, bifurcations and ends as JSON.
     fn branch<'py>(
         &self,
@@ -279,8 +324,8 @@ fn reach(allow_outside: bool) -> Reach {
 fn not_read(py: Python<'_>, error: &CaseInputError) -> PyErr {
     match error {
         CaseInputError::Case(error) => case_error(py, error),
-        CaseInputError::Record { source, .. } => PyOSError::new_err(source.to_string()),
-        other => PyOSError::new_err(other.to_string()),
+        CaseInputError::Record { source, .. } => FileError::new_err(source.to_string()),
+        other => FileError::new_err(other.to_string()),
     }
 }
 
@@ -301,6 +346,17 @@ fn case_error(py: Python<'_>, error: &case::CaseError) -> PyErr {
         Ok(()) => raised,
         Err(other) => other,
     }
+}
+
+/// What changed from one case to another: the document of `vinesink diff`, and Markdown.
+#[pyfunction]
+pub fn compare(
+    py: Python<'_>,
+    old: &Case,
+    new: &Case,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(String, String)> {
+    work::done(py, progress, |work| decide::compared(&old.inner, &new.inner, work))
 }
 
 /// The JSON Schema of a case file.

@@ -3,6 +3,8 @@
 
 mod branch;
 mod case;
+mod decide;
+mod errors;
 mod many;
 mod report;
 mod simulate;
@@ -14,11 +16,10 @@ use pyo3::prelude::*;
 #[pymodule]
 fn _vinesink(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("CaseError", module.py().get_type::<case::CaseError>())?;
-    module.add("InternalError", module.py().get_type::<work::InternalError>())?;
     module.add_class::<case::Case>()?;
     module.add_function(wrap_pyfunction!(case::schema, module)?)?;
     module.add_function(wrap_pyfunction!(many::simulate_many, module)?)?;
+    module.add_function(wrap_pyfunction!(case::compare, module)?)?;
     module.add_function(wrap_pyfunction!(many::regimes, module)?)?;
     module.add_function(wrap_pyfunction!(work::fail, module)?)
 }

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use vinesink::answer::Decided;
 use vinesink::case::Case;
@@ -11,6 +10,7 @@ use vinesink::report::render::{self, Files};
 use vinesink::store;
 use vinesink::study::fidelity::LayerPlan;
 
+use crate::errors::FileError;
 use crate::work::{WorkState, refused};
 
 /// The files, and whether simulations are to be trusted and what was asked of accuracy holds.
@@ -24,5 +24,5 @@ pub fn rendered(case: &Case, name: &str, work: &WorkState) -> PyResult<(Files, b
 /// Writes them, in place of those of an older report.
 pub fn write(folder: &Path, files: &Files) -> PyResult<()> {
     let written = store::replace_folder(folder, files, render::is_of_report);
-    written.map_err(|error| PyOSError::new_err(error.to_string()))
+    written.map_err(|error| FileError::new_err(error.to_string()))
 }

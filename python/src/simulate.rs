@@ -1,7 +1,6 @@
 //! One trajectory, or the search for all motions: as the program's `simulate`.
 
 use numpy::IntoPyArray;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::Value;
@@ -15,6 +14,7 @@ use vinesink::report::console::Simulated;
 use vinesink::system::State;
 
 use crate::case::Columns;
+use crate::errors::RefusedError;
 use crate::work::{WorkState, refused};
 
 /// Impacts after which a run is ended, as by the program.
@@ -152,7 +152,7 @@ pub fn sampled(case: &Case, start: State, times: Vec<f64>, work: &WorkState) -> 
     if !(ascend && begins && last.is_finite()) {
         let message =
             "times must be finite numbers of excitation periods, 0 or more, in ascending order";
-        return Err(PyValueError::new_err(message));
+        return Err(RefusedError::new_err(message));
     }
     let mut simulation = Simulation::new(&case.system(), start, 0.0).map_err(refused)?;
     let (begun, states) = (simulation.state(), Vec::with_capacity(4 * times.len()));

@@ -7,13 +7,11 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use pyo3::create_exception;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
 use vinesink::executor::Executor;
 
-create_exception!(vinesink, InternalError, PyRuntimeError, "A fault in vinesink itself.");
+use crate::errors::{InternalError, RefusedError};
 
 /// Time between two looks for Ctrl-C and two calls of `progress`.
 const LOOK: Duration = Duration::from_millis(100);
@@ -141,7 +139,7 @@ fn fault(panic: &(dyn Any + Send)) -> PyErr {
 
 /// An error of the library as Python's `ValueError`, with its own message.
 pub fn refused(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
+    RefusedError::new_err(error.to_string())
 }
 
 /// For tests: panics as a fault in the physics would.

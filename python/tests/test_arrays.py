@@ -71,9 +71,9 @@ def test_starts_that_are_none(case):
 def test_many_are_each_as_if_alone(case):
     clearance = np.array([2e-3, 5e-3, 7.5e-3, 12e-3, 20e-3])
     start = (0.3, 0.0, -0.2, 0.8)
-    found = vinesink.simulate_many(case, clearance=clearance, initial=start)
+    found = vinesink.single_trajectories(case, clearance=clearance, initial=start)
     for k, metres in enumerate(clearance):
-        alone = vinesink.simulate_many(vinesink.Case(**{**TABLE_1, "clearance": f"{metres} m"}), initial=start)
+        alone = vinesink.single_trajectories(vinesink.Case(**{**TABLE_1, "clearance": f"{metres} m"}), initial=start)
         assert alone.shape == () and found.peak[k] == alone.peak[()] and found.regime[k] == alone.regime[()]
         assert (found.state[k] == alone.state).all()
     # A motion that simulate finds, in the same unit: both see it repeat to 1e-6.
@@ -86,33 +86,33 @@ def test_values_are_those_of_the_case_file():
     case = vinesink.Case(**TABLE_1)
     same = {"mass": 4.168, "stiffness": 11470.0, "damping": 3.02, "absorber_mass": 0.032, "clearance": 7.5e-3,
             "restitution": 0.6, "amplitude": 0.25e-3, "frequency": 8.0}  # fmt: skip
-    plain = vinesink.simulate_many(case, initial=(0, 0, 0, 1))
-    given = vinesink.simulate_many(case, initial=(0, 0, 0, 1), **same)
+    plain = vinesink.single_trajectories(case, initial=(0, 0, 0, 1))
+    given = vinesink.single_trajectories(case, initial=(0, 0, 0, 1), **same)
     assert plain.peak == pytest.approx(given.peak, rel=1e-12)
-    other = vinesink.simulate_many(case, initial=(0, 0, 0, 1), mass_ratio=0.01, absorber_mass=[0.032])
+    other = vinesink.single_trajectories(case, initial=(0, 0, 0, 1), mass_ratio=0.01, absorber_mass=[0.032])
     heavier = vinesink.Case(**{**TABLE_1, "absorber_mass": None, "mass_ratio": 0.01})
-    assert other.peak[0] == pytest.approx(vinesink.simulate_many(heavier, initial=(0, 0, 0, 1)).peak, rel=1e-9)
+    assert other.peak[0] == pytest.approx(vinesink.single_trajectories(heavier, initial=(0, 0, 0, 1)).peak, rel=1e-9)
 
 
 def test_shapes_are_broadcast(case):
-    found = vinesink.simulate_many(
+    found = vinesink.single_trajectories(
         case, clearance=np.array([[4e-3], [8e-3]]), frequency=[7.9, 8.0, 8.1], initial=np.zeros((2, 1, 4)), periods=20
     )
     assert found.shape == found.peak.shape == found.regime.shape == (2, 3)
     assert found.state.shape == (2, 3, 4)
     assert len(found.to_pandas()) == 6
     with pytest.raises(ValueError):
-        vinesink.simulate_many(case, clearance=np.ones(2), frequency=np.ones(3))
+        vinesink.single_trajectories(case, clearance=np.ones(2), frequency=np.ones(3))
     with pytest.raises(ValueError, match=r"\(\.\.\., 4\)"):
-        vinesink.simulate_many(case, initial=np.zeros((5, 3)))
+        vinesink.single_trajectories(case, initial=np.zeros((5, 3)))
 
 
 def test_of_nothing_comes_nothing(case):
-    found = vinesink.simulate_many(case, clearance=[])
+    found = vinesink.single_trajectories(case, clearance=[])
     assert found.shape == (0,) and found.peak.shape == (0,) and found.state.shape == (0, 4)
     assert len(found.to_pandas()) == len(found.to_polars()) == 0
     assert "0 rows" in found._repr_html_()
-    grid = vinesink.simulate_many(case, clearance=np.empty((3, 0)), initial=np.empty((3, 0, 4)))
+    grid = vinesink.single_trajectories(case, clearance=np.empty((3, 0)), initial=np.empty((3, 0, 4)))
     assert grid.shape == (3, 0)
     none = case.simulate(initial=(0, 0, 0, 0), discard=0, periods=3, times=[], measure=False)
     assert len(none.impact_log) == 0 and len(none.trajectory) == 0
@@ -132,14 +132,14 @@ def test_of_nothing_comes_nothing(case):
 )  # fmt: skip
 def test_the_first_bad_element_is_named(case, parameters, message):
     with pytest.raises(ValueError, match=message):
-        vinesink.simulate_many(case, **parameters)
+        vinesink.single_trajectories(case, **parameters)
 
 
 DIGEST = """
 import hashlib, sys, numpy as np, vinesink
 sys.path.insert(0, "tests")
 from conftest import TABLE_1
-found = vinesink.simulate_many(vinesink.Case(**TABLE_1), clearance=np.linspace(1e-3, 20e-3, 2000), periods=60)
+found = vinesink.single_trajectories(vinesink.Case(**TABLE_1), clearance=np.linspace(1e-3, 20e-3, 2000), periods=60)
 print(hashlib.sha256(b"".join(found[name].tobytes() for name in found.columns)).hexdigest())
 """
 
@@ -212,7 +212,7 @@ def test_branches_that_are_none(case):
 def test_reduced():
     case = vinesink.Case(mass_ratio=0.0076775, damping=1.799, restitution=0.6, clearance=1.0, forcing=4.342, detuning=-5.446)
     assert case.analyze().reduced.detuning == -5.446 and not case.scales.physical
-    found = vinesink.simulate_many(case, detuning=[-5.446, -5.0], initial=(0, 0, 0, 1))
+    found = vinesink.single_trajectories(case, detuning=[-5.446, -5.0], initial=(0, 0, 0, 1))
     assert found.peak.shape == (2,) and (found.impacts_per_period > 0).all()
     tilted = vinesink.Case(mass_ratio=0.01, damping=1.8, restitution=[0.65, 0.55], clearance=1.0, forcing=4.3,
                            frequency_ratio=1.0, gravity_along=0.004, friction_acceleration=0.002)  # fmt: skip
@@ -235,7 +235,7 @@ def test_tables_and_other_excitations():
     case = vinesink.Case(**swept)
     with pytest.raises(ValueError, match="swept through resonance, and an analysis is about one that is driven steadily"):
         case.analyze()
-    for refused in (case.orbits, lambda: vinesink.branch(case, "clearance", (1e-3, 1e-2)), lambda: vinesink.simulate_many(case)):
+    for refused in (case.orbits, lambda: vinesink.branch(case, "clearance", (1e-3, 1e-2)), lambda: vinesink.single_trajectories(case)):
         with pytest.raises(ValueError, match="swept through resonance"):
             refused()
     with pytest.raises(ValueError, match="not driven steadily"):

@@ -35,7 +35,7 @@ def results(case):
         "orbits": case.orbits(),
         "simulation": case.simulate(),
         "branch": vinesink.branch(case, "clearance", (7e-3, 8e-3)),
-        "motions": vinesink.simulate_many(case, clearance=[4e-3, 5e-3]),
+        "motions": vinesink.single_trajectories(case, clearance=[4e-3, 5e-3]),
     }
 
 
@@ -77,9 +77,9 @@ def test_records(case):
 
 
 def test_tables(case):
-    found = vinesink.simulate_many(case, clearance=[4e-3, 5e-3])
+    found = vinesink.single_trajectories(case, clearance=[4e-3, 5e-3])
     assert "peak" in dir(found) and (found["peak"] == found.peak).all() and len(found) == 2
-    with pytest.raises(AttributeError, match="Motions has no column `paek`; it has peak"):
+    with pytest.raises(AttributeError, match="Motions has no column `paek`; it has clearance, peak"):
         found.paek
 
 

@@ -42,7 +42,7 @@ def test_other_threads_run(case):
     thread = threading.Thread(target=tick)
     thread.start()
     begin = time.perf_counter()
-    vinesink.simulate_many(case, clearance=np.linspace(2e-3, 20e-3, 100_000))
+    vinesink.single_trajectories(case, clearance=np.linspace(2e-3, 20e-3, 100_000))
     end = time.perf_counter()
     stop.set()
     thread.join()
@@ -53,7 +53,7 @@ def test_other_threads_run(case):
 
 def work(name, case):
     if name == "many":
-        return vinesink.simulate_many(case, **LONG)
+        return vinesink.single_trajectories(case, **LONG)
     if name == "impacts":
         return case.simulate(initial=(0, 0, 0, 1), discard=50_000_000, periods=1, measure=False)
     # Strongly modulated, so that no orbit catches a start early; some hundred starts at a time.
@@ -68,12 +68,12 @@ def test_ctrl_c_ends_it(name, case, raised_after):
         work(name, case)
     # Looked for every tenth of a second; then pieces under way are finished.
     assert time.perf_counter() - sent[0] < 2
-    assert vinesink.simulate_many(case, clearance=[5e-3]).settled.all()
+    assert vinesink.single_trajectories(case, clearance=[5e-3]).settled.all()
 
 
 def test_progress(case):
     calls = []
-    vinesink.simulate_many(case, clearance=np.linspace(2e-3, 20e-3, 100_000), progress=lambda *call: calls.append(call))
+    vinesink.single_trajectories(case, clearance=np.linspace(2e-3, 20e-3, 100_000), progress=lambda *call: calls.append(call))
     assert len(calls) > 2
     assert calls == sorted(calls) and calls[-1] == (100_000, 100_000)
     assert {steps for _, steps in calls} == {100_000}
@@ -94,7 +94,7 @@ def test_what_progress_raises_ends_the_work(case):
 
     begin = time.perf_counter()
     with pytest.raises(Enough):
-        vinesink.simulate_many(case, **LONG, progress=progress)
+        vinesink.single_trajectories(case, **LONG, progress=progress)
     assert time.perf_counter() - begin < 5
 
 

@@ -470,6 +470,66 @@ fn equations_are_those_that_are_evaluated() {
 
 /// Lines that a page has from a report: from the first that contains some words to the next empty one, the
 /// links without their addresses.
+/// Links and pictures of a page, as (line, target); not those in code.
+fn targets(text: &str) -> Vec<String> {
+    let link = Regex::new(r#"\]\(([^)\s]+)(?: "[^"]*")?\)"#).expect("a pattern");
+    let code = Regex::new(r"`[^`]*`").expect("a pattern");
+    let lines =
+        fenced(text).filter(|(_, fenced)| !fenced).map(|(line, _)| code.replace_all(line, ""));
+    lines
+        .flat_map(|line| link.captures_iter(&line).map(|one| one[1].to_owned()).collect::<Vec<_>>())
+        .collect()
+}
+
+/// Where most people meet it, a forge shows the sources as they are: nothing is included, no frame is empty, every picture and
+/// page is there, the drawings are those of the reports, and a file that is shown is the file.
+#[test]
+fn the_sources_read_well_on_a_forge() {
+    let mut wrong = Vec::new();
+    let mut seen = [0; 2];
+    for (name, text) in pages() {
+        let folder = docs().join("src").join(&name).parent().expect("a folder").to_owned();
+        for (what, _) in [("{{#", 0), ("<iframe", 0), ("<img", 0)] {
+            if fenced(&text).any(|(line, fenced)| !fenced && line.contains(what)) {
+                wrong.push(format!("{name}: {what}"));
+            }
+        }
+        for target in targets(&text) {
+            let path = target.split('#').next().unwrap_or_default();
+            if path.is_empty() || path.starts_with("http") {
+                continue;
+            }
+            let file = folder.join(path);
+            if !file.exists() || path.ends_with("live.html") {
+                wrong.push(format!("{name}: {target} is not there"));
+            }
+            let Some((_, drawing)) = path.split_once("figures/") else { continue };
+            if let Some((report, drawing)) = drawing.split_once('/') {
+                seen[0] += 1;
+                let of = docs().join("../reports").join(report).join("figures").join(drawing);
+                if std::fs::read(&file).ok() != std::fs::read(&of).ok() {
+                    wrong.push(format!(
+                        "{name}: {target} is not that of the report; run docs/build"
+                    ));
+                }
+            }
+        }
+        let shown =
+            Regex::new(r"(?s)<!-- file: (\S+)(?: from line (\d+))? -->\n```\w+\n(.*?)\n```\n");
+        for one in shown.expect("a pattern").captures_iter(&text) {
+            let file = std::fs::read_to_string(folder.join(&one[1])).expect("a file");
+            let before = one.get(2).map_or(1, |line| line.as_str().parse().expect("a number")) - 1;
+            let lines: Vec<&str> = file.lines().skip(before).collect();
+            seen[1] += 1;
+            if lines.join("\n") != one[3] {
+                wrong.push(format!("{name}: {} is not as it is shown", &one[1]));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(seen[0] >= 40 && seen[1] == 5, "{seen:?} drawings and files");
+}
+
 fn quoted(file: &str, words: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{file}: {error}"));

@@ -169,6 +169,23 @@ const ROOMS: &[(&str, &[&str])] = &[
     // What programs share on a command line.
     ("program", &["case", "case_input", "executor", "report", "store"]),
     ("case_input", &["case", "store"]),
+    (
+        "case_optimum",
+        &[
+            "answer",
+            "case",
+            "case_report",
+            "criteria",
+            "excitation",
+            "executor",
+            "flights",
+            "measure",
+            "operating_range",
+            "optimize",
+            "report",
+            "transient",
+        ],
+    ),
     ("case_report", &["answer", "case", "executor", "report", "study"]),
     ("regimes", &["numerics", "orbits", "simulation", "system", "operation_count"]),
     (

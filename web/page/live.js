@@ -82,6 +82,10 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+const DAMAGED = "The link is damaged; this is another case.";
+/** Figures that stand before the fold. */
+const FIRST = ["amplitude", "map"];
+
 function Live(place) {
   // The case as text, its sliders, and what was before and after it.
   // A page that has this one in a frame may ask for some figures and sliders alone: ?show=sim&sliders=restitution.
@@ -90,14 +94,18 @@ function Live(place) {
   const wanted = (name) => !shown || shown.includes(name);
   let text = "", controls = [], notes = [], past = [], future = [], asked = 0, waiting = null;
   const values = new Map(), sliders = new Map(), figures = new Map();
-  let here, desks, keeps = false;
+  let here, desks, compiled, seeker = null, keeps = false, choose;
   const status = make("p", { class: "live-status", role: "status" });
   const problem = make("p", { class: "live-problem", role: "alert", hidden: true });
   const verdict = make("div", { class: "live-verdict", "aria-live": "polite" });
   const panel = make("form", { class: "live-sliders", "aria-label": "Sliders", onsubmit: (e) => e.preventDefault() });
   const board = make("div", { class: "live-figures" });
+  // One understands the first figures first; the others are a fold deeper.
+  const deeper = make("div", { class: "live-figures" });
+  const fold = make("details", { class: "live-deeper" }, make("summary", {}, "More figures: manifold, motions, return map"), deeper);
   const file = make("textarea", { rows: 16, spellcheck: "false", "aria-label": "Case file" });
   const button = (words, act, more = {}) => make("button", { type: "button", onclick: act, ...more }, words);
+  const best = button("Best clearance", search);
   const undo = button("Undo", () => step(past, future), { disabled: true });
   const redo = button("Redo", () => step(future, past), { disabled: true });
   const running = new Running(() => here, say);
@@ -112,6 +120,7 @@ function Live(place) {
       const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
       const module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
       here = new Engine(module);
+      compiled = module;
       const source = document.getElementById("live-script").textContent;
       desks = [new Desk(module, source), new Desk(module, source)];
     } catch (error) {
@@ -122,11 +131,19 @@ function Live(place) {
     document.body.classList.toggle("live-small", Boolean(shown));
     const parts = [["verdict", verdict], ["running", running.figure]].filter(([name]) => wanted(name)).map(([, part]) => part);
     place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
-      make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board)));
+      make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board, shown ? "" : fold)));
     const own = document.getElementById("live-case")?.textContent;
-    const link = await linked();
-    open(link || (own ?? presets[2][1]));
-    if (link === "") complain([{ message: "The link is damaged; this is another case." }]);
+    const wanted = await linked();
+    open(wanted || (own ?? presets[0][1]));
+    if (wanted === "") complain([{ message: DAMAGED }]);
+    // A link that is pasted into an open page, and the browser's way back.
+    addEventListener("hashchange", async () => {
+      const other = await linked();
+      if (other === "") complain([{ message: DAMAGED }]);
+      if (!other || other === text) return;
+      remember();
+      open(other);
+    });
     // A page of its own keeps its state in its address, so that a reload finds it again.
     keeps = own === undefined && !shown;
     settled().then(warm);
@@ -138,12 +155,12 @@ function Live(place) {
   };
 
   function bar(presets) {
-    const choose = make("select", { onchange: () => choose.value !== "" && (remember(), open(presets[choose.value][1])) },
-      make("option", { value: "" }, "regimes of the paper"), ...presets.map(([name], k) => make("option", { value: k }, name)));
+    choose = make("select", { onchange: () => { const of = choose.value; if (of !== "") { remember(); open(presets[of][1]); choose.value = of; } } },
+      make("option", { value: "" }, "choose a case"), ...presets.map(([name], k) => make("option", { value: k }, name)));
     const use = button("Use this case file", () => { remember(); open(file.value); });
     const paste = make("details", { class: "live-file", ontoggle: () => { file.value = text; } },
       make("summary", {}, "Case file"), file, use);
-    return make("div", { class: "live-bar" }, make("label", {}, "Begin with ", choose), undo, redo,
+    return make("div", { class: "live-bar" }, make("label", {}, "Begin with ", choose), best, undo, redo,
       button("Copy as case file", () => copy(text, "The case file is in the clipboard.")),
       button("Copy link", async () => copy(await link(), "The link is in the clipboard; it holds the whole case.")),
       paste);
@@ -195,12 +212,20 @@ function Live(place) {
   function open(wanted) {
     const answer = here.ask({ ask: "open", text: wanted });
     complain(answer.problems);
-    if (answer.problems) return;
+    if (answer.problems) {
+      // No verdict stands there for a case that was refused.
+      verdict.replaceChildren(make("p", {}, "The case was refused. Sliders and figures are those of the case before."));
+      return;
+    }
     ({ text, controls } = answer);
+    choose.value = "";
     place.dataset.title = answer.title;
     sliders.clear();
-    panel.replaceChildren(make("h3", {}, answer.title), ...controls.map(slider));
-    panel.querySelectorAll(".live-slider").forEach((one, k) => { one.hidden = chosen && !chosen.includes(controls[k].key); });
+    const rows = controls.map(slider), first = ["clearance", "restitution", "amplitude", "frequency", ...(chosen ?? [])];
+    const isFirst = (_, k) => first.includes(controls[k].key);
+    panel.replaceChildren(make("h3", {}, answer.title), ...rows.filter(isFirst),
+      make("details", { class: "live-further", hidden: Boolean(chosen) }, make("summary", {}, "Mass and damping"), ...rows.filter((row, k) => !isFirst(row, k))));
+    rows.forEach((row, k) => { row.hidden = chosen && !chosen.includes(controls[k].key); });
     notes = answer.notes;
     running.change(text, "push");
     change(new Map());
@@ -211,9 +236,10 @@ function Live(place) {
     const range = make("input", { id, type: "range", min: 0, max: 1000, step: 1, oninput: () => move(of, at(of, range.value / 1000)), onchange: pause });
     const field = make("input", { type: "number", step: "any", "aria-label": `${of.name} in ${of.unit.symbol || "1"}`,
       onchange: () => { settle(); typed(of, field.value.trim() === "" ? NaN : field.value * of.unit.size); } });
-    sliders.set(of.key, { range, field });
+    const good = make("span", { class: "live-good", hidden: true });
+    sliders.set(of.key, { range, field, good });
     return make("div", { class: "live-slider" }, make("label", { for: id }, `${of.name} ${of.symbol}`),
-      make("span", { class: "live-field" }, field, make("span", {}, of.unit.symbol)), range);
+      make("span", { class: "live-field" }, field, make("span", {}, of.unit.symbol)), range, good);
   }
   function at({ range: [low, high], log }, part) { return log ? low * (high / low) ** part : low + part * (high - low); }
   function part({ range: [low, high], log }, value) {
@@ -254,7 +280,12 @@ function Live(place) {
     text = answer.text;
     show(answer.controls);
     for (const one of answer.figures) draw(one);
-    if (other) running.change(text, "here");
+    if (other) {
+      running.change(text, "here");
+      // It is no longer the case of that name.
+      choose.value = "";
+      panel.firstChild.textContent = `${place.dataset.title}, changed`;
+    }
     const onlyCase = [...some.keys()].every((key) => key === "frequency" || key === "clearance");
     follow(some.size > 0 && onlyCase);
     frames.push(performance.now() - begin);
@@ -303,6 +334,32 @@ function Live(place) {
     if (version === asked) showMap(answer);
   }
 
+  /** The clearance that the program would choose, in a worker of its own: it takes seconds. */
+  async function search() {
+    seeker ??= new Desk(compiled, document.getElementById("live-script").textContent);
+    [best.disabled, best.textContent] = [true, "looking …"];
+    const from = text, answer = await seeker.ask({ ask: "optimize", text });
+    [best.disabled, best.textContent] = [false, "Best clearance"];
+    if (answer.problems) return complain(answer.problems);
+    say(answer.said);
+    if (!answer.text || from !== text) return;
+    remember();
+    open(answer.text);
+  }
+
+  /** Where on its track the clearance has a stable 1:1 motion. */
+  function track({ document: { theory } }) {
+    const of = controls.find((one) => one.key === "clearance"), { good } = sliders.get("clearance") ?? {};
+    if (!good) return;
+    const ends = (theory?.stretches ?? []).map((stretch) => stretch.map((end) => Math.min(1, Math.max(0, part(of, end?.at?.value ?? end?.value ?? NaN)))));
+    const [first, last] = ends.sort((a, b) => (b[1] - b[0]) - (a[1] - a[0]))[0] ?? [];
+    good.hidden = !(last > first);
+    if (good.hidden) return;
+    good.style.marginLeft = `${100 * first}%`;
+    good.style.width = `${100 * (last - first)}%`;
+    good.title = "clearances with a stable 1:1 motion";
+  }
+
   /** Until everything on the page belongs to the sliders. */
   async function settled() {
     while (waiting !== null || place.querySelector("[aria-busy=true]")) await new Promise((done) => setTimeout(done, 5));
@@ -315,9 +372,11 @@ function Live(place) {
     if (!figures.has(name)) {
       const one = make("figure", { "data-name": name }, make("div", { class: "drawing", tabindex: 0, role: "region" }), make("figcaption"));
       figures.set(name, one);
-      const order = ["map", "sim", "ranges", "amplitude", "response", "motion-1", "return-map-1", "plane"];
+      const order = ["amplitude", "map", "sim", "ranges", "response", "motion-1", "return-map-1", "plane"];
       const rank = (name) => (order.indexOf(name) + 99) % 99;
-      board.append(...[...figures].sort(([a], [b]) => rank(a) - rank(b)).map(([, figure]) => figure));
+      const sorted = [...figures].sort(([a], [b]) => rank(a) - rank(b)), isFirst = ([name]) => shown || FIRST.includes(name);
+      board.append(...sorted.filter(isFirst).map(([, figure]) => figure));
+      deeper.append(...sorted.filter((one) => !isFirst(one)).map(([, figure]) => figure));
     }
     const figure = figures.get(name);
     figure.hidden = !wanted(name);
@@ -334,6 +393,7 @@ function Live(place) {
     verdict.replaceChildren(...notes.map((note) => make("p", { class: "live-note" }, note)), ...firstScreen(answer));
     if (keeps) link().then((address) => history.replaceState(null, "", address));
     fresh(verdict);
+    track(answer);
     const names = new Set(answer.figures.map(({ name }) => name)).add("map").add("sim");
     for (const [name, figure] of figures) if (!names.has(name)) { figure.remove(); figures.delete(name); }
     answer.figures.forEach(draw);
@@ -362,6 +422,8 @@ function Live(place) {
     drawing.replaceChildren(sheet);
     if (focused) star.focus({ preventScroll: true });
     sheet.onpointerdown = (event) => {
+      // A finger beside the star scrolls.
+      if (event.pointerType === "touch" && event.target !== star) return;
       sheet.setPointerCapture(event.pointerId);
       drag(event);
       sheet.onpointermove = drag;
@@ -402,54 +464,81 @@ function Live(place) {
   }
 }
 
-/** The simulation that runs: displacement, the absorber in its cavity with impacts, and the return map. */
+/** The simulation that runs: the box on its spring with the ball in it, beside the structure without one; displacement over
+ *  time, the absorber in its cavity with impacts, and the return map. */
 function Running(engine, say) {
-  const WINDOW = 10, IMPACTS = 2000, SAMPLES = 48;
+  const WINDOW = 10, IMPACTS = 2000, SAMPLES = 48, FLASH = 0.12;
   let clock = 0, simulated = 0, begin = 0, points = [], impacts = [], last = null, shown = true;
+  // Clearance in the case's unit, the structure alone, the largest displacement so far, and what an axis ends at, over the clearance.
+  let of = { clearance: 1, unit: "b", bare: null }, largest = 0, reach = 1, told = 0, audio = null;
   let paused = matchMedia("(prefers-reduced-motion: reduce)").matches;
   const canvas = (label) => make("canvas", { role: "img", "aria-label": label });
-  const motion = canvas("Displacement of the oscillator and position of the absorber between its walls over the last ten periods");
+  const scene = canvas("The structure as a box on its spring with the absorber as a ball in it, and below the structure without an absorber");
+  const motion = canvas("Displacement of the structure, with and without absorber, and position of the absorber between its walls over the last ten periods");
   const map = canvas("Return map: each time between impacts over the one before");
   const pause = make("button", { type: "button", onclick: () => { paused = !paused; label(); } });
   const label = () => { pause.textContent = paused ? "Run" : "Pause"; };
-  const speed = make("select", {}, ...[[1, "1 period a second"], [10, "10 periods a second"], [200, "200 periods a second"]].map(([value, words]) =>
-    make("option", { value, selected: value === 10 }, words)));
+  const sound = make("button", { type: "button", "aria-pressed": "false", onclick: () => {
+    audio = audio ? (audio.close(), null) : new AudioContext();
+    sound.setAttribute("aria-pressed", String(Boolean(audio)));
+  } }, "Sound");
+  const speed = make("select", {}, ...[[0.5, "slow motion"], [2, "2 periods a second"], [10, "10 periods a second"], [200, "200 periods a second"]].map(([value, words]) =>
+    make("option", { value, selected: value === 2 }, words)));
   label();
   this.figure = make("figure", { class: "live-running", "data-name": "running" },
-    make("div", { class: "live-bar" }, make("strong", {}, "Running simulation"), pause, make("label", {}, "Speed ", speed),
+    make("div", { class: "live-bar" }, pause, make("label", {}, "Speed ", speed), sound,
       make("button", { type: "button", onclick: () => this.change(this.text, "push") }, "With a push"),
       make("button", { type: "button", onclick: () => this.change(this.text, "rest") }, "From rest")),
-    make("div", { class: "live-canvases" }, motion, map),
-    make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. Above: displacement x over the clearance. Below: the absorber between its walls, each dot an impact. Right: the time between impacts over the one before, in periods; two evenly spaced impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents."));
+    make("div", { class: "live-canvases" }, scene, motion),
+    make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. Grey and dashed: the same structure without an absorber."),
+    make("details", {}, make("summary", {}, "Times between impacts"), map,
+      make("p", { class: "live-note" }, "The time between impacts over the one before, in periods; two evenly spaced impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents.")));
   new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(this.figure);
-  const still = () => { drawn(); };
 
   /** Runs a case on from where the simulation is, or anew: at rest, or with an absorber that was pushed. */
   this.change = (text, from) => {
     this.text = text;
     const answer = engine().ask({ ask: "run", text, from });
     if (answer.problems) return say(answer.problems[0].message);
-    if (from !== "here") { points = []; clock = simulated = 0; }
+    const before = of.clearance;
+    of = { ...answer, unit: answer.unit || "b" };
+    if (from !== "here") { points = []; clock = simulated = largest = 0; }
+    // Lengths of before are over another clearance.
+    for (let k = 0; k < points.length; k += 3) { points[k + 1] *= before / of.clearance; points[k + 2] *= before / of.clearance; }
+    largest *= before / of.clearance;
+    reach = 0;
     begin = simulated;
     impacts = [];
-    if (paused) { clock += WINDOW; still(); }
+    told = clock;
+    if (paused) { clock += WINDOW; drawn(); }
     if (last === null) last = requestAnimationFrame(frame);
   };
-  this.state = () => ({ clock, impacts: impacts.length / 2, points: points.length / 3 });
+  this.state = () => ({ clock, impacts: impacts.length / 2, points: points.length / 3, reach: reach * of.clearance });
 
   function ahead() {
     const periods = Math.min(40, Math.ceil(clock - simulated));
-    if (periods <= 0) return;
-    const news = engine().goOn(periods, SAMPLES);
-    for (let k = 0; k < news.points.length; k += 3) points.push(begin + news.points[k], news.points[k + 1], news.points[k + 2]);
-    for (let k = 0; k < news.impacts.length; k += 2) impacts.push(begin + news.impacts[k], news.impacts[k + 1]);
-    simulated += periods;
-    clock = Math.min(clock, simulated);
-    let first = 0;
-    while (first < points.length && points[first] < clock - WINDOW) first += 3;
-    points.splice(0, first);
-    impacts.splice(0, Math.max(0, impacts.length - 2 * IMPACTS));
+    if (periods > 0) {
+      const news = engine().goOn(periods, SAMPLES);
+      for (let k = 0; k < news.points.length; k += 3) points.push(begin + news.points[k], news.points[k + 1], news.points[k + 2]);
+      for (let k = 0; k < news.impacts.length; k += 2) impacts.push(begin + news.impacts[k], news.impacts[k + 1]);
+      for (let k = 1; k < news.points.length; k += 3) largest = Math.max(largest, Math.abs(news.points[k]));
+      simulated += periods;
+      clock = Math.min(clock, simulated);
+      let first = 0;
+      while (first < points.length && points[first] < clock - WINDOW) first += 3;
+      points.splice(0, first);
+      impacts.splice(0, Math.max(0, impacts.length - 2 * IMPACTS));
+    }
+    // The axis only grows, to a round number: a decay or a beating is seen as it is. What is far off it is said.
+    const bare = of.bare ? Math.hypot(...of.bare) : 0, most = Math.max(largest, Math.min(bare, 4 * (largest + 1))) * of.clearance;
+    if (most > reach * of.clearance) reach = round(1.05 * most) / of.clearance;
   }
+  function round(value) {
+    const power = 10 ** Math.floor(Math.log10(value));
+    return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9)) * power;
+  }
+  const number = (value) => Number(value.toPrecision(3));
+  const alone = (t) => of.bare && of.bare[0] * Math.cos(2 * Math.PI * t) + of.bare[1] * Math.sin(2 * Math.PI * t);
 
   function frame(time) {
     const before = typeof last === "number" && frame.time ? time - frame.time : 0;
@@ -471,29 +560,107 @@ function Running(engine, say) {
     g.font = "13px system-ui, sans-serif";
     return { g, width, height };
   }
-  const HEIGHT = 270;
+  const HEIGHT = 250, SCENE = 170;
 
   function drawn() {
     ahead();
     const style = getComputedStyle(motion);
     const [ink, soft, line, blue, red] = ["--ink", "--soft", "--line", "--link", "--bad"].map((name) => style.getPropertyValue(name));
+    box(sheet(scene, SCENE), { ink, soft, line, blue, red });
     strip(sheet(motion, HEIGHT), { ink, soft, line, blue, red });
-    square(sheet(map, HEIGHT), { soft, line, blue });
+    if (map.clientWidth) square(sheet(map, HEIGHT), { soft, line, blue });
+    click();
+  }
+
+  /** A click for the first impact since the last frame, where somebody wants to hear it. */
+  function click() {
+    let heard = false;
+    for (let k = 0; k < impacts.length && !heard; k += 2) heard = impacts[k] > told && impacts[k] <= clock;
+    told = clock;
+    if (!audio || !heard || speed.value > 10) return;
+    const now = audio.currentTime, tone = audio.createOscillator(), gain = audio.createGain();
+    tone.frequency.value = 1400;
+    gain.gain.setValueAtTime(0.12, now);
+    gain.gain.exponentialRampToValueAtTime(0.001, now + 0.04);
+    tone.connect(gain).connect(audio.destination);
+    tone.start(now);
+    tone.stop(now + 0.05);
+  }
+
+  /** Displacement and gap at the clock, between the points beside it. */
+  function state() {
+    let k = points.length - 6;
+    while (k > 0 && points[k] > clock) k -= 3;
+    if (k < 0) return [0, 0];
+    const part = Math.min(1, Math.max(0, (clock - points[k]) / (points[k + 3] - points[k] || 1)));
+    return [1, 2].map((i) => points[k + i] + part * (points[k + 3 + i] - points[k + i]));
+  }
+
+  function box({ g, width, height }, { ink, soft, line, blue, red }) {
+    const [x, gap] = state(), ghost = alone(clock), rows = [50, 128], half = 24;
+    // The cavity is to scale with the displacement, as far as a ball can be seen in it.
+    const room = width - 70, size = Math.min(room / (2 * reach + 2.6), 90), ball = Math.max(7, Math.min(15, 0.3 * size));
+    const cavity = Math.max(size, 16), middle = 60 + room / 2;
+    const spring = (from, to, y) => {
+      g.beginPath(); g.moveTo(from, y);
+      for (let k = 0; k <= 12; k += 1) g.lineTo(from + 8 + (to - from - 16) * k / 12, y + (k % 2 ? 6 : -6));
+      g.lineTo(to, y); g.stroke();
+    };
+    g.lineWidth = 3; g.strokeStyle = soft;
+    g.beginPath(); g.moveTo(6, 8); g.lineTo(6, height - 8); g.stroke();
+    g.setLineDash([2, 4]); g.lineWidth = 1; g.strokeStyle = line;
+    g.beginPath(); g.moveTo(middle, 6); g.lineTo(middle, height - 6); g.stroke();
+    g.setLineDash([]);
+    const wide = cavity + ball;
+    const at = (x) => Math.max(wide + 40, Math.min(width - wide - 4, middle + x * size));
+    g.lineWidth = 1.5; g.strokeStyle = soft;
+    spring(6, at(x) - wide, rows[0]);
+    g.lineWidth = 2; g.strokeStyle = ink;
+    g.strokeRect(at(x) - wide, rows[0] - half, 2 * wide, 2 * half);
+    for (const side of [-1, 1]) {
+      let hit = false;
+      for (let k = impacts.length - 2; k >= 0 && impacts[k] > clock - FLASH * speed.value; k -= 2) hit ||= impacts[k] <= clock && impacts[k + 1] === -side;
+      if (!hit) continue;
+      g.fillStyle = red;
+      g.fillRect(at(x) + side * wide - 4, rows[0] - half, 8, 2 * half);
+    }
+    g.fillStyle = blue;
+    g.beginPath(); g.arc(at(x) - gap * cavity, rows[0] + half - ball - 1, ball, 0, 7); g.fill();
+    g.fillStyle = soft;
+    g.fillText(`with absorber, ±${number(largest * of.clearance)} ${of.unit} so far`, 16, 16);
+    const peak = of.bare ? Math.hypot(...of.bare) : Infinity;
+    const words = of.bare ? `without, ±${number(peak * of.clearance)} ${of.unit}${peak > reach ? ", off this scale" : ""}` : "without: nothing limits it";
+    g.fillText(words, 16, 94);
+    if (!of.bare) return;
+    g.setLineDash([6, 4]); g.strokeStyle = soft; g.lineWidth = 1.5;
+    spring(6, at(ghost) - wide, rows[1]);
+    g.strokeRect(at(ghost) - wide, rows[1] - half, 2 * wide, 2 * half);
+    g.setLineDash([]);
   }
 
   function strip({ g, width, height }, { ink, soft, line, blue, red }) {
-    const left = 58, right = width - 6, from = clock - WINDOW, middles = [62, 180];
+    const left = 74, right = width - 6, from = clock - WINDOW, middles = [66, 178], halves = [54, 44];
     const across = (t) => left + (t - from) / WINDOW * (right - left);
-    let most = 0.01;
-    for (let k = 1; k < points.length; k += 3) most = Math.max(most, Math.abs(points[k]));
     const rule = (x1, y1, x2, y2) => { g.beginPath(); g.moveTo(x1, y1); g.lineTo(x2, y2); g.stroke(); };
-    g.strokeStyle = line;
+    g.lineWidth = 1; g.strokeStyle = line;
     for (let t = Math.ceil(from); t <= clock; t += 1) rule(across(t), 6, across(t), height - 24);
-    g.fillStyle = soft;
-    [["x/b", `±${most.toPrecision(2)}`], ["w/b", "±1"]].forEach((words, k) => words.forEach((word, row) => g.fillText(word, 4, middles[k] + 16 * row)));
-    g.textAlign = "right";
+    for (const share of [-1, 0, 1]) rule(left, middles[0] - share * halves[0], right, middles[0] - share * halves[0]);
+    g.fillStyle = soft; g.textAlign = "right";
+    const end = number(reach * of.clearance);
+    [[`+${end}`, -1], [of.unit, 0], [`−${end}`, 1]].forEach(([word, share]) => g.fillText(word, left - 6, middles[0] + share * halves[0] + 4));
+    [[`+${number(of.clearance)}`, -1], ["in the box", 0], [`−${number(of.clearance)}`, 1]].forEach(([word, share]) => g.fillText(word, left - 6, middles[1] + share * halves[1] + 4));
     g.fillText("time in periods", right, height - 6);
     g.textAlign = "left";
+    g.save();
+    g.beginPath(); g.rect(left, 0, right - left, height); g.clip();
+    if (of.bare) {
+      g.save();
+      g.beginPath(); g.rect(left, middles[0] - halves[0], right - left, 2 * halves[0]); g.clip();
+      g.setLineDash([5, 4]); g.strokeStyle = soft; g.lineWidth = 1.2; g.beginPath();
+      for (let k = 0; k <= 480; k += 1) g.lineTo(across(from + k * WINDOW / 480), middles[0] - alone(from + k * WINDOW / 480) / reach * halves[0]);
+      g.stroke();
+      g.restore();
+    }
     const curve = (index, middle, half) => {
       g.strokeStyle = blue; g.lineWidth = 1.6; g.beginPath();
       for (let k = 0, pen = false; k < points.length && points[k] <= clock; k += 3) {
@@ -504,15 +671,16 @@ function Running(engine, say) {
       }
       g.stroke();
     };
-    curve(1, middles[0], 50 / most);
-    curve(2, middles[1], 58);
+    curve(1, middles[0], halves[0] / reach);
+    curve(2, middles[1], halves[1]);
     g.strokeStyle = ink; g.lineWidth = 2;
-    for (const side of [-58, 58]) rule(left, middles[1] + side, right, middles[1] + side);
+    for (const side of [-halves[1], halves[1]]) rule(left, middles[1] + side, right, middles[1] + side);
     g.fillStyle = red;
     for (let k = 0; k < impacts.length; k += 2) {
       if (impacts[k] < from || impacts[k] > clock) continue;
-      g.beginPath(); g.arc(across(impacts[k]), middles[1] - 58 * impacts[k + 1], 3.5, 0, 7); g.fill();
+      g.beginPath(); g.arc(across(impacts[k]), middles[1] - halves[1] * impacts[k + 1], 3.5, 0, 7); g.fill();
     }
+    g.restore();
   }
 
   function square({ g, width, height }, { soft, line, blue }) {

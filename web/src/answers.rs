@@ -8,9 +8,11 @@ use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, CaseError, Problem, RewriteError, Rounding};
 use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
+use vinesink::optimize::{Optimization, Task};
+use vinesink::quantity::Dimension;
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{self, Figure, PlacedPanel};
-use vinesink::report::{figures, template};
+use vinesink::report::{figures, optimize as page, template};
 use vinesink::study::CaseStudy;
 use vinesink::study::plots::{BoundaryMap, Plot};
 use vinesink::system::Parameter;
@@ -32,17 +34,25 @@ enum Request {
     Map { text: String },
     /// The report as data, its first screen, and its figures.
     Study { text: String },
-    /// The running simulation is of this case now.
+    /// The running simulation is of this case now: what its lengths are over, and the structure without an absorber.
     Run { text: String, from: From },
+    /// The absorber that serves a case best, as the program chooses it.
+    Optimize { text: String },
 }
 
-/// The paper's five regimes (Fig. 4), from the shipped cases.
-const PRESETS: [(&str, &str); 5] = [
-    ("more than two impacts per period", include_str!("../../cases/li2016-8p5hz-fig4a.toml")),
-    ("two asymmetric impacts", include_str!("../../cases/li2016-8p5hz-fig4b.toml")),
-    ("two symmetric impacts", include_str!("../../cases/li2016-8p5hz-fig4c.toml")),
-    ("strongly modulated response", include_str!("../../cases/li2016-8p5hz-fig4d.toml")),
-    ("few impacts", include_str!("../../cases/li2016-8p5hz-fig4e.toml")),
+/// Cases by the question that they answer, then the paper's five regimes (Fig. 4).
+const PRESETS: [(&str, &str); 8] = [
+    ("a footbridge that sways", include_str!("../../cases/footbridge-lateral.toml")),
+    ("a mast in the wind", include_str!("../../cases/mast-mode-2.toml")),
+    ("when it makes things worse", include_str!("../../cases/li2016-8hz-b4mm.toml")),
+    (
+        "the paper: more than two impacts per period",
+        include_str!("../../cases/li2016-8p5hz-fig4a.toml"),
+    ),
+    ("the paper: two asymmetric impacts", include_str!("../../cases/li2016-8p5hz-fig4b.toml")),
+    ("the paper: two symmetric impacts", include_str!("../../cases/li2016-8p5hz-fig4c.toml")),
+    ("the paper: strongly modulated response", include_str!("../../cases/li2016-8p5hz-fig4d.toml")),
+    ("the paper: few impacts", include_str!("../../cases/li2016-8p5hz-fig4e.toml")),
 ];
 
 /// The answer to a request; `{"problems": [...]}` where there is none.
@@ -66,10 +76,25 @@ fn answer(request: Request) -> Result<Value, Value> {
         Request::Study { text } => study(&read(&text)?),
         Request::Run { text, from } => {
             let case = read(&text)?;
-            running::change(&case.system(), case.units().clearance, from).map_err(words)?;
-            Ok(json!({}))
+            let (system, clearance) = (case.system(), case.units().clearance);
+            running::change(&system, clearance, from).map_err(words)?;
+            let unit = case.units().unit(Dimension::Length, clearance);
+            Ok(json!({
+                "clearance": clearance / unit.size, "unit": unit.symbol, "bare": running::bare(&system),
+            }))
         }
+        Request::Optimize { text } => best(&parsed(&text)?, &text),
     }
+}
+
+/// The case with the best absorber, where that is better than its own and meets what it asks for, and what is said of it.
+fn best(case: &Case, text: &str) -> Result<Value, Value> {
+    let task = Task::of(case, None).map_err(words)?;
+    let found = Optimization::of(&task, text, &Serial).map_err(words)?;
+    let said = page::summary(case, &found).map_err(words)?;
+    let better = found.best.written.clone().with_fitting_comments(case).map_err(words)?;
+    let better = found.succeeds().then_some(better.text);
+    Ok(json!({ "text": better, "said": said.lines().next() }))
 }
 
 /// What is wrong with a case file, and where.

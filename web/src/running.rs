@@ -50,6 +50,13 @@ pub fn change(system: &System, clearance: f64, from: From) -> Result<(), String>
     })
 }
 
+/// The structure without an absorber in its steady motion: displacement over the clearance at phase 0, and a quarter of a
+/// period later; none where nothing limits it.
+pub fn bare(system: &System) -> Option<[f64; 2]> {
+    let State { x, x_velocity, .. } = system.linear_response()?.state(system);
+    Some([x, x_velocity / system.frequency_ratio()])
+}
+
 fn scaled(state: State, by: f64) -> State {
     let State { x, x_velocity, y, y_velocity } = state;
     State { x: by * x, x_velocity: by * x_velocity, y: by * y, y_velocity: by * y_velocity }

@@ -5,7 +5,9 @@
     case = vinesink.Case.from_toml("damper.toml")
     case.analyze().area          # what the theory expects
     case.orbits()                # exact periodic orbits
-    case.simulate()              # every long-term motion, from many starts
+    case.motions()               # every long-term motion, from many starts
+    case.check()                 # whether its criteria hold, and how far
+    case.optimize().case         # the absorber that serves it best
     case.report("reports/damper")
 
 Lengths and times are in SI for a case in physical units, and in its own units for a reduced one, unless a name or a
@@ -13,9 +15,21 @@ docstring says otherwise: states and impacts are over the clearance and in fast 
 the program. `Case.scales` has the factors between the two.
 """
 
-from ._case import Case, CaseWarning, Scales, SimulationWarning, branch, simulate_many
-from ._results import Analysis, Branch, Motions, Orbits, Record, Simulation, Table
-from ._vinesink import CaseError, InternalError, __version__
+from ._case import (
+    Case,
+    CaseWarning,
+    Keys,
+    Parameters,
+    Scales,
+    SimulationWarning,
+    branch,
+    compare,
+    single_trajectories,
+    sweep,
+)
+from ._errors import CaseError, FileError, InternalError, RefusedError, VinesinkError
+from ._results import Analysis, Branch, Check, Difference, Motions, Optimum, Orbits, Record, Simulation, Sweep, Table
+from ._vinesink import __version__
 
 __all__ = [
     "Analysis",
@@ -23,15 +37,26 @@ __all__ = [
     "Case",
     "CaseError",
     "CaseWarning",
+    "Check",
+    "Difference",
+    "FileError",
     "InternalError",
+    "Keys",
     "Motions",
+    "Optimum",
     "Orbits",
+    "Parameters",
     "Record",
+    "RefusedError",
     "Scales",
     "Simulation",
     "SimulationWarning",
+    "Sweep",
     "Table",
+    "VinesinkError",
     "__version__",
     "branch",
-    "simulate_many",
+    "compare",
+    "single_trajectories",
+    "sweep",
 ]

@@ -4,19 +4,118 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NoReturn, Optional, TypedDict, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _vinesink
-from ._results import Analysis, Branch, Motions, Orbits, Simulation, Table
+from ._errors import RefusedError
+from ._quantities import AstropyLike, PintLike, Quantity, parts, written
+from ._results import Analysis, Branch, Check, Difference, Motions, Optimum, Orbits, Simulation, Sweep, Table
 
-Progress = Callable[[int, int], object]
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from typing_extensions import Unpack
+
+Progress = Union[Callable[[int, int], object], bool]
+"""Called with the steps done and all steps, about ten times a second; True is a bar of `tqdm`, where that is installed."""
+
+Pair = Sequence[float]
+Settings = Optional[Mapping[str, Any]]
+Word = Optional[str]
+Count = Optional[int]
+Number = Optional[float]
+Values = Union[ArrayLike, PintLike, AstropyLike]
+
+
+class Keys(TypedDict, total=False):
+    """What a case has, by the keys of a case file."""
+
+    mass: Quantity
+    stiffness: Quantity
+    natural_frequency: Quantity
+    damping: Quantity
+    damping_ratio: Quantity
+    absorber_mass: Quantity
+    mass_ratio: Quantity
+    clearance: Quantity
+    restitution: Number | Pair
+    inclination: Quantity
+    orientation: Word
+    friction: Quantity
+    support: Word
+    support_frequency: Quantity
+    support_room: Quantity
+    contact_time: Quantity
+    kind: Word
+    amplitude: Quantity
+    frequency: Quantity
+    displacement: Quantity
+    velocity: Quantity
+    impulse: Quantity
+    of: Word
+    start: Quantity
+    to: Quantity
+    rate: Quantity
+    quantity: Word
+    file: Word
+    spectrum: Sequence[Pair] | None
+    duration: Quantity
+    seed: Count
+    realisations: Count
+    forcing: Number
+    frequency_ratio: Number
+    detuning: Number
+    gravity_along: Number
+    friction_acceleration: Number
+    simulation: Settings
+    report: Settings
+    accuracy: Settings
+    band: Settings
+    criteria: Settings
+    alternatives: Settings
+    optimize: Settings
+    uncertainty: Settings
+    sweep: Settings
+
+
+class Parameters(TypedDict, total=False):
+    """Numbers of a case that may be arrays: in SI or the units of a reduced case, or with a unit of their own."""
+
+    mass: Values
+    stiffness: Values
+    damping: Values
+    damping_ratio: Values
+    absorber_mass: Values
+    mass_ratio: Values
+    natural_frequency: Values
+    clearance: Values
+    restitution: Values
+    inclination: Values
+    friction: Values
+    amplitude: Values
+    frequency: Values
+    forcing: Values
+    frequency_ratio: Values
+    detuning: Values
+    gravity_along: Values
+    friction_acceleration: Values
+
+
+# Of each of these a case has one: the other goes where one is replaced.
+_EITHER = (
+    {"stiffness", "natural_frequency"},
+    {"damping", "damping_ratio"},
+    {"absorber_mass", "mass_ratio"},
+    {"inclination", "orientation"},
+    {"frequency_ratio", "detuning"},
+)
 
 _SCHEMA = json.loads(_vinesink.schema())["properties"]
 # Where one word is a key of two tables, or of Python: the keyword instead.
@@ -73,6 +172,8 @@ class Scales:
 
 
 def _toml(value: Any) -> str:
+    if not isinstance(value, (str, bool, int, float, np.generic, np.ndarray, Mapping, Sequence)):
+        value = written(value)
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, (bool, np.bool_)):
@@ -86,6 +187,56 @@ def _toml(value: Any) -> str:
     if isinstance(value, (Sequence, np.ndarray)):
         return "[" + ", ".join(_toml(one) for one in value) + "]"
     raise TypeError(f"a case has text, numbers, true and false, lists and tables, but no {type(value).__name__}")
+
+
+def _level() -> int:
+    """The level of the caller's frame that is not of this package, as `warnings.warn` counts from its own caller."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and Path(frame.f_code.co_filename).parent == Path(__file__).parent:
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+def _whole(name: str, value: int | None, least: int) -> int | None:
+    """A count, or None; what is none is refused."""
+    if value is None:
+        return None
+    if not isinstance(value, (int, np.integer)) or isinstance(value, bool) or value < least:
+        raise RefusedError(f"{name} is {value!r}, expected a whole number from {least} on")
+    return int(value)
+
+
+def _told(progress: Progress | None) -> Callable[[int, int], object] | None:
+    """What is called with the steps done and all steps."""
+    if not isinstance(progress, bool):
+        return progress
+    if not progress:
+        return None
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None
+    bar = tqdm(total=0, leave=False)
+
+    def tell(done: int, steps: int) -> None:
+        bar.total = steps
+        bar.n = done
+        bar.refresh()
+        if done >= steps:
+            bar.close()
+
+    return tell
+
+
+def _given_of(document: dict[str, Any]) -> dict[str, Any]:
+    """The keywords of the tables of a case file."""
+    given: dict[str, Any] = {}
+    for table, keys in document.items():
+        if table in _PHYSICAL or table in _REDUCED:
+            given |= {_RENAMED.get((table, key), key): value for key, value in keys.items()}
+        elif isinstance(keys, dict):
+            given[table] = keys
+    return given
 
 
 def _text_of(title: str, source: str, given: dict[str, Any]) -> str:
@@ -140,14 +291,30 @@ class Case:
         A keyword that no case has.
     """
 
-    def __init__(self, *, title: str = "From Python", source: str = "keywords of vinesink.Case", **keys: Any) -> None:
-        given = {name: value for name, value in keys.items() if value is not None}
-        self._read(_vinesink.Case.parse("Case(...)", _text_of(title, source, given), os.getcwd(), True))
+    _core: _vinesink.Case
+    _folder: str
+    _allow_outside: bool
 
-    def _read(self, core: _vinesink.Case) -> None:
-        self._core = core
+    def __init__(
+        self, *, title: str = "From Python", source: str = "keywords of vinesink.Case", **keys: Unpack[Keys]
+    ) -> None:
+        given = {name: value for name, value in keys.items() if value is not None}
+        self._read("Case(...)", _text_of(title, source, given), os.getcwd(), True)
+
+    def _read(self, name: str, text: str, folder: str, allow_outside: bool) -> None:
+        self._keep(_vinesink.Case.parse(name, text, folder, allow_outside), folder, allow_outside)
+
+    def _keep(self, core: _vinesink.Case, folder: str, allow_outside: bool) -> None:
+        for attribute, value in (("_core", core), ("_folder", folder), ("_allow_outside", allow_outside)):
+            object.__setattr__(self, attribute, value)
         for warning in core.warnings():
-            warnings.warn(warning, CaseWarning, stacklevel=3)
+            warnings.warn(warning, CaseWarning, stacklevel=_level())
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"a case does not change: case.replace({name}=...) gives another", name=name, obj=self)
+
+    def __delattr__(self, name: str) -> NoReturn:
+        self.__setattr__(name, None)
 
     @classmethod
     def from_toml(cls, source: str | os.PathLike[str], *, allow_outside: bool = False) -> Case:
@@ -155,16 +322,42 @@ class Case:
 
         A record that it names is below the folder of its file, or the working folder, unless `allow_outside`.
 
-        Raises `CaseError` with everything that is wrong with it, `OSError` for a file that cannot be read.
+        Raises `CaseError` with everything that is wrong with it, `FileError` for a file that cannot be read.
         """
         case = cls.__new__(cls)
-        text = isinstance(source, str) and "\n" in source and "=" in source
-        if text:
-            core = _vinesink.Case.parse("text", str(source), os.getcwd(), allow_outside)
+        if isinstance(source, str) and "\n" in source and "=" in source:
+            case._read("text", source, os.getcwd(), allow_outside)
         else:
-            core = _vinesink.Case.read(source, allow_outside)
-        case._read(core)
+            case._keep(_vinesink.Case.read(source, allow_outside), str(Path(source).resolve().parent), allow_outside)
         return case
+
+    @classmethod
+    def _of_text(cls, text: str, folder: str, allow_outside: bool) -> Case:
+        case = cls.__new__(cls)
+        case._read("text", text, folder, allow_outside)
+        return case
+
+    def _with(self, given: Mapping[str, Any]) -> str:
+        """The text of the case with other keywords."""
+        document = json.loads(self._core.document())
+        all_of = _given_of(document)
+        for name in given:
+            for either in _EITHER:
+                if name in either and given[name] is not None:
+                    all_of = {key: value for key, value in all_of.items() if key not in either}
+        all_of |= given
+        all_of = {key: value for key, value in all_of.items() if value is not None}
+        return _text_of(document["title"], document["source"], all_of)
+
+    def replace(self, **keys: Unpack[Keys]) -> Case:
+        """The same case with other keywords, those of `Case`; None takes one out.
+
+            case.replace(clearance="2 mm")
+
+        Of two that say the same, such as `stiffness` and `natural_frequency`, the one that is given stays. Comments of its
+        file are gone.
+        """
+        return self._of_text(self._with(keys), self._folder, self._allow_outside)
 
     def __repr__(self) -> str:
         return f"Case({self.title!r})"
@@ -175,7 +368,7 @@ class Case:
         return f"<pre>{html.escape(self.text)}</pre>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (Case.from_toml, (self.text,))
+        return (Case._of_text, (self.text, self._folder, self._allow_outside))
 
     @property
     def title(self) -> str:
@@ -200,9 +393,58 @@ class Case:
     def analyze(self, *, progress: Progress | None = None) -> Analysis:
         """What theory and exact orbits say: the document of `vinesink analyze --format json`.
 
-        Raises `ValueError` where the case cannot be analysed, such as one that is swept.
+        Raises `RefusedError` where the case cannot be analysed, such as one that is swept.
         """
-        return Analysis(json.loads(self._core.analyze(progress)))
+        return Analysis(json.loads(self._core.analyze(_told(progress))))
+
+    def motions(self, *, progress: Progress | None = None) -> Table:
+        """Every long-term motion at the case's own excitation, one a row: `id`, `kind`, `regime`, `settled`, `counts` (for
+        criteria), `peak` and `rms` (m) with their errors, `impacts_per_period`, `impact_speed` (m/s), `efficiency`, `starts`
+        that lead to it, `share`, `repeats_after` (periods) and `largest_multiplier`; NaN where one is not defined.
+
+        Raises `RefusedError` of a structure that is not driven steadily.
+        """
+        if not self._core.steady:
+            raise RefusedError("its structure is not driven steadily and has no long-term motion: simulate() says what becomes of it")
+        return self.simulate(progress=progress)._rows()
+
+    def check(self, *, criteria_only: bool = False, progress: Progress | None = None) -> Check:
+        """Holds the case against its criteria, over its band if it has one: what `vinesink check --format json` says of it.
+
+        The worst of all motions counts. `criteria_only` leaves out what a tuned mass damper would do, and how far each number
+        may change. Raises `RefusedError` of a case without criteria.
+        """
+        return Check(json.loads(self._core.check(criteria_only, _told(progress))))
+
+    def optimize(self, *, objective: str | None = None, progress: Progress | None = None) -> Optimum:
+        """The absorber that serves the case best: what `vinesink optimize --format json` says.
+
+        `objective` is "worst-amplitude", "z3-share", "stable-share" or "margin"; what the first criterion asks unless given. The
+        clearance, and what else `optimize` of the case names, is judged as `check` judges it, over the whole band.
+        """
+        text, better, succeeds = self._core.optimize(objective, _told(progress))
+        case = None if better is None else self._of_text(better, self._folder, self._allow_outside)
+        return Optimum(json.loads(text), case, succeeds)
+
+    def plot_motion(self, *, periods: float = 6, ax: Axes | None = None) -> Axes:
+        """Draws the motion that most starts lead to: structure and absorber over time, with the walls. Needs matplotlib."""
+        from . import _plots
+
+        return _plots.motion(self, periods, ax)
+
+    def plot_response(self, *, points: int = 121, ax: Axes | None = None) -> Axes:
+        """Draws the largest peak over the excitation's frequency, along the case's band or 15 % to either side: of every motion
+        that starts lead to, of the structure alone and with a tuned mass damper of the same mass. Needs matplotlib."""
+        from . import _plots
+
+        return _plots.response(self, points, ax)
+
+    def plot_map(self, *, points: int = 48, ax: Axes | None = None) -> Axes:
+        """Draws what the motion does over frequency and clearance, from a third of the case's to three times it, with the case as
+        a star. Needs matplotlib."""
+        from . import _plots
+
+        return _plots.regimes(self, points, ax)
 
     def orbits(self) -> Orbits:
         """The exact periodic orbits with two impacts per period: in an ideal cavity the symmetric ones, else all."""
@@ -240,25 +482,27 @@ class Case:
             Called with the steps done and all steps, about ten times a second.
 
         A structure that is not driven steadily has no impacts and no trajectory here, only its document.
-        Warns with `SimulationWarning` where the numbers are not to be trusted. Raises `ValueError` for a start outside
+        Warns with `SimulationWarning` where the numbers are not to be trusted. Raises `RefusedError` for a start outside
         of the cavity.
         """
+        periods, discard = _whole("periods", periods, 1), _whole("discard", discard, 0)
+        told = _told(progress)
         start = None if initial is None else [float(one) for one in initial]
         if start is not None and len(start) != 4:
-            raise ValueError(f"initial has {len(start)} numbers, expected four: x, xdot, y, ydot")
+            raise RefusedError(f"initial has {len(start)} numbers, expected four: x, xdot, y, ydot")
         if not self._core.steady:
             if any(given is not None for given in (periods, discard, initial, times)) or not measure:
-                raise ValueError("the structure is not driven steadily: the case itself says what becomes of it; call simulate()")
-            text, _, _ = self._core.simulate(None, None, None, progress)
+                raise RefusedError("the structure is not driven steadily: the case itself says what becomes of it; call simulate()")
+            text, _, _ = self._core.simulate(None, None, None, told)
             return Simulation(json.loads(text), Table({}), None)
         document: dict[str, Any] = {}
         if measure:
-            text, impacts, start = self._core.simulate(periods, discard, start, progress)
+            text, impacts, start = self._core.simulate(periods, discard, start, told)
             document = json.loads(text)
         elif start is None:
-            raise ValueError("measure=False follows one start: give initial=(x, xdot, y, ydot)")
+            raise RefusedError("measure=False follows one start: give initial=(x, xdot, y, ydot)")
         else:
-            impacts = self._core.fly(periods, discard, start, progress)
+            impacts = self._core.fly(periods, discard, start, told)
         if not document.get("trusted", True):
             words = "; ".join(f"{one['words']}; {one['advice']}" for one in document["doubts"])
             warnings.warn(f"not to be trusted: {words}", SimulationWarning, stacklevel=2)
@@ -278,10 +522,10 @@ class Case:
 
         A report appears whole or not at all; other files in the folder stay. `name` is that of the case's file, else of the
         folder. Returns whether its simulations are to be trusted and what the case asks of accuracy holds. Raises
-        `OSError` where the folder cannot be written.
+        `FileError` where the folder cannot be written.
         """
         name = name or self._core.stem or Path(folder).resolve().name
-        return self._core.report(os.fspath(folder), name, progress)
+        return self._core.report(os.fspath(folder), name, _told(progress))
 
 
 def branch(
@@ -306,33 +550,48 @@ def branch(
     most_points
         Points in either direction after which the branch is given up.
 
-    Raises `ValueError` where there is no such orbit or parameter, or the range leaves out the case.
+    Raises `RefusedError` where there is no such orbit or parameter, or the range leaves out the case.
     """
     low, high = (float(edge) for edge in range)
     columns, told = case._core.branch(parameter, [low, high], orbit, most_points)
     return Branch(parameter, columns, json.loads(told))
 
 
-def simulate_many(
+def _plain(case: Case, name: str, values: Values) -> NDArray[np.float64]:
+    """Numbers in SI, or the units of a reduced case."""
+    found = parts(values)
+    if found is None:
+        return np.asarray(values, dtype=float)
+    numbers, unit = found
+    # What one of the unit is, read as a case file has it.
+    text = case._with({name: f"1 {unit}" if unit else 1.0})
+    one = _vinesink.Case.parse(f"one {unit} of {name}", text, case._folder, case._allow_outside).value(name)
+    if one is None:
+        raise RefusedError(f"the case has no `{name}`")
+    return np.asarray(numbers, dtype=float) * one
+
+
+def single_trajectories(
     case: Case,
     *,
     initial: ArrayLike | None = None,
     periods: int = 250,
     discard: int | None = None,
     progress: Progress | None = None,
-    **parameters: ArrayLike,
+    **parameters: Unpack[Parameters],
 ) -> Motions:
-    """The long-term motion of each of many systems, sixteen side by side on every processor.
+    """What one start of each of many systems ends in, sixteen side by side on every processor.
 
-        simulate_many(case, clearance=np.linspace(2e-3, 20e-3, 1000)).peak
+        single_trajectories(case, clearance=np.linspace(2e-3, 20e-3, 1000)).peak
+
+    Another start may end in another motion with a larger peak: to choose a design, ask `check`, `optimize` or `sweep`, which
+    look for every motion.
 
     Parameters
     ----------
     parameters
-        Arrays of numbers of the case, in SI or the units of a reduced case: `clearance`, `frequency`, `amplitude`,
-        `restitution`, `mass`, `absorber_mass`, `mass_ratio`, `stiffness`, `damping`, `damping_ratio`, `inclination`,
-        `friction`, or for a reduced case `detuning`, `gravity_along`, `friction_acceleration`. They are broadcast;
-        everything else is as in the case.
+        Arrays of numbers of the case, in SI or the units of a reduced case, or quantities with a unit of their own: see
+        `Parameters`. They are broadcast; everything else is as in the case.
     initial
         Starts `(x, xdot, y, ydot)`, shape (..., 4), broadcast with the parameters; unless given from rest, the absorber
         halfway between the middle and a wall.
@@ -344,12 +603,12 @@ def simulate_many(
         Called with the number of elements done and of all, about ten times a second; what it raises ends the work.
 
     Other threads run meanwhile, and Ctrl-C ends it. The same input gives the same bits on any number of processors.
-    Raises `ValueError`, which names the first element that is impossible and why.
+    Raises `RefusedError`, which names the first element that is impossible and why.
     """
-    arrays = {name: np.asarray(values, dtype=float) for name, values in parameters.items()}
+    arrays = {name: _plain(case, name, cast(Values, values)) for name, values in parameters.items()}
     starts = None if initial is None else np.asarray(initial, dtype=float)
     if starts is not None and (starts.ndim == 0 or starts.shape[-1] != 4):
-        raise ValueError(f"initial has the shape {starts.shape}, expected (..., 4): x, xdot, y, ydot")
+        raise RefusedError(f"initial has the shape {starts.shape}, expected (..., 4): x, xdot, y, ydot")
     shapes = [one.shape for one in arrays.values()] + ([] if starts is None else [starts.shape[:-1]])
     shape = np.broadcast_shapes(*shapes)
     values = np.empty((len(arrays), int(np.prod(shape))))
@@ -357,7 +616,57 @@ def simulate_many(
         row[:] = np.broadcast_to(one, shape).reshape(-1)
     if starts is not None:
         starts = np.ascontiguousarray(np.broadcast_to(starts, (*shape, 4)).reshape(-1, 4))
-    columns = _vinesink.simulate_many(case._core, list(arrays), values, starts, periods, discard, progress)
+    count, left_out = _whole("periods", periods, 1) or 1, _whole("discard", discard, 0)
+    columns = _vinesink.simulate_many(case._core, list(arrays), values, starts, count, left_out, _told(progress))
     names: NDArray[np.str_] = np.array([*_vinesink.regimes(), ""])
     columns["regime"] = names[columns["regime"]]
-    return Motions(columns, shape)
+    # What varies stands first.
+    return Motions({**dict(zip(arrays, values)), **columns}, shape)
+
+
+def sweep(
+    case: Case,
+    *,
+    record: Sequence[str] | None = None,
+    starts: int | None = None,
+    periods: int | None = None,
+    progress: Progress | None = None,
+    **parameters: Unpack[Parameters],
+) -> Sweep:
+    """Every combination of some values, each looked at from several starts: what `vinesink sweep` records.
+
+        sweep(case, clearance=np.linspace(2e-3, 4e-3, 50), frequency=[8, 8.5], record=["largest_peak", "motions"])
+
+    Parameters
+    ----------
+    parameters
+        Ascending values of numbers of the case, in SI or the units of a reduced case, or quantities with a unit of their own:
+        see `Parameters`. The last varies fastest.
+    record
+        Columns, such as "peak", "largest_peak", "rms", "regime", "motions", "reduction_db": the book's page on case files
+        lists all. What the program records unless given.
+    starts, periods
+        Starts of each point, and excitation periods over which a motion is measured that does not repeat.
+
+    Its columns are those of the parameters, then what was recorded, one row a point.
+    """
+    table: dict[str, Any] = {}
+    if record is not None:
+        table["record"] = list(record)
+    table |= {name: one for name, one in (("starts", starts), ("periods", periods)) if one is not None}
+    if not parameters:
+        raise RefusedError("nothing varies: give at least one number of the case as an array, such as clearance=[0.002, 0.003]")
+    for name, values in parameters.items():
+        plain = _plain(case, name, cast(Values, values)).reshape(-1).tolist()
+        unit = case._core.unit(name)
+        table[name] = {"values": plain if unit == "1" else [f"{one!r} {unit}" for one in plain]}
+    planned = Case._of_text(case._with({"sweep": table}), case._folder, case._allow_outside)
+    columns = planned._core.sweep(_told(progress))
+    return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"})
+
+
+def compare(old: Case, new: Case, *, progress: Progress | None = None) -> Difference:
+    """What changed from one design to another, as a reviewer of their reports would have it: the document of `vinesink diff`,
+    and `markdown`."""
+    document, markdown = _vinesink.compare(old._core, new._core, _told(progress))
+    return Difference(json.loads(document), markdown)

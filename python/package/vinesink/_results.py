@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     import pandas
     import polars
 
+    from ._case import Case
+
 _SHOWN = 10
 """Rows of a table that a notebook shows."""
 
@@ -289,6 +291,71 @@ def _motion_row(one: dict[str, Any]) -> dict[str, Any]:
     return {**plain, **values, **errors, **rest}
 
 
+class Check(_WithRows):
+    """A case held against its criteria: what `vinesink check --format json` says of it.
+
+    `holds` says whether all criteria do, as does its truth: `if case.check(): ...`; `criteria`, a list with `name`, `asked`,
+    `found` in `unit`, `error`, `margin`, `holds`, `decided`; `alternatives`, the devices beside it; `holds_for`, how far each
+    number may change; `reliability`.
+    """
+
+    def __bool__(self) -> bool:
+        return bool(self._document["holds"])
+
+    def _rows(self) -> Table:
+        names = ("name", "asked", "found", "unit", "error", "margin", "holds", "near_limit")
+        rows = [{name: np.nan if one.get(name) is None else one[name] for name in names} for one in self._document["criteria"]]
+        return Table(_of_records(rows, names))
+
+
+class Optimum(Record):
+    """The absorber that serves a case best: the document of `vinesink optimize --format json`.
+
+    `optimum` has its `clearance` (m) and what else was looked for; `claimed` and `checked` its objective.
+    """
+
+    def __init__(self, document: dict[str, Any], case: Case | None, succeeds: bool) -> None:
+        super().__init__(document)
+        self._case = case
+        self._succeeds = succeeds
+
+    @property
+    def case(self) -> Case | None:
+        """The case with it; None where no absorber is better than the case's own and meets all criteria."""
+        return self._case
+
+    @property
+    def succeeds(self) -> bool:
+        """Whether there is one that is better than the case's own and meets all criteria."""
+        return self._succeeds
+
+    def __bool__(self) -> bool:
+        return self._succeeds
+
+
+class Difference(Record):
+    """What changed from one design to another: the document of `vinesink diff --format json`."""
+
+    def __init__(self, document: dict[str, Any], markdown: str) -> None:
+        super().__init__(document)
+        self._markdown = markdown
+
+    @property
+    def markdown(self) -> str:
+        """The same for a reader, as for a comment on a pull request."""
+        return self._markdown
+
+    def _repr_markdown_(self) -> str:
+        return self._markdown
+
+
+class Sweep(Table):
+    """What was recorded of every combination of some values, one row a point: the parameters, then the columns that were asked
+    for. NaN, or an empty word, where a point has none."""
+
+    _caption = "Sweep"
+
+
 class Branch(Table):
     """Exact orbits along a parameter, in order along the branch.
 
@@ -325,9 +392,9 @@ class Branch(Table):
 
 
 class Motions(Table):
-    """The long-term motion of each of many systems. Arrays have the shape of the elements, `state` one axis more.
+    """What one start of each of many systems ended in. Arrays have the shape of the elements, `state` one axis more.
 
-    `peak`, `rms` (m) with `peak_error`, `rms_error` (how far chaotic ones scatter), `impacts_per_period`,
+    What varied, in SI or the units of a reduced case; `peak`, `rms` (m) with `peak_error`, `rms_error` (how far chaotic ones scatter), `impacts_per_period`,
     `impact_speed` (m/s), `efficiency` (share of the work that impacts dissipate), `regime` (a word), `repeats_after`
     (excitation periods; 0 where it was not seen to repeat), `settled` (its transient is over), `whole` (its
     measurement was not cut short), `state` on it at excitation phase 0 (over the clearance, fast time). A motion that

@@ -2,34 +2,18 @@
 
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, Final, TypedDict, final
+from typing import Any, Final, final
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["__version__", "CaseError", "InternalError", "Case", "simulate_many", "regimes", "_fail", "schema"]
+__all__ = ["__version__", "Case", "compare", "simulate_many", "regimes", "_fail", "schema"]
 
 __version__: Final[str]
 
 _Columns = dict[str, NDArray[Any]]
 _State = tuple[float, float, float, float]
 _Progress = Callable[[int, int], object]
-
-class _Problem(TypedDict):
-    line: int
-    column: int
-    underlined: str
-    message: str
-    expected: str
-    help: str | None
-
-class CaseError(ValueError):
-    """A case that cannot be read. Its message is the program's; `problems` has each one's place and advice."""
-
-    problems: list[_Problem]
-
-class InternalError(RuntimeError):
-    """A fault in vinesink itself."""
 
 @final
 class Case:
@@ -67,10 +51,17 @@ class Case:
     ) -> _Columns: ...
     def trajectory(self, initial: Sequence[float], times: Sequence[float] | NDArray[np.float64]) -> NDArray[np.float64]: ...
     def report(self, folder: str | os.PathLike[str], name: str, progress: _Progress | None) -> bool: ...
+    def check(self, criteria_only: bool, progress: _Progress | None) -> str: ...
+    def optimize(self, objective: str | None, progress: _Progress | None) -> tuple[str, str | None, bool]: ...
+    def sweep(self, progress: _Progress | None) -> dict[str, list[Any]]: ...
+    def document(self) -> str: ...
+    def value(self, name: str) -> float | None: ...
+    def unit(self, name: str) -> str: ...
     def branch(
         self, parameter: str, range: Sequence[float], orbit: int | None, most_points: int
     ) -> tuple[_Columns, str]: ...
 
+def compare(old: Case, new: Case, progress: _Progress | None) -> tuple[str, str]: ...
 def schema() -> str: ...
 def simulate_many(
     case: Case,

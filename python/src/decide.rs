@@ -1,0 +1,138 @@
+//! What decides whether a design is taken: criteria, the best absorber, grids of designs, and two designs side by side.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use vinesink::answer::{Answer, Asked, Decided};
+use vinesink::case::{Case, Objective};
+use vinesink::case_optimum::Optimum;
+use vinesink::case_report::Report;
+use vinesink::diff::{Difference, Document, Reports, markdown};
+use vinesink::executor::map;
+use vinesink::report::criteria::Checked;
+use vinesink::report::render::Files;
+use vinesink::sweep::Plan;
+use vinesink::sweep::columns::{Cell, Column, Storage};
+use vinesink::sweep::work::points;
+
+use crate::case::{Columns, json as text_of};
+use crate::work::{WorkState, refused};
+
+/// Points of a sweep that are worked out together.
+const TOGETHER: u64 = 64;
+
+/// What `vinesink check --format json` says of a case.
+pub fn checked(case: &Case, stem: &str, alone: bool, work: &WorkState) -> PyResult<String> {
+    if case.criteria.is_empty() {
+        return Err(refused(
+            "the case has no criteria: give it some, criteria={\"peak_displacement\": \"<= 4 mm\"}",
+        ));
+    }
+    let (asked, decides) = match alone {
+        true => (Asked::Criteria, Decided::NOTHING),
+        false => (Asked::Decision, Decided { combined: false, ..Decided::ALL }),
+    };
+    let answer = Answer::of(case, asked, None, work).map_err(refused)?;
+    let answer = answer.decided(case, decides, work).map_err(refused)?;
+    text_of(&Checked::judged(stem, stem, case, &answer).document)
+}
+
+/// What `vinesink optimize --format json` says, the text of the case with the optimum, where there is one, and whether it is
+/// better than the case's own and meets all criteria.
+pub fn optimum(
+    case: &Case,
+    text: &str,
+    objective: Option<&str>,
+    work: &WorkState,
+) -> PyResult<(String, Option<String>, bool)> {
+    let named = |name: &str| {
+        let known = Objective::ALL.into_iter().find(|one| one.name() == name);
+        known.ok_or_else(|| {
+            let all = Objective::ALL.map(Objective::name).join(", ");
+            refused(format!("there is no objective \"{name}\"; there are {all}"))
+        })
+    };
+    let objective = objective.map(named).transpose()?;
+    let found = Optimum::of("the case", case, text, objective, work).map_err(refused)?;
+    let better = found.better.map(|better| better.text);
+    Ok((text_of(&found.document)?, better, found.succeeds))
+}
+
+/// The columns of the sweep of a case, all points in order.
+pub fn swept(case: &Case, work: &WorkState) -> PyResult<Vec<Column>> {
+    let plan = Plan::of(case).ok_or_else(|| refused("the case has no table [sweep]"))?;
+    let line = match plan.settings.axes.last() {
+        Some(axis) if plan.settings.follow => axis.values.len() as u64,
+        _ => 1,
+    };
+    // Where motions are followed, along whole lines.
+    let together = line * (TOGETHER / line).max(1);
+    let count = plan.points().div_ceil(together);
+    let part = |k: u64| -> Range<u64> {
+        let begin = k * together;
+        begin..(begin + together).min(plan.points())
+    };
+    work.goes_on();
+    let found = map(work, "points", count as usize, |k| points(&plan, part(k as u64)));
+    let mut all: Vec<Column> = Vec::new();
+    for found in found {
+        let found = found.map_err(refused)?;
+        if all.is_empty() {
+            all = found;
+            continue;
+        }
+        all.iter_mut().zip(found).for_each(|(one, more)| one.cells.extend(more.cells));
+    }
+    Ok(all)
+}
+
+/// Columns as lists: numbers with NaN where a point has none, words with nothing.
+pub fn lists<'py>(py: Python<'py>, columns: &[Column]) -> PyResult<Columns<'py>> {
+    let dict = PyDict::new(py);
+    for Column { name, storage, cells, .. } in columns {
+        if *storage == Storage::Text {
+            let words: Vec<&str> =
+                cells.iter().map(|cell| cell.and_then(Cell::text).unwrap_or_default()).collect();
+            dict.set_item(name, words)?;
+        } else {
+            let numbers: Vec<f64> =
+                cells.iter().map(|cell| cell.and_then(Cell::number).unwrap_or(f64::NAN)).collect();
+            dict.set_item(name, numbers)?;
+        }
+    }
+    Ok(dict)
+}
+
+/// What changed from one case to another, as `vinesink diff` says it of their reports: the document, and Markdown.
+pub fn compared(old: &Case, new: &Case, work: &WorkState) -> PyResult<(String, String)> {
+    let side = |label: &str, case: &Case| -> PyResult<Reports> {
+        let report = Report::of("case", case, None, Decided::ALL, work).map_err(refused)?;
+        let files = report.files(case).map_err(refused)?;
+        let (document, figures) = parts(&files);
+        let document = Document::parse(label, &document, figures).map_err(refused)?;
+        Ok(BTreeMap::from([("case".to_owned(), document)]))
+    };
+    let (old, new) = (side("old", old)?, side("new", new)?);
+    let difference = Difference::of(("old", &old), ("new", &new));
+    let told = markdown::markdown(&difference, markdown::Addresses::default()).map_err(refused)?;
+    Ok((text_of(&difference)?, told))
+}
+
+/// The document of a report, and its drawings by their names.
+fn parts(files: &Files) -> (String, BTreeMap<String, Vec<u8>>) {
+    let mut document = String::new();
+    let mut figures = BTreeMap::new();
+    for (path, content) in files {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        match path.extension().and_then(|of| of.to_str()) {
+            Some("json") => document = String::from_utf8_lossy(content).into_owned(),
+            Some("svg") => {
+                figures.insert(stem, content.clone());
+            }
+            _ => {}
+        }
+    }
+    (document, figures)
+}
