@@ -62,6 +62,7 @@ pub use starting::{StartingLine, excitation_kinds};
 pub use support::{Orientation, Support, SupportKind};
 pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
+pub use value::nearest;
 
 use crate::digest::sha256;
 use crate::excitation::Scene;

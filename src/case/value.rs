@@ -228,7 +228,7 @@ pub(super) fn or(names: &[String]) -> String {
 ///
 /// Another capitalisation counts as closest; otherwise at most a third of the letters, and at
 /// most three, may differ.
-pub(super) fn nearest<'a>(written: &str, candidates: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(written: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let lower = written.to_lowercase();
     let distance =
         |candidate: &&str| strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());

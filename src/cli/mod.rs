@@ -18,7 +18,8 @@ mod sweep;
 mod tradeoff;
 
 use clap::error::{ContextKind, ContextValue};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
+use vinesink::case::nearest;
 
 /// Design vibro-impact nonlinear energy sinks.
 ///
@@ -98,6 +99,14 @@ fn moved(mut error: clap::Error) -> clap::Error {
     {
         let tip = format!("it is now `vinesink-evidence {name}`").into();
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip]));
+    } else if let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) {
+        // The closest alone: a letter that is missing is a slip, half of the word is not.
+        let all = Cli::command();
+        let names: Vec<&str> = all.get_subcommands().map(clap::Command::get_name).collect();
+        if let Some(closest) = nearest(name, &names).map(str::to_owned) {
+            let only = ContextValue::Strings(vec![closest]);
+            error.insert(ContextKind::SuggestedSubcommand, only);
+        }
     }
     error
 }

@@ -6,7 +6,7 @@ use clap::Args;
 use miette::{NamedSource, Report, Result, miette};
 
 use super::output;
-use crate::case::Case;
+use crate::case::{Case, nearest};
 use crate::case_input::{self, CaseInputError};
 use crate::store::Reach;
 
@@ -45,13 +45,31 @@ pub fn read(path: &Path, reading: Reading) -> Result<Case> {
     read_with_text(path, reading).map(|(case, _)| case)
 }
 
+/// The case file in the folder of a path at which there is none whose name is closest to it.
+fn beside(path: &Path) -> Option<String> {
+    let name = path.file_name().filter(|_| !path.exists())?.to_string_lossy().into_owned();
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let there = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let names = there.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
+    names.sort();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    nearest(&name, &names).map(str::to_owned)
+}
+
 /// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.
 pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
     let (case, text) = case_input::read(path, reading.reach()).map_err(|error| match error {
         CaseInputError::Case(error) => Report::new(error),
         CaseInputError::Record { source, .. } => Report::new(source)
             .wrap_err(format!("{}: the record of its excitation cannot be read", path.display())),
-        CaseInputError::File(error) => Report::new(error),
+        CaseInputError::File(error) => match beside(path) {
+            Some(other) => {
+                let help = format!("did you mean {}?", path.with_file_name(other).display());
+                miette!(help = help, "{error}")
+            }
+            None => Report::new(error),
+        },
     })?;
     let name = path.display().to_string();
     let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);

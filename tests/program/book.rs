@@ -487,6 +487,8 @@ fn targets(text: &str) -> Vec<String> {
 fn the_sources_read_well_on_a_forge() {
     let mut wrong = Vec::new();
     let mut seen = [0; 2];
+    let shown = r"(?s)<!-- file: (\S+)(?: from line (\d+))? -->\n```\w+\n(.*?)\n```\n";
+    let shown = Regex::new(shown).expect("a pattern");
     for (name, text) in pages() {
         let folder = docs().join("src").join(&name).parent().expect("a folder").to_owned();
         for (what, _) in [("{{#", 0), ("<iframe", 0), ("<img", 0)] {
@@ -514,9 +516,7 @@ fn the_sources_read_well_on_a_forge() {
                 }
             }
         }
-        let shown =
-            Regex::new(r"(?s)<!-- file: (\S+)(?: from line (\d+))? -->\n```\w+\n(.*?)\n```\n");
-        for one in shown.expect("a pattern").captures_iter(&text) {
+        for one in shown.captures_iter(&text) {
             let file = std::fs::read_to_string(folder.join(&one[1])).expect("a file");
             let before = one.get(2).map_or(1, |line| line.as_str().parse().expect("a number")) - 1;
             let lines: Vec<&str> = file.lines().skip(before).collect();

@@ -299,3 +299,23 @@ fn long_work_says_how_far_it_is() {
         }
     }
 }
+
+/// A slip of a letter is told: the command, or the case file, that was meant.
+#[test]
+fn what_was_meant_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::copy("cases/arm-empty.toml", folder.path().join("damper.toml")).expect("copied");
+    let told = |arguments: &[&str]| {
+        let mut command = assert_cmd::Command::cargo_bin("vinesink").expect("the program");
+        let output = command.current_dir(folder.path()).args(arguments).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        String::from_utf8(output.stderr).expect("UTF-8")
+    };
+    let text = told(&["chek", "damper.toml"]);
+    assert!(text.contains("'check'") && !text.contains("'schema'"), "{text}");
+    for command in ["report", "check", "analyze"] {
+        let text = told(&[command, "damper.tml"]);
+        assert!(text.contains("did you mean damper.toml?"), "{command}: {text}");
+        assert!(!told(&[command, "chimney.toml"]).contains("did you mean"), "{command}");
+    }
+}

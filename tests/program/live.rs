@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use assert_cmd::Command;
 use serde_json::{Value, json};
 use vinesink::case::Case;
+use vinesink::case_optimum::Optimum;
+use vinesink::executor::Serial;
 use vinesink::simulation::{Simulation, Trace};
 use vinesink::system::State;
 
@@ -15,7 +17,7 @@ use crate::browser::{browser, skipped};
 use crate::browser_support::checks::{self, DESKTOP, PHONE};
 use crate::browser_support::chromium::{Browser, Page, View};
 
-/// The shipped cases that the page begins with.
+/// Shipped cases that the page begins with: those of the paper, without a band or criteria.
 const PRESETS: [&str; 5] = [
     "li2016-8p5hz-fig4a",
     "li2016-8p5hz-fig4b",
@@ -55,6 +57,19 @@ fn settle(page: &mut Page) {
         }})()"
     );
     page.evaluate(&ready);
+}
+
+/// Chooses the paper's case with two symmetric impacts per period.
+fn choose_the_paper(page: &mut Page) {
+    page.evaluate(
+        "(() => {
+            const choose = document.querySelector('.live-bar select');
+            const of = [...choose.options].find((one) => one.textContent.includes('two symmetric'));
+            choose.value = of.value;
+            choose.dispatchEvent(new Event('change'));
+        })()",
+    );
+    settle(page);
 }
 
 /// Sets a slider as a person would leave it, with events.
@@ -170,6 +185,7 @@ fn the_page_says_what_the_program_says() {
 fn sliders_move_everything() {
     let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
     let mut page = opened(&mut browser, &file, DESKTOP);
+    choose_the_paper(&mut page);
     let before = text(&mut page);
     let drawing = |page: &mut Page, name: &str| {
         page.evaluate(&format!("document.querySelector('[data-name={name}] svg').outerHTML"))
@@ -214,6 +230,7 @@ fn sliders_move_everything() {
 fn the_mark_is_dragged_over_the_map_and_taken_back() {
     let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
     let mut page = opened(&mut browser, &file, DESKTOP);
+    choose_the_paper(&mut page);
     let begin = text(&mut page);
     let place = |page: &mut Page| -> [f64; 2] {
         let at = page.evaluate(
@@ -313,6 +330,9 @@ fn a_link_holds_the_case_and_a_case_file_is_pasted() {
     paste(&mut page, &shipped("sweep-fast"));
     let problem = page.evaluate("document.querySelector('.live-problem').textContent");
     assert!(problem.as_str().expect("words").contains("steady vibration"), "{problem}");
+    // No verdict stands beside a case that was refused.
+    let verdict = page.evaluate("document.querySelector('.live-verdict').textContent");
+    assert!(verdict.as_str().expect("words").contains("was refused"), "{verdict}");
     // A field that makes no sense changes nothing.
     for nonsense in ["", "-1", "1e9"] {
         page.evaluate(&format!(
@@ -334,6 +354,15 @@ fn a_link_holds_the_case_and_a_case_file_is_pasted() {
     page.evaluate("new Promise((done) => setTimeout(done, 100))");
     assert_eq!(page.evaluate("location.href"), link);
     let code = link.as_str().and_then(|link| link.split_once('#')).expect("a link").1.to_owned();
+    // A link that is pasted into the open page, and the way back.
+    choose_the_paper(&mut page);
+    assert_ne!(text(&mut page), other);
+    page.evaluate(&format!("location.hash = {}", json!(code)));
+    let arrived = format!(
+        "(async () => {{ while ({LIVE}.text !== {}) await new Promise((done) => setTimeout(done, 10)); }})()",
+        json!(other)
+    );
+    page.evaluate(&arrived);
     drop(page);
     let linked = PathBuf::from(format!("{}#{code}", file.display()));
     let mut page = opened(&mut browser, &linked, PHONE);
@@ -343,6 +372,61 @@ fn a_link_holds_the_case_and_a_case_file_is_pasted() {
         opened(&mut browser, &PathBuf::from(format!("{}#case=!!", file.display())), PHONE);
     let problem = page.evaluate("document.querySelector('.live-problem').textContent");
     assert!(problem.as_str().expect("words").contains("damaged"), "{problem}");
+}
+
+/// The button chooses what `vinesink optimize --write` writes.
+#[test]
+fn the_best_clearance_is_the_programs() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let begin = text(&mut page);
+    let case = Case::parse("case.toml", &begin).expect("valid");
+    let best = Optimum::of("case.toml", &case, &begin, None, &Serial).expect("found");
+    let best = best.better.expect("a better one").text;
+    page.evaluate("[...document.querySelectorAll('button')].find((one) => one.textContent === 'Best clearance').click()");
+    page.evaluate(&format!(
+        "(async () => {{ while ({LIVE}.text === {}) await new Promise((done) => setTimeout(done, 20)); }})()",
+        json!(begin)
+    ));
+    assert_eq!(text(&mut page), best);
+}
+
+/// What one sees first: a scale that stays while the motion goes on, and a title that says whose numbers these are; a finger
+/// beside the star scrolls, and nothing jumps while the page fills.
+#[test]
+fn the_first_screen_holds_still() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    for view in [DESKTOP, PHONE] {
+        let mut page = opened(&mut browser, &file, view);
+        let shift = page.evaluate(
+            "new Promise((done) => { let sum = 0; new PerformanceObserver((list) => {
+                for (const one of list.getEntries()) sum += one.hadRecentInput ? 0 : one.value;
+            }).observe({ type: 'layout-shift', buffered: true }); setTimeout(() => done(sum), 300); })",
+        );
+        assert!(shift.as_f64().expect("a number") < 0.1, "{} px: {shift}", view.width);
+        let reach = format!(
+            "(async () => {{ const seen = []; for (let k = 0; k < 15; k += 1) {{
+                await new Promise((done) => setTimeout(done, 100)); seen.push({LIVE}.running().reach);
+            }} return seen; }})()"
+        );
+        let seen: Vec<f64> = serde_json::from_value(page.evaluate(&reach)).expect("numbers");
+        assert!(seen.windows(2).all(|pair| pair[0] <= pair[1]), "{seen:?}");
+        assert_eq!(seen[10..].iter().filter(|one| **one != seen[14]).count(), 0, "{seen:?}");
+        let begin = text(&mut page);
+        let touched = "(() => { const sheet = document.querySelector('.live-sheet');
+            sheet.dispatchEvent(new PointerEvent('pointerdown', { pointerType: 'touch', clientX: 40, clientY: 40, bubbles: true }));
+            return getComputedStyle(sheet).touchAction; })()";
+        assert_eq!(page.evaluate(touched), "auto");
+        settle(&mut page);
+        assert_eq!(text(&mut page), begin);
+        let said = "[document.querySelector('.live-sliders h3').textContent, document.querySelector('.live-bar select').value]";
+        assert_eq!(page.evaluate(said)[1], "0");
+        slide(&mut page, "clearance", 300);
+        settle(&mut page);
+        let said = page.evaluate(said);
+        assert!(said[0].as_str().expect("a title").ends_with(", changed"), "{said}");
+        assert_eq!(said[1], "");
+    }
 }
 
 /// The impacts of the running simulation are those of the library, bit by bit.

@@ -112,7 +112,7 @@ function Live(place) {
   const frames = [];
 
   // For tests and for whoever looks into the console.
-  place.live = { ask: (request) => desks[1].ask(request), frames, settled, link, engine: () => here, get text() { return text; } };
+  place.live = { ask: (request) => desks[1].ask(request), frames, settled, link, running: () => running.state(), engine: () => here, get text() { return text; } };
 
   this.begin = async () => {
     try {
@@ -129,13 +129,14 @@ function Live(place) {
     }
     const presets = here.ask({ ask: "presets" });
     document.body.classList.toggle("live-small", Boolean(shown));
-    const parts = [["verdict", verdict], ["running", running.figure]].filter(([name]) => wanted(name)).map(([, part]) => part);
+    const parts = [["running", running.figure], ["verdict", verdict]].filter(([name]) => wanted(name)).map(([, part]) => part);
     place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
       make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board, shown ? "" : fold)));
     const own = document.getElementById("live-case")?.textContent;
-    const wanted = await linked();
-    open(wanted || (own ?? presets[0][1]));
-    if (wanted === "") complain([{ message: DAMAGED }]);
+    const link = await linked();
+    open(link || (own ?? presets[0][1]));
+    if (!link && own === undefined) choose.value = "0";
+    if (link === "") complain([{ message: DAMAGED }]);
     // A link that is pasted into an open page, and the browser's way back.
     addEventListener("hashchange", async () => {
       const other = await linked();
@@ -390,7 +391,7 @@ function Live(place) {
 
   function showStudy(answer) {
     if (answer.problems) return complain(answer.problems);
-    verdict.replaceChildren(...notes.map((note) => make("p", { class: "live-note" }, note)), ...firstScreen(answer));
+    verdict.replaceChildren(...firstScreen(answer), ...notes.map((note) => make("p", { class: "live-note" }, note)));
     if (keeps) link().then((address) => history.replaceState(null, "", address));
     fresh(verdict);
     track(answer);
