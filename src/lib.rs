@@ -7,7 +7,7 @@
 //! | --- | --- | --- |
 //! | [`case`] | a case file, read or refused with what to do | [`Case::parse`](case::Case::parse) |
 //! | [`answer`] | what all commands know of a case | [`Answer::of`](answer::Answer::of) |
-//! | [`criteria`], [`optimize`] | whether a design holds, and which is best | [`optimize::Task::of`] |
+//! | [`criteria`], [`case_optimum`] | whether a design holds, and which is best | [`case_optimum::Optimum::of`] |
 //! | [`sweep`] | grids of designs in Parquet files | [`sweep::Plan::of`] |
 //! | [`case_report`], [`report`], [`diff`] | reports, and what changed between two | [`case_report::Report::of`] |
 //!
