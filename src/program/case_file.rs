@@ -8,7 +8,7 @@ use miette::{NamedSource, Report, Result, miette};
 use super::output;
 use crate::case::{Case, nearest};
 use crate::case_input::{self, CaseInputError};
-use crate::store::Reach;
+use crate::store::{self, Reach};
 
 /// What may be read.
 #[derive(Debug, Clone, Copy, Args)]
@@ -49,11 +49,9 @@ pub fn read(path: &Path, reading: Reading) -> Result<Case> {
 fn beside(path: &Path) -> Option<String> {
     let name = path.file_name().filter(|_| !path.exists())?.to_string_lossy().into_owned();
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let there = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
-    let names = there.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-    let mut names: Vec<String> = names.filter(|name| name.ends_with(".toml")).collect();
-    names.sort();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let there = store::list(folder.unwrap_or(Path::new("."))).ok()?;
+    let names = there.files.iter().map(String::as_str).filter(|name| name.ends_with(".toml"));
+    let names: Vec<&str> = names.collect();
     nearest(&name, &names).map(str::to_owned)
 }
 

@@ -83,6 +83,8 @@ function make(tag, attributes = {}, ...children) {
 }
 
 const DAMAGED = "The link is damaged; this is another case.";
+/** Periods after which the simulation of a case is first seen: its verdict is of what comes after the transient. */
+const SETTLED = 400;
 /** Figures that stand before the fold. */
 const FIRST = ["amplitude", "map"];
 
@@ -138,8 +140,9 @@ function Live(place) {
     if (!link && own === undefined) choose.value = "0";
     if (link === "") complain([{ message: DAMAGED }]);
     // A link that is pasted into an open page, and the browser's way back.
-    addEventListener("hashchange", async () => {
-      const other = await linked();
+    addEventListener("hashchange", async ({ newURL }) => {
+      // By now the address may be that of the case before again.
+      const other = await linked(new URL(newURL).hash);
       if (other === "") complain([{ message: DAMAGED }]);
       if (!other || other === text) return;
       remember();
@@ -183,8 +186,8 @@ function Live(place) {
     const code = btoa(String.fromCharCode(...packed)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
     return `${location.href.split("#")[0]}#case=${code}`;
   }
-  async function linked() {
-    const code = new URLSearchParams(location.hash.slice(1)).get("case");
+  async function linked(hash = location.hash) {
+    const code = new URLSearchParams(hash.slice(1)).get("case");
     if (code === null) return null;
     try {
       const bytes = Uint8Array.from(atob(code.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
@@ -206,7 +209,7 @@ function Live(place) {
     problem.hidden = !problems;
     problem.textContent = (problems ?? []).map((one) =>
       [one.line && `Line ${one.line}: `, one.message, one.expected && `; ${one.expected}`, one.help && ` (${one.help})`]
-        .filter(Boolean).join("")).join(" ");
+        .filter(Boolean).join("")).join("\n");
   }
 
   /** Shows another case: its sliders, then everything else. */
@@ -228,7 +231,7 @@ function Live(place) {
       make("details", { class: "live-further", hidden: Boolean(chosen) }, make("summary", {}, "Mass and damping"), ...rows.filter((row, k) => !isFirst(row, k))));
     rows.forEach((row, k) => { row.hidden = chosen && !chosen.includes(controls[k].key); });
     notes = answer.notes;
-    running.change(text, "push");
+    running.change(text, "push", SETTLED);
     change(new Map());
   }
 
@@ -346,6 +349,7 @@ function Live(place) {
     if (!answer.text || from !== text) return;
     remember();
     open(answer.text);
+    panel.firstChild.textContent = `${place.dataset.title}, changed`;
   }
 
   /** Where on its track the clearance has a stable 1:1 motion. */
@@ -392,7 +396,8 @@ function Live(place) {
   function showStudy(answer) {
     if (answer.problems) return complain(answer.problems);
     verdict.replaceChildren(...firstScreen(answer), ...notes.map((note) => make("p", { class: "live-note" }, note)));
-    if (keeps) link().then((address) => history.replaceState(null, "", address));
+    const version = asked;
+    if (keeps) link().then((address) => { if (version === asked) history.replaceState(null, "", address); });
     fresh(verdict);
     track(answer);
     const names = new Set(answer.figures.map(({ name }) => name)).add("map").add("sim");
@@ -497,7 +502,7 @@ function Running(engine, say) {
   new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(this.figure);
 
   /** Runs a case on from where the simulation is, or anew: at rest, or with an absorber that was pushed. */
-  this.change = (text, from) => {
+  this.change = (text, from, unseen = 0) => {
     this.text = text;
     const answer = engine().ask({ ask: "run", text, from });
     if (answer.problems) return say(answer.problems[0].message);
@@ -508,7 +513,8 @@ function Running(engine, say) {
     for (let k = 0; k < points.length; k += 3) { points[k + 1] *= before / of.clearance; points[k + 2] *= before / of.clearance; }
     largest *= before / of.clearance;
     reach = 0;
-    begin = simulated;
+    for (let left = unseen; left > 0; left -= 40) engine().goOn(40, 1);
+    begin = simulated - unseen;
     impacts = [];
     told = clock;
     if (paused) { clock += WINDOW; drawn(); }
@@ -628,7 +634,7 @@ function Running(engine, say) {
     g.fillStyle = blue;
     g.beginPath(); g.arc(at(x) - gap * cavity, rows[0] + half - ball - 1, ball, 0, 7); g.fill();
     g.fillStyle = soft;
-    g.fillText(`with absorber, ±${number(largest * of.clearance)} ${of.unit} so far`, 16, 16);
+    g.fillText(`with absorber, ±${number(largest * of.clearance)} ${of.unit} seen`, 16, 16);
     const peak = of.bare ? Math.hypot(...of.bare) : Infinity;
     const words = of.bare ? `without, ±${number(peak * of.clearance)} ${of.unit}${peak > reach ? ", off this scale" : ""}` : "without: nothing limits it";
     g.fillText(words, 16, 94);

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use vinesink::answer::{Answer, Asked};
-use vinesink::case::{Case, CaseError, Problem, RewriteError, Rounding};
+use vinesink::case::{Case, CaseError, Objective, Problem, RewriteError, Rounding};
 use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
 use vinesink::optimize::{Optimization, Task};
 use vinesink::quantity::Dimension;
-use vinesink::quantity::catalogue::CLEARANCE;
+use vinesink::quantity::catalogue::{CLEARANCE, LARGEST_PEAK};
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{self, Figure, PlacedPanel};
 use vinesink::report::{figures, template};
@@ -98,8 +98,23 @@ fn best(case: &Case, text: &str) -> Result<Value, Value> {
         return Ok(json!({ "text": null, "said": said }));
     }
     let better = found.best.written.clone().with_fitting_comments(case).map_err(words)?;
-    let clearance = case.units().text(&CLEARANCE, better.case.design.clearance());
-    Ok(json!({ "text": better.text, "said": format!("The best clearance is {clearance}.") }))
+    let units = case.units();
+    let clearance = units.text(&CLEARANCE, better.case.design.clearance());
+    let place = if case.band.is_some() { "over the band" } else { "at this excitation" };
+    let [best, own] = [&found.best, &found.own].map(|one| units.text(&LARGEST_PEAK, one.value));
+    let bare = case.system().linear_response().map(|alone| units.length(alone.amplitude()));
+    let helps = case.band.is_some() || bare.is_none_or(|bare| found.best.value < bare);
+    let said = match task.objective {
+        Objective::WorstAmplitude if helps => format!(
+            "The best clearance is {clearance}: the largest peak of any motion that can happen {place}, an absorber that \
+             stays at rest included, is {best}; before it was {own}."
+        ),
+        Objective::WorstAmplitude => format!(
+            "No clearance helps at this excitation; the least bad is {clearance}, with {best} instead of {own}."
+        ),
+        _ => format!("The best clearance is {clearance}."),
+    };
+    Ok(json!({ "text": better.text, "said": said }))
 }
 
 /// What is wrong with a case file, and where.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import os
 import sys
@@ -189,6 +190,19 @@ def _toml(value: Any) -> str:
     raise TypeError(f"a case has text, numbers, true and false, lists and tables, but no {type(value).__name__}")
 
 
+def _meant(name: str, names: Sequence[str]) -> str:
+    """What was probably meant, in words; nothing where nothing is close."""
+    close = difflib.get_close_matches(name, names, n=1, cutoff=0.7)
+    return f" (did you mean `{close[0]}`?)" if close else ""
+
+
+def _case_of(case: object) -> Case:
+    """The case that a function is given, or what to do instead."""
+    if not isinstance(case, Case):
+        raise RefusedError(f"expected a Case, not a {type(case).__name__}: Case.from_toml reads one from its file")
+    return case
+
+
 def _level() -> int:
     """The level of the caller's frame that is not of this package, as `warnings.warn` counts from its own caller."""
     level, frame = 1, sys._getframe(1)
@@ -247,13 +261,16 @@ def _text_of(title: str, source: str, given: dict[str, Any]) -> str:
     for name in given:
         if name not in known and name not in _SETTINGS:
             what = "a reduced case" if reduced else "a case in physical units"
-            raise TypeError(f"{what} has no `{name}`; it has {', '.join((*sorted(known), *_SETTINGS))}")
+            names = (*sorted(known), *_SETTINGS)
+            raise TypeError(f"{what} has no `{name}`; it has {', '.join(names)}{_meant(name, names)}")
     for table, keywords in tables.items():
         present = [f"{key} = {_toml(given[keyword])}" for keyword, key in keywords.items() if keyword in given]
         if present:
             lines += ["", f"[{table}]", *present]
     for table in _SETTINGS:
         if table in given:
+            if not isinstance(given[table], Mapping):
+                raise RefusedError(f"`{table}` is a table of a case: give a dict with its keys, not a {type(given[table]).__name__}")
             lines += ["", f"[{table}]", *(f"{json.dumps(key)} = {_toml(one)}" for key, one in given[table].items())]
     return "\n".join(lines) + "\n"
 
@@ -296,8 +313,10 @@ class Case:
     _allow_outside: bool
 
     def __init__(
-        self, *, title: str = "From Python", source: str = "keywords of vinesink.Case", **keys: Unpack[Keys]
+        self, *wrong: NoReturn, title: str = "From Python", source: str = "keywords of vinesink.Case", **keys: Unpack[Keys]
     ) -> None:
+        if wrong:
+            raise TypeError("Case takes keywords: Case.from_toml reads a case from its file or its text")
         given = {name: value for name, value in keys.items() if value is not None}
         self._read("Case(...)", _text_of(title, source, given), os.getcwd(), True)
 
@@ -360,7 +379,7 @@ class Case:
         return self._of_text(self._with(keys), self._folder, self._allow_outside)
 
     def __repr__(self) -> str:
-        return f"Case({self.title!r})"
+        return f"Case({self.title!r}, clearance={self.value('clearance'):.6g})"
 
     def _repr_html_(self) -> str:
         import html
@@ -384,6 +403,16 @@ class Case:
     def text(self) -> str:
         """The text of its case file."""
         return self._core.text
+
+    def value(self, name: str) -> float:
+        """A number of the case by its keyword, such as "clearance", in SI or the units of a reduced case.
+
+        Raises `RefusedError` where the case has no such number.
+        """
+        found = self._core.value(name)
+        if found is None:
+            raise RefusedError(f"the case has no number `{name}`{_meant(name, list(Parameters.__annotations__))}")
+        return found
 
     @property
     def scales(self) -> Scales:
@@ -531,7 +560,7 @@ class Case:
 def branch(
     case: Case,
     parameter: str,
-    range: Sequence[float],
+    range: Sequence[float | str | PintLike | AstropyLike],
     *,
     orbit: int | None = None,
     most_points: int = 2000,
@@ -552,7 +581,8 @@ def branch(
 
     Raises `RefusedError` where there is no such orbit or parameter, or the range leaves out the case.
     """
-    low, high = (float(edge) for edge in range)
+    case = _case_of(case)
+    low, high = (float(edge) for one in range for edge in _plain(case, parameter, one).reshape(-1))
     columns, told = case._core.branch(parameter, [low, high], orbit, most_points)
     return Branch(parameter, columns, json.loads(told))
 
@@ -561,7 +591,11 @@ def _plain(case: Case, name: str, values: Values) -> NDArray[np.float64]:
     """Numbers in SI, or the units of a reduced case."""
     found = parts(values)
     if found is None:
-        return np.asarray(values, dtype=float)
+        plain = np.asarray(values)
+        if plain.dtype.kind not in "US":
+            return np.asarray(values, dtype=float)
+        each = [case._of_text(case._with({name: str(text)}), case._folder, case._allow_outside) for text in plain.reshape(-1)]
+        return np.array([one.value(name) for one in each]).reshape(plain.shape)
     numbers, unit = found
     # What one of the unit is, read as a case file has it.
     text = case._with({name: f"1 {unit}" if unit else 1.0})
@@ -605,6 +639,7 @@ def single_trajectories(
     Other threads run meanwhile, and Ctrl-C ends it. The same input gives the same bits on any number of processors.
     Raises `RefusedError`, which names the first element that is impossible and why.
     """
+    case = _case_of(case)
     arrays = {name: _plain(case, name, cast(Values, values)) for name, values in parameters.items()}
     starts = None if initial is None else np.asarray(initial, dtype=float)
     if starts is not None and (starts.ndim == 0 or starts.shape[-1] != 4):
@@ -635,6 +670,8 @@ def sweep(
 ) -> Sweep:
     """Every combination of some values, each looked at from several starts: what `vinesink sweep` records.
 
+    Each is at the excitation of the case, or the one that varies, and not over its band: `check` and `optimize` decide over that.
+
         sweep(case, clearance=np.linspace(2e-3, 4e-3, 50), frequency=[8, 8.5], record=["largest_peak", "motions"])
 
     Parameters
@@ -650,6 +687,7 @@ def sweep(
 
     Its columns are those of the parameters, then what was recorded, one row a point.
     """
+    case = _case_of(case)
     table: dict[str, Any] = {}
     if record is not None:
         table["record"] = list(record)
@@ -657,6 +695,8 @@ def sweep(
     if not parameters:
         raise RefusedError("nothing varies: give at least one number of the case as an array, such as clearance=[0.002, 0.003]")
     for name, values in parameters.items():
+        if name not in Parameters.__annotations__:
+            raise RefusedError(f"there is no `{name}` to vary{_meant(name, list(Parameters.__annotations__))}")
         plain = _plain(case, name, cast(Values, values)).reshape(-1).tolist()
         unit = case._core.unit(name)
         table[name] = {"values": plain if unit == "1" else [f"{one!r} {unit}" for one in plain]}
@@ -668,5 +708,5 @@ def sweep(
 def compare(old: Case, new: Case, *, progress: Progress | None = None) -> Difference:
     """What changed from one design to another, as a reviewer of their reports would have it: the document of `vinesink diff`,
     and `markdown`."""
-    document, markdown = _vinesink.compare(old._core, new._core, _told(progress))
+    document, markdown = _vinesink.compare(_case_of(old)._core, _case_of(new)._core, _told(progress))
     return Difference(json.loads(document), markdown)

@@ -15,8 +15,9 @@ if TYPE_CHECKING:
     from ._case import Case, Parameters
 
 _BLUE, _ORANGE, _GREEN, _RED, _GREY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#555555"
-# Regimes: two impacts per period, symmetric or not, then what is more, less or never the same.
-_REGIMES = ("#009E73", "#56B4E9", "#E69F00", "#CC79A7", "#D55E00", "#F0E442", "#999999", "#0072B2")
+# Regimes: green is a steady motion with an impact on each wall in every period, the one that is wanted.
+_REGIMES = {"two-symmetric": "#009E73", "two-asymmetric": "#56B4E9", "at-rest": "#BBBBBB", "strongly-modulated": "#CC79A7"}
+_OTHERS = ("#E69F00", "#F0E442", "#D55E00", "#0072B2", "#999999")
 
 
 def _axes(ax: Axes | None) -> Axes:
@@ -39,6 +40,8 @@ def _steady(case: Case, what: str) -> None:
 
 def motion(case: Case, periods: float, ax: Axes | None) -> Axes:
     _steady(case, "a motion")
+    if not isinstance(periods, (int, float)) or not 0.0 < periods < 1e6:
+        raise RefusedError(f"periods is {periods!r}, expected a number above 0")
     scales, (size, unit) = case.scales, _unit(case)
     found = case.simulate(times=np.linspace(0.0, periods, int(round(200 * periods)) + 1)).trajectory
     assert found is not None
@@ -114,12 +117,16 @@ def regimes(case: Case, points: int, ax: Axes | None) -> Axes:
     found = sweep(case, record=["regime"], starts=4, **axes)
     words = [str(word) for word in np.unique(found.regime)]
     codes = np.searchsorted(words, found.regime).reshape(points, points)
-    colors = [_REGIMES[k % len(_REGIMES)] for k in range(len(words))]
+    others = [word for word in words if word not in _REGIMES]
+    colors = [_REGIMES.get(word) or _OTHERS[others.index(word) % len(_OTHERS)] for word in words]
     ax = _axes(ax)
     ax.pcolormesh(
         frequencies, clearances * size, codes, cmap=ListedColormap(colors), vmin=-0.5, vmax=len(words) - 0.5, shading="nearest"
     )
     ax.plot(case._core.value(name) or 0.0, own * size, "*", color="black", markersize=13)
     ax.set(xlabel=_frequency(case), ylabel=f"clearance ({unit})", yscale="log", title=case.title)
-    ax.legend(handles=[Patch(color=color, label=word) for color, word in zip(colors, words)], loc="upper right", fontsize=8)
+    named = [Patch(color=color, label=(word or "none").replace("-", " ")) for color, word in zip(colors, words)]
+    ax.legend(handles=named, loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8)
+    ax.yaxis.set_major_formatter(lambda value, _: f"{value:.3g}")
+    ax.yaxis.set_minor_formatter(lambda value, _: f"{value:.3g}")
     return ax

@@ -324,6 +324,9 @@ class Optimum(Record):
         """The case with it; None where no absorber is better than the case's own and meets all criteria."""
         return self._case
 
+    def __repr__(self) -> str:
+        return f"Optimum(clearance={self._document['optimum']['clearance']:.6g}, succeeds={self._succeeds})"
+
     @property
     def succeeds(self) -> bool:
         """Whether there is one that is better than the case's own and meets all criteria."""
