@@ -105,6 +105,20 @@ pub enum Measure {
     Motions,
 }
 
+/// The largest acceleration of the oscillator by that between impacts and the largest relative speed of an impact, each with
+/// its error: that between impacts, unless impacts have a pulse. The pulse of the fastest rides on an acceleration that is
+/// not known, and no larger than that between impacts.
+pub fn with_pulse(kind: &Kind, flights: [f64; 2], speed: [f64; 2], units: &Units) -> [f64; 2] {
+    let Some(pulse) = units.pulse().filter(|_| speed[0] > 0.0) else { return flights };
+    let (top, rides) = (pulse * speed[0], flights[0] + flights[1]);
+    let least = flights[0].max(top - rides);
+    let most = top + pulse * speed[1] + rides;
+    match kind.error {
+        ErrorKind::Bound => [least, most - least],
+        ErrorKind::Interval => [0.5 * (least + most), 0.5 * (most - least)],
+    }
+}
+
 impl Measure {
     /// The kind of its value; none where that is a word, or yes or no.
     pub const fn kind(self, by: Device) -> Option<&'static Kind> {
@@ -264,7 +278,7 @@ impl Measure {
             Self::PeakAcceleration => {
                 let flights = along(self.fact()?.of(motion)?).map(|one| units.acceleration(one));
                 let speed = pair(facts.impact_speed).map(|one| units.velocity(one));
-                return Some(units.peak_acceleration(flights, speed));
+                return Some(with_pulse(&of::PEAK_ACCELERATION, flights, speed, units));
             }
             Self::PeakVelocity => along(self.fact()?.of(motion)?),
             Self::RmsVelocity | Self::RmsAcceleration => pair(self.fact()?.of(motion)?),

@@ -10,8 +10,7 @@ use vinesink::answer::branch::{
 use vinesink::case::Case;
 use vinesink::system::Parameter;
 
-use crate::case::Columns;
-use crate::work::refused;
+use crate::work::{Columns, refused};
 
 /// Orbits with two impacts per period, in the case's units: the fields of `orbits` in the JSON of `analyze` and more.
 pub fn orbits(case: &Case) -> Vec<Value> {

@@ -6,7 +6,6 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, NamedSource, Re
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde::Serialize;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case;
 use vinesink::case_input::{self, CaseInputError};
@@ -21,14 +20,11 @@ use vinesink::system::{Parameter, State};
 
 use crate::errors::{CaseError, FileError};
 use crate::simulate::{self, Impacts, Wanted};
-use crate::work::{self, WorkState, refused};
+use crate::work::{self, Columns, WorkState, json, refused};
 use crate::{branch, decide, report};
 
 /// Width of messages, as the program writes them where no terminal tells another.
 const WIDTH: usize = 80;
-
-/// Columns of a table, by name.
-pub type Columns<'py> = Bound<'py, PyDict>;
 
 /// A case as it was read.
 #[pyclass(frozen, module = "vinesink._vinesink")]
@@ -294,11 +290,6 @@ impl Case {
         let none = || refused("the case was not analysed");
         Ok(Analysed::of(case, &answer).ok_or_else(none)?.document())
     }
-}
-
-/// A document as the program prints it.
-pub fn json(document: &impl Serialize) -> PyResult<String> {
-    serde_json::to_string(document).map_err(refused)
 }
 
 /// A state that is given as four numbers.

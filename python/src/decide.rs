@@ -17,8 +17,7 @@ use vinesink::sweep::Plan;
 use vinesink::sweep::columns::{Cell, Column, Storage};
 use vinesink::sweep::work::points;
 
-use crate::case::{Columns, json as text_of};
-use crate::work::{WorkState, refused};
+use crate::work::{Columns, WorkState, json, refused};
 
 /// Points of a sweep that are worked out together.
 const TOGETHER: u64 = 64;
@@ -32,11 +31,11 @@ pub fn checked(case: &Case, stem: &str, alone: bool, work: &WorkState) -> PyResu
     }
     let (asked, decides) = match alone {
         true => (Asked::Criteria, Decided::NOTHING),
-        false => (Asked::Decision, Decided { combined: false, ..Decided::ALL }),
+        false => (Asked::Decision, Decided::CHECKED),
     };
     let answer = Answer::of(case, asked, None, work).map_err(refused)?;
     let answer = answer.decided(case, decides, work).map_err(refused)?;
-    text_of(&Checked::judged(stem, stem, case, &answer).document)
+    json(&Checked::judged(stem, stem, case, &answer).document)
 }
 
 /// What `vinesink optimize --format json` says, the text of the case with the optimum, where there is one, and whether it is
@@ -57,7 +56,7 @@ pub fn optimum(
     let objective = objective.map(named).transpose()?;
     let found = Optimum::of("the case", case, text, objective, work).map_err(refused)?;
     let better = found.better.map(|better| better.text);
-    Ok((text_of(&found.document)?, better, found.succeeds))
+    Ok((json(&found.document)?, better, found.succeeds))
 }
 
 /// The columns of the sweep of a case, all points in order.
@@ -117,7 +116,7 @@ pub fn compared(old: &Case, new: &Case, work: &WorkState) -> PyResult<(String, S
     let (old, new) = (side("old", old)?, side("new", new)?);
     let difference = Difference::of(("old", &old), ("new", &new));
     let told = markdown::markdown(&difference, markdown::Addresses::default()).map_err(refused)?;
-    Ok((text_of(&difference)?, told))
+    Ok((json(&difference)?, told))
 }
 
 /// The document of a report, and its drawings by their names.

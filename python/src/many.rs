@@ -11,9 +11,9 @@ use vinesink::quantity::Units;
 use vinesink::regimes::Regime;
 use vinesink::system::{Parameter, State, System};
 
-use crate::case::{Case, Columns, states};
+use crate::case::{Case, states};
 use crate::simulate::numbers;
-use crate::work::{self, WorkState, refused};
+use crate::work::{self, Columns, WorkState, refused};
 
 /// Trajectories side by side, as in a sweep: many times the lanes of a batch, and few enough to stay in a cache.
 const TOGETHER: usize = 256;

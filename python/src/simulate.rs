@@ -13,9 +13,8 @@ use vinesink::motions::{Effort, Motion, Motions};
 use vinesink::report::console::Simulated;
 use vinesink::system::State;
 
-use crate::case::Columns;
 use crate::errors::RefusedError;
-use crate::work::{WorkState, refused};
+use crate::work::{Columns, WorkState, refused};
 
 /// Impacts after which a run is ended, as by the program.
 const IMPACT_LIMIT: u64 = 200_000_000;

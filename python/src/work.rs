@@ -8,7 +8,9 @@ use std::thread;
 use std::time::Duration;
 
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
+use serde::Serialize;
 use vinesink::executor::Executor;
 
 use crate::errors::{InternalError, RefusedError};
@@ -135,6 +137,14 @@ fn fault(panic: &(dyn Any + Send)) -> PyErr {
     InternalError::new_err(format!(
         "{text}; this is a fault in vinesink: please report it with the case"
     ))
+}
+
+/// Columns of a table, by name.
+pub type Columns<'py> = Bound<'py, PyDict>;
+
+/// A document as the program prints it.
+pub fn json(document: &impl Serialize) -> PyResult<String> {
+    serde_json::to_string(document).map_err(refused)
 }
 
 /// An error of the library as Python's `ValueError`, with its own message.

@@ -57,6 +57,8 @@ impl Decided {
     /// All of it.
     pub const ALL: Self =
         Self { alternatives: true, ranges: &Varied::ALL, combined: true, reliability: true };
+    /// What a document of `check` has.
+    pub const CHECKED: Self = Self { combined: false, ..Self::ALL };
     /// None of it.
     pub const NOTHING: Self =
         Self { alternatives: false, ranges: &[], combined: false, reliability: false };

@@ -111,18 +111,16 @@ fn checked(path: &Path, arguments: &Arguments, failures: &mut Vec<Report>) -> Ch
 fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
     let Arguments { long, reading, .. } = *arguments;
     let case = case_file::read(path, reading)?;
-    let asked = if arguments.criteria_only { Asked::Criteria } else { Asked::Decision };
+    // What no format tells is not looked for.
+    let (asked, told) = match arguments.format {
+        CheckFormat::Json if !arguments.criteria_only => (Asked::Decision, Decided::CHECKED),
+        CheckFormat::Text | CheckFormat::Markdown if !arguments.criteria_only => {
+            (Asked::Decision, Decided { ranges: &Varied::FIRST, ..Decided::CHECKED })
+        }
+        _ => (Asked::Criteria, Decided::NOTHING),
+    };
     let work = Work::of(&case, asked, None);
     long.allows(path, &case, &work)?;
-    // What no format tells is not looked for.
-    let told = match arguments.format {
-        _ if arguments.criteria_only => Decided::NOTHING,
-        CheckFormat::Json => Decided { combined: false, ..Decided::ALL },
-        CheckFormat::Text | CheckFormat::Markdown => {
-            Decided { ranges: &Varied::FIRST, combined: false, ..Decided::ALL }
-        }
-        CheckFormat::Github | CheckFormat::Junit => Decided::NOTHING,
-    };
     let decides = long.decides(path, &case, &work, told);
     let besides = budget::of_decision(&case, decides);
     let _progress = budget::progress("check", &case, &work, besides);

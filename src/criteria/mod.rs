@@ -93,7 +93,7 @@ pub fn needs_simulation(criteria: &[Criterion]) -> bool {
 /// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst
 /// value is known to the error that `[accuracy]` asks for.
 pub fn settings(case: &Case) -> SurveySettings {
-    let shocks = case.units().has_pulse();
+    let shocks = case.units().pulse().is_some();
     let facts = |one: Measure| {
         let speed = (shocks && one == Measure::PeakAcceleration).then_some(Fact::ImpactSpeed);
         one.fact().into_iter().chain(speed)

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::record_study::over_records;
 use super::{Run, Runs, Study, WithError};
 use crate::linear::reduction;
-use crate::measure::{Device, Measure};
+use crate::measure::{Device, Measure, with_pulse};
 use crate::method::Method;
 use crate::quantity::{Quantity, Units};
 
@@ -110,7 +110,7 @@ impl Study {
         }
         let pair = |one: Quantity| [one.value, one.error];
         let speed = self.told(units, Measure::ImpactSpeed, by).map_or([0.0; 2], pair);
-        let [value, error] = units.peak_acceleration(pair(found), speed);
+        let [value, error] = with_pulse(found.kind, pair(found), speed, units);
         Some(Quantity::new(found.kind, value, found.method).with_error(error))
     }
 

@@ -35,11 +35,13 @@ fn the_pulse_of_a_steady_motion_has_the_integral_of_the_jump() {
     let mu = 0.1 / 4.0;
     let rate = FRAC_PI_2 * mu / (1.0 + mu) * (1.0 + 0.65) / 0.05e-3;
     let by_hand = rate * speed;
-    let found = pulse.found.expect("a number");
+    let (least, error) = (pulse.found.expect("a number"), pulse.error);
     assert!(by_hand > 3.0 * flights, "{by_hand} {flights}");
-    assert!((found / by_hand - 1.0).abs() < 1e-9, "{found} {by_hand}");
-    let error = flights + errors[0] + rate * errors[1];
-    assert!((pulse.error / error - 1.0).abs() < 1e-9, "{} {error}", pulse.error);
+    // The pulse rides on an acceleration of the flights of either sign.
+    let rides = flights + errors[0];
+    assert!((least / (by_hand - rides) - 1.0).abs() < 1e-9, "{least} {by_hand}");
+    let most = by_hand + rate * errors[1] + rides;
+    assert!(((least + error) / most - 1.0).abs() < 1e-9, "{error} {most}");
 }
 
 /// Displacement and velocity of structure and absorber, with walls that are springs without loss: every contact is a
@@ -81,8 +83,8 @@ fn the_pulse_of_a_release_is_that_of_an_elastic_wall() {
     let (told, error) = (pulse.found.expect("a number"), pulse.error);
     let places = (0..24).map(|k| (f64::from(k) + 0.5) / 12.0 - 1.0);
     let seen = places.map(|place| with_elastic_walls(place, contact, 1.5)).fold(0.0, f64::max);
-    assert!(told > 5.0 * error, "{told} (+{error})");
-    assert!((seen - told).abs() < error, "{seen} seen, {told} (+{error}) told");
+    assert!(told > 2.0 * error, "{told} (+{error})");
+    assert!(told <= seen && seen <= told + error, "{seen} seen, {told} (+{error}) told");
 }
 
 /// A contact that is a part of the oscillation is refused, with what would do.

@@ -15,20 +15,11 @@ docstring says otherwise: states and impacts are over the clearance and in fast 
 the program. `Case.scales` has the factors between the two.
 """
 
-from ._case import (
-    Case,
-    CaseWarning,
-    Keys,
-    Parameters,
-    Scales,
-    SimulationWarning,
-    branch,
-    compare,
-    single_trajectories,
-    sweep,
-)
+from ._case import Case, CaseWarning, Optimum, Scales, SimulationWarning
 from ._errors import CaseError, FileError, InternalError, RefusedError, VinesinkError
-from ._results import Analysis, Branch, Check, Difference, Motions, Optimum, Orbits, Record, Simulation, Sweep, Table
+from ._keywords import Keys, Parameters
+from ._many import branch, compare, single_trajectories, sweep
+from ._results import Analysis, Branch, Check, Difference, Motions, Orbits, Record, Simulation, Sweep, Table
 from ._vinesink import __version__
 
 __all__ = [

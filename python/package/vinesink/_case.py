@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import os
 import sys
@@ -10,15 +9,16 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, Optional, TypedDict, Union, cast
+from typing import TYPE_CHECKING, Any, NoReturn, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _vinesink
+from . import _plots, _vinesink
 from ._errors import RefusedError
-from ._quantities import AstropyLike, PintLike, Quantity, parts, written
-from ._results import Analysis, Branch, Check, Difference, Motions, Optimum, Orbits, Simulation, Sweep, Table
+from ._keywords import EITHER, Keys, Parameters, Values, given_of, meant, text_of
+from ._quantities import parts
+from ._results import Analysis, Check, Orbits, Record, Simulation, Sweep, Table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,122 +26,6 @@ if TYPE_CHECKING:
 
 Progress = Union[Callable[[int, int], object], bool]
 """Called with the steps done and all steps, about ten times a second; True is a bar of `tqdm`, where that is installed."""
-
-Pair = Sequence[float]
-Settings = Optional[Mapping[str, Any]]
-Word = Optional[str]
-Count = Optional[int]
-Number = Optional[float]
-Values = Union[ArrayLike, PintLike, AstropyLike]
-
-
-class Keys(TypedDict, total=False):
-    """What a case has, by the keys of a case file."""
-
-    mass: Quantity
-    stiffness: Quantity
-    natural_frequency: Quantity
-    damping: Quantity
-    damping_ratio: Quantity
-    absorber_mass: Quantity
-    mass_ratio: Quantity
-    clearance: Quantity
-    restitution: Number | Pair
-    inclination: Quantity
-    orientation: Word
-    friction: Quantity
-    support: Word
-    support_frequency: Quantity
-    support_room: Quantity
-    contact_time: Quantity
-    kind: Word
-    amplitude: Quantity
-    frequency: Quantity
-    displacement: Quantity
-    velocity: Quantity
-    impulse: Quantity
-    of: Word
-    start: Quantity
-    to: Quantity
-    rate: Quantity
-    quantity: Word
-    file: Word
-    spectrum: Sequence[Pair] | None
-    duration: Quantity
-    seed: Count
-    realisations: Count
-    forcing: Number
-    frequency_ratio: Number
-    detuning: Number
-    gravity_along: Number
-    friction_acceleration: Number
-    simulation: Settings
-    report: Settings
-    accuracy: Settings
-    band: Settings
-    criteria: Settings
-    alternatives: Settings
-    optimize: Settings
-    uncertainty: Settings
-    sweep: Settings
-
-
-class Parameters(TypedDict, total=False):
-    """Numbers of a case that may be arrays: in SI or the units of a reduced case, or with a unit of their own."""
-
-    mass: Values
-    stiffness: Values
-    damping: Values
-    damping_ratio: Values
-    absorber_mass: Values
-    mass_ratio: Values
-    natural_frequency: Values
-    clearance: Values
-    restitution: Values
-    inclination: Values
-    friction: Values
-    amplitude: Values
-    frequency: Values
-    forcing: Values
-    frequency_ratio: Values
-    detuning: Values
-    gravity_along: Values
-    friction_acceleration: Values
-
-
-# Of each of these a case has one: the other goes where one is replaced.
-_EITHER = (
-    {"stiffness", "natural_frequency"},
-    {"damping", "damping_ratio"},
-    {"absorber_mass", "mass_ratio"},
-    {"inclination", "orientation"},
-    {"frequency_ratio", "detuning"},
-)
-
-_SCHEMA = json.loads(_vinesink.schema())["properties"]
-# Where one word is a key of two tables, or of Python: the keyword instead.
-_RENAMED = {
-    ("oscillator", "frequency"): "natural_frequency",
-    ("absorber", "mass"): "absorber_mass",
-    ("excitation", "from"): "start",
-    ("reduced", "from"): "start",
-}
-
-
-def _keywords(table: str) -> dict[str, str]:
-    """The keywords of a table, each with its key in the case file."""
-    return {_RENAMED.get((table, key), key): key for key in _SCHEMA[table]["properties"]}
-
-
-_PHYSICAL = {table: _keywords(table) for table in ("oscillator", "absorber", "excitation")}
-_REDUCED = {"reduced": _keywords("reduced")}
-# What only a reduced design has.
-_ONLY_REDUCED = _REDUCED["reduced"].keys() - {keyword for keywords in _PHYSICAL.values() for keyword in keywords}
-_SETTINGS = [
-    name
-    for name, table in _SCHEMA.items()
-    if table.get("type") == "object" and name not in _PHYSICAL and name not in _REDUCED
-]
 
 
 class CaseWarning(UserWarning):
@@ -170,37 +54,6 @@ class Scales:
     """Of frequency ratios: the natural frequency in Hz, 1 for a reduced case."""
     period: float
     """The excitation period."""
-
-
-def _toml(value: Any) -> str:
-    if not isinstance(value, (str, bool, int, float, np.generic, np.ndarray, Mapping, Sequence)):
-        value = written(value)
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{json.dumps(str(key))} = {_toml(one)}" for key, one in value.items()) + " }"
-    if isinstance(value, (Sequence, np.ndarray)):
-        return "[" + ", ".join(_toml(one) for one in value) + "]"
-    raise TypeError(f"a case has text, numbers, true and false, lists and tables, but no {type(value).__name__}")
-
-
-def _meant(name: str, names: Sequence[str]) -> str:
-    """What was probably meant, in words; nothing where nothing is close."""
-    close = difflib.get_close_matches(name, names, n=1, cutoff=0.7)
-    return f" (did you mean `{close[0]}`?)" if close else ""
-
-
-def _case_of(case: object) -> Case:
-    """The case that a function is given, or what to do instead."""
-    if not isinstance(case, Case):
-        raise RefusedError(f"expected a Case, not a {type(case).__name__}: Case.from_toml reads one from its file")
-    return case
 
 
 def _level() -> int:
@@ -242,37 +95,32 @@ def _told(progress: Progress | None) -> Callable[[int, int], object] | None:
     return tell
 
 
-def _given_of(document: dict[str, Any]) -> dict[str, Any]:
-    """The keywords of the tables of a case file."""
-    given: dict[str, Any] = {}
-    for table, keys in document.items():
-        if table in _PHYSICAL or table in _REDUCED:
-            given |= {_RENAMED.get((table, key), key): value for key, value in keys.items()}
-        elif isinstance(keys, dict):
-            given[table] = keys
-    return given
+class Optimum(Record):
+    """The absorber that serves a case best: the document of `vinesink optimize --format json`.
 
+    `optimum` has its `clearance` (m) and what else was looked for; `claimed` and `checked` its objective.
+    """
 
-def _text_of(title: str, source: str, given: dict[str, Any]) -> str:
-    reduced = not _ONLY_REDUCED.isdisjoint(given)
-    tables = _REDUCED if reduced else _PHYSICAL
-    lines = [f"title = {_toml(title)}", f"source = {_toml(source)}"]
-    known = {keyword for keywords in tables.values() for keyword in keywords}
-    for name in given:
-        if name not in known and name not in _SETTINGS:
-            what = "a reduced case" if reduced else "a case in physical units"
-            names = (*sorted(known), *_SETTINGS)
-            raise TypeError(f"{what} has no `{name}`; it has {', '.join(names)}{_meant(name, names)}")
-    for table, keywords in tables.items():
-        present = [f"{key} = {_toml(given[keyword])}" for keyword, key in keywords.items() if keyword in given]
-        if present:
-            lines += ["", f"[{table}]", *present]
-    for table in _SETTINGS:
-        if table in given:
-            if not isinstance(given[table], Mapping):
-                raise RefusedError(f"`{table}` is a table of a case: give a dict with its keys, not a {type(given[table]).__name__}")
-            lines += ["", f"[{table}]", *(f"{json.dumps(key)} = {_toml(one)}" for key, one in given[table].items())]
-    return "\n".join(lines) + "\n"
+    def __init__(self, document: dict[str, Any], case: Case | None, succeeds: bool) -> None:
+        super().__init__(document)
+        self._case = case
+        self._succeeds = succeeds
+
+    @property
+    def case(self) -> Case | None:
+        """The case with it; None where no absorber is better than the case's own and meets all criteria."""
+        return self._case
+
+    def __repr__(self) -> str:
+        return f"Optimum(clearance={self._document['optimum']['clearance']:.6g}, succeeds={self._succeeds})"
+
+    @property
+    def succeeds(self) -> bool:
+        """Whether there is one that is better than the case's own and meets all criteria."""
+        return self._succeeds
+
+    def __bool__(self) -> bool:
+        return self._succeeds
 
 
 class Case:
@@ -318,7 +166,7 @@ class Case:
         if wrong:
             raise TypeError("Case takes keywords: Case.from_toml reads a case from its file or its text")
         given = {name: value for name, value in keys.items() if value is not None}
-        self._read("Case(...)", _text_of(title, source, given), os.getcwd(), True)
+        self._read("Case(...)", text_of(title, source, given), os.getcwd(), True)
 
     def _read(self, name: str, text: str, folder: str, allow_outside: bool) -> None:
         self._keep(_vinesink.Case.parse(name, text, folder, allow_outside), folder, allow_outside)
@@ -359,14 +207,14 @@ class Case:
     def _with(self, given: Mapping[str, Any]) -> str:
         """The text of the case with other keywords."""
         document = json.loads(self._core.document())
-        all_of = _given_of(document)
+        all_of = given_of(document)
         for name in given:
-            for either in _EITHER:
+            for either in EITHER:
                 if name in either and given[name] is not None:
                     all_of = {key: value for key, value in all_of.items() if key not in either}
         all_of |= given
         all_of = {key: value for key, value in all_of.items() if value is not None}
-        return _text_of(document["title"], document["source"], all_of)
+        return text_of(document["title"], document["source"], all_of)
 
     def replace(self, **keys: Unpack[Keys]) -> Case:
         """The same case with other keywords, those of `Case`; None takes one out.
@@ -411,7 +259,7 @@ class Case:
         """
         found = self._core.value(name)
         if found is None:
-            raise RefusedError(f"the case has no number `{name}`{_meant(name, list(Parameters.__annotations__))}")
+            raise RefusedError(f"the case has no number `{name}`{meant(name, list(Parameters.__annotations__))}")
         return found
 
     @property
@@ -457,27 +305,94 @@ class Case:
 
     def plot_motion(self, *, periods: float = 6, ax: Axes | None = None) -> Axes:
         """Draws the motion that most starts lead to: structure and absorber over time, with the walls. Needs matplotlib."""
-        from . import _plots
-
-        return _plots.motion(self, periods, ax)
+        self._needs_steady("a motion")
+        if not isinstance(periods, (int, float)) or not 0.0 < periods < 1e6:
+            raise RefusedError(f"periods is {periods!r}, expected a number above 0")
+        found = self.simulate(times=np.linspace(0.0, periods, int(round(200 * periods)) + 1)).trajectory
+        assert found is not None
+        size, unit = self._millimetres()
+        length = size * self.scales.length
+        labels = {"xlabel": "time (excitation periods)", "ylabel": f"displacement ({unit})", "title": self.title}
+        return _plots.motion(ax, found.periods, found.x * length, found.y * length, length, labels)
 
     def plot_response(self, *, points: int = 121, ax: Axes | None = None) -> Axes:
         """Draws the largest peak over the excitation's frequency, along the case's band or 15 % to either side: of every motion
-        that starts lead to, of the structure alone and with a tuned mass damper of the same mass. Needs matplotlib."""
-        from . import _plots
-
-        return _plots.response(self, points, ax)
+        that starts lead to, and of the structure alone. Needs matplotlib."""
+        at = self._frequencies("a response", points)
+        found = self._sweep({"record": ["largest_peak", "bare_amplitude"], "starts": 8}, at, None)
+        size, unit = self._millimetres()
+        labels = {"xlabel": self._frequency_label(), "ylabel": f"peak displacement ({unit})", "title": self.title}
+        (axis,) = at.values()
+        return _plots.response(ax, axis, found.largest_peak * size, found.bare_amplitude * size, labels)
 
     def plot_map(self, *, points: int = 48, ax: Axes | None = None) -> Axes:
         """Draws what the motion does over frequency and clearance, from a third of the case's to three times it, with the case as
         a star. Needs matplotlib."""
-        from . import _plots
+        at = self._frequencies("a map", points)
+        own = self.value("clearance")
+        clearances = np.geomspace(own / 3.0, 3.0 * own, points)
+        found = self._sweep({"record": ["regime"], "starts": 4}, {"clearance": clearances, **at}, None)
+        size, unit = self._millimetres()
+        labels = {"xlabel": self._frequency_label(), "ylabel": f"clearance ({unit})", "title": self.title}
+        ((name, axis),) = at.items()
+        words = found.regime.reshape(points, points)
+        return _plots.regimes(ax, (axis, clearances * size), words, (self.value(name), own * size), labels)
 
-        return _plots.regimes(self, points, ax)
+    def _needs_steady(self, what: str) -> None:
+        if not self._core.steady:
+            raise RefusedError(f"its structure is not driven steadily, and {what} is of one that is")
 
-    def orbits(self) -> Orbits:
-        """The exact periodic orbits with two impacts per period: in an ideal cavity the symmetric ones, else all."""
-        return Orbits(json.loads(self._core.orbits()))
+    def _millimetres(self) -> tuple[float, str]:
+        """What lengths are multiplied by on an axis, and its unit."""
+        return (1e3, "mm") if self.scales.physical else (1.0, "1")
+
+    def _frequency_label(self) -> str:
+        return "excitation frequency (Hz)" if self.scales.physical else "excitation frequency over the natural one"
+
+    def _frequencies(self, what: str, points: int) -> dict[str, NDArray[np.float64]]:
+        """Frequencies of the case's band, or 15 % to either side of its own, by the name of the number that varies."""
+        self._needs_steady(what)
+        name = "frequency" if self.scales.physical else "frequency_ratio"
+        own = self.value(name)
+        low, high = 0.85 * own, 1.15 * own
+        band = given_of(json.loads(self._core.document())).get("band", {})
+        if self.scales.physical and "from" in band and band.get("of", "frequency") == "frequency":
+            low, high = self._numbers(name, [band["from"], band["to"]])
+        return {name: np.linspace(low, high, points)}
+
+    def _numbers(self, name: str, values: Values) -> NDArray[np.float64]:
+        """Numbers in SI, or the units of a reduced case."""
+
+        def one(written: str | float) -> float:
+            # Read as a case file has it; what else the case asks for does not matter.
+            given = {name: written, "band": None, "criteria": None, "sweep": None}
+            found = _vinesink.Case.parse(f"{name} = {written}", self._with(given), self._folder, self._allow_outside)
+            number = found.value(name)
+            if number is None:
+                raise RefusedError(f"the case has no `{name}`")
+            return number
+
+        found = parts(values)
+        if found is not None:
+            numbers, unit = found
+            return np.asarray(numbers, dtype=float) * one(f"1 {unit}" if unit else 1.0)
+        plain = np.asarray(values)
+        if plain.dtype.kind not in "US":
+            return np.asarray(values, dtype=float)
+        return np.array([one(str(text)) for text in plain.reshape(-1)]).reshape(plain.shape)
+
+    def _sweep(self, settings: dict[str, Any], parameters: Mapping[str, Any], progress: Progress | None) -> Sweep:
+        """The sweep of a case with these settings, over these values."""
+        table = dict(settings)
+        for name, values in parameters.items():
+            if name not in Parameters.__annotations__:
+                raise RefusedError(f"there is no `{name}` to vary{meant(name, list(Parameters.__annotations__))}")
+            plain = self._numbers(name, values).reshape(-1).tolist()
+            unit = self._core.unit(name)
+            table[name] = {"values": plain if unit == "1" else [f"{one!r} {unit}" for one in plain]}
+        planned = self._of_text(self._with({"sweep": table}), self._folder, self._allow_outside)
+        columns = planned._core.sweep(_told(progress))
+        return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"})
 
     def simulate(
         self,
@@ -555,158 +470,3 @@ class Case:
         """
         name = name or self._core.stem or Path(folder).resolve().name
         return self._core.report(os.fspath(folder), name, _told(progress))
-
-
-def branch(
-    case: Case,
-    parameter: str,
-    range: Sequence[float | str | PintLike | AstropyLike],
-    *,
-    orbit: int | None = None,
-    most_points: int = 2000,
-) -> Branch:
-    """Exact orbits along a parameter, with stability and bifurcations.
-
-    Parameters
-    ----------
-    parameter
-        "clearance" (m), "frequency" (Hz), "amplitude" (m or N), "restitution", "gravity_along" or
-        "friction_acceleration" (over b omega0^2); in a reduced case its own units.
-    range
-        The lowest and the highest value; the case's own lies between.
-    orbit
-        The place in `case.orbits()` of the orbit to begin with; unless given the one that attracts.
-    most_points
-        Points in either direction after which the branch is given up.
-
-    Raises `RefusedError` where there is no such orbit or parameter, or the range leaves out the case.
-    """
-    case = _case_of(case)
-    low, high = (float(edge) for one in range for edge in _plain(case, parameter, one).reshape(-1))
-    columns, told = case._core.branch(parameter, [low, high], orbit, most_points)
-    return Branch(parameter, columns, json.loads(told))
-
-
-def _plain(case: Case, name: str, values: Values) -> NDArray[np.float64]:
-    """Numbers in SI, or the units of a reduced case."""
-    found = parts(values)
-    if found is None:
-        plain = np.asarray(values)
-        if plain.dtype.kind not in "US":
-            return np.asarray(values, dtype=float)
-        each = [case._of_text(case._with({name: str(text)}), case._folder, case._allow_outside) for text in plain.reshape(-1)]
-        return np.array([one.value(name) for one in each]).reshape(plain.shape)
-    numbers, unit = found
-    # What one of the unit is, read as a case file has it.
-    text = case._with({name: f"1 {unit}" if unit else 1.0})
-    one = _vinesink.Case.parse(f"one {unit} of {name}", text, case._folder, case._allow_outside).value(name)
-    if one is None:
-        raise RefusedError(f"the case has no `{name}`")
-    return np.asarray(numbers, dtype=float) * one
-
-
-def single_trajectories(
-    case: Case,
-    *,
-    initial: ArrayLike | None = None,
-    periods: int = 250,
-    discard: int | None = None,
-    progress: Progress | None = None,
-    **parameters: Unpack[Parameters],
-) -> Motions:
-    """What one start of each of many systems ends in, sixteen side by side on every processor.
-
-        single_trajectories(case, clearance=np.linspace(2e-3, 20e-3, 1000)).peak
-
-    Another start may end in another motion with a larger peak: to choose a design, ask `check`, `optimize` or `sweep`, which
-    look for every motion.
-
-    Parameters
-    ----------
-    parameters
-        Arrays of numbers of the case, in SI or the units of a reduced case, or quantities with a unit of their own: see
-        `Parameters`. They are broadcast; everything else is as in the case.
-    initial
-        Starts `(x, xdot, y, ydot)`, shape (..., 4), broadcast with the parameters; unless given from rest, the absorber
-        halfway between the middle and a wall.
-    periods
-        Excitation periods that a motion is measured over which is not seen to repeat.
-    discard
-        Excitation periods left out before; unless given until the transient has faded.
-    progress
-        Called with the number of elements done and of all, about ten times a second; what it raises ends the work.
-
-    Other threads run meanwhile, and Ctrl-C ends it. The same input gives the same bits on any number of processors.
-    Raises `RefusedError`, which names the first element that is impossible and why.
-    """
-    case = _case_of(case)
-    arrays = {name: _plain(case, name, cast(Values, values)) for name, values in parameters.items()}
-    starts = None if initial is None else np.asarray(initial, dtype=float)
-    if starts is not None and (starts.ndim == 0 or starts.shape[-1] != 4):
-        raise RefusedError(f"initial has the shape {starts.shape}, expected (..., 4): x, xdot, y, ydot")
-    shapes = [one.shape for one in arrays.values()] + ([] if starts is None else [starts.shape[:-1]])
-    shape = np.broadcast_shapes(*shapes)
-    values = np.empty((len(arrays), int(np.prod(shape))))
-    for row, one in zip(values, arrays.values()):
-        row[:] = np.broadcast_to(one, shape).reshape(-1)
-    if starts is not None:
-        starts = np.ascontiguousarray(np.broadcast_to(starts, (*shape, 4)).reshape(-1, 4))
-    count, left_out = _whole("periods", periods, 1) or 1, _whole("discard", discard, 0)
-    columns = _vinesink.simulate_many(case._core, list(arrays), values, starts, count, left_out, _told(progress))
-    names: NDArray[np.str_] = np.array([*_vinesink.regimes(), ""])
-    columns["regime"] = names[columns["regime"]]
-    # What varies stands first.
-    return Motions({**dict(zip(arrays, values)), **columns}, shape)
-
-
-def sweep(
-    case: Case,
-    *,
-    record: Sequence[str] | None = None,
-    starts: int | None = None,
-    periods: int | None = None,
-    progress: Progress | None = None,
-    **parameters: Unpack[Parameters],
-) -> Sweep:
-    """Every combination of some values, each looked at from several starts: what `vinesink sweep` records.
-
-    Each is at the excitation of the case, or the one that varies, and not over its band: `check` and `optimize` decide over that.
-
-        sweep(case, clearance=np.linspace(2e-3, 4e-3, 50), frequency=[8, 8.5], record=["largest_peak", "motions"])
-
-    Parameters
-    ----------
-    parameters
-        Ascending values of numbers of the case, in SI or the units of a reduced case, or quantities with a unit of their own:
-        see `Parameters`. The last varies fastest.
-    record
-        Columns, such as "peak", "largest_peak", "rms", "regime", "motions", "reduction_db": the book's page on case files
-        lists all. What the program records unless given.
-    starts, periods
-        Starts of each point, and excitation periods over which a motion is measured that does not repeat.
-
-    Its columns are those of the parameters, then what was recorded, one row a point.
-    """
-    case = _case_of(case)
-    table: dict[str, Any] = {}
-    if record is not None:
-        table["record"] = list(record)
-    table |= {name: one for name, one in (("starts", starts), ("periods", periods)) if one is not None}
-    if not parameters:
-        raise RefusedError("nothing varies: give at least one number of the case as an array, such as clearance=[0.002, 0.003]")
-    for name, values in parameters.items():
-        if name not in Parameters.__annotations__:
-            raise RefusedError(f"there is no `{name}` to vary{_meant(name, list(Parameters.__annotations__))}")
-        plain = _plain(case, name, cast(Values, values)).reshape(-1).tolist()
-        unit = case._core.unit(name)
-        table[name] = {"values": plain if unit == "1" else [f"{one!r} {unit}" for one in plain]}
-    planned = Case._of_text(case._with({"sweep": table}), case._folder, case._allow_outside)
-    columns = planned._core.sweep(_told(progress))
-    return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"})
-
-
-def compare(old: Case, new: Case, *, progress: Progress | None = None) -> Difference:
-    """What changed from one design to another, as a reviewer of their reports would have it: the document of `vinesink diff`,
-    and `markdown`."""
-    document, markdown = _vinesink.compare(_case_of(old)._core, _case_of(new)._core, _told(progress))
-    return Difference(json.loads(document), markdown)

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
     import pandas
     import polars
 
-    from ._case import Case
-
 _SHOWN = 10
 """Rows of a table that a notebook shows."""
 
@@ -306,34 +304,6 @@ class Check(_WithRows):
         names = ("name", "asked", "found", "unit", "error", "margin", "holds", "near_limit")
         rows = [{name: np.nan if one.get(name) is None else one[name] for name in names} for one in self._document["criteria"]]
         return Table(_of_records(rows, names))
-
-
-class Optimum(Record):
-    """The absorber that serves a case best: the document of `vinesink optimize --format json`.
-
-    `optimum` has its `clearance` (m) and what else was looked for; `claimed` and `checked` its objective.
-    """
-
-    def __init__(self, document: dict[str, Any], case: Case | None, succeeds: bool) -> None:
-        super().__init__(document)
-        self._case = case
-        self._succeeds = succeeds
-
-    @property
-    def case(self) -> Case | None:
-        """The case with it; None where no absorber is better than the case's own and meets all criteria."""
-        return self._case
-
-    def __repr__(self) -> str:
-        return f"Optimum(clearance={self._document['optimum']['clearance']:.6g}, succeeds={self._succeeds})"
-
-    @property
-    def succeeds(self) -> bool:
-        """Whether there is one that is better than the case's own and meets all criteria."""
-        return self._succeeds
-
-    def __bool__(self) -> bool:
-        return self._succeeds
 
 
 class Difference(Record):

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::scale::{ROOT_OF_ROUNDING, Scale};
 use crate::criteria::method;
 use crate::linear::level_error;
+use crate::measure::with_pulse;
 use crate::method::Method::{self, ExactOrbit, Simulation};
 use crate::motions::Along;
 use crate::motions::{self, Facts, Measured, Motions, wilson};
@@ -268,7 +269,7 @@ pub fn headline(
         let pair = |of: motions::Value| [of.value, of.error];
         let largest = pair(of.peak_acceleration).map(|one| units.acceleration(one));
         let speed = pair(facts.impact_speed).map(|one| units.velocity(one));
-        let [value, error] = units.peak_acceleration(largest, speed);
+        let [value, error] = with_pulse(&of::PEAK_ACCELERATION, largest, speed, units);
         let largest = Quantity::new(&of::PEAK_ACCELERATION, value, method).with_error(error);
         let all = all.map(|(key, kind, one)| (key, units.quantity_with(kind, pair(one), method)));
         all.into_iter().chain([("peak_acceleration", largest)])
