@@ -15,9 +15,6 @@ pub struct Combined {
     pub outcome: Together,
 }
 
-/// Shares of the way from the case to an end of a range.
-const WAY: [f64; 2] = [0.5, 1.0];
-
 /// Every combination of the amplitude and the natural frequency half way to the ends of their ranges and at them, by
 /// amplitude, then frequency; none where one of the ranges is not known.
 ///
@@ -52,8 +49,8 @@ pub fn combined(
 
 /// Values on the way to both ends, ascending; none in a direction in which the range ends at the case.
 fn values(of: &HoldsFor) -> Vec<f64> {
-    let way = |end: f64| WAY.map(|share| of.value + share * (end - of.value));
-    let mut all: Vec<f64> = of.range.iter().flat_map(|end| way(*end)).collect();
+    let mut all: Vec<f64> =
+        of.range.iter().flat_map(|end| [0.5 * (of.value + end), *end]).collect();
     all.retain(|one| *one != of.value);
     all.sort_by(f64::total_cmp);
     all

@@ -79,7 +79,7 @@ impl Checked {
         if self.page["error"].is_string() {
             [1, 0, 1]
         } else {
-            [count("count"), count("failing") + count("undecided"), 0]
+            [count("count"), count("count") - count("holding"), 0]
         }
     }
 

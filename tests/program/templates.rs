@@ -266,16 +266,21 @@ fn markdown_becomes_a_page() {
 /// A criterion that is not decided does not fail, and does not hold.
 #[test]
 fn criteria_are_counted_by_what_they_came_to() {
-    for (failing, undecided, words) in [
-        (0, 0, "all 3 criteria hold"),
-        (0, 1, "1 of 3 criteria is not decided"),
-        (0, 3, "3 of 3 criteria are not decided"),
-        (1, 2, "1 of 3 criteria fails, 2 are not decided"),
-        (2, 0, "2 of 3 criteria fail"),
+    for (failing, undecided, close, words) in [
+        (0, 0, 0, "all 3 criteria hold"),
+        (0, 1, 0, "1 of 3 criteria is not decided"),
+        (0, 3, 0, "3 of 3 criteria are not decided"),
+        (1, 2, 0, "1 of 3 criteria fails, 2 are not decided"),
+        (2, 0, 0, "2 of 3 criteria fail"),
+        // What an error alone could turn does not fail by what was found.
+        (0, 0, 1, "1 of 3 criteria is too close to call"),
+        (0, 0, 2, "2 of 3 criteria are too close to call"),
+        (1, 0, 1, "1 of 3 criteria fails, 1 too close to call"),
+        (0, 1, 1, "1 of 3 criteria is not decided, 1 too close to call"),
     ] {
         let criteria = json!({
-            "failing": failing, "undecided": undecided, "count": 3, "too_close": 0,
-            "count_inactive": true, "all": [],
+            "failing": failing, "undecided": undecided, "count": 3, "too_close": close,
+            "holding": 3 - failing - undecided - close, "count_inactive": true, "all": [],
         });
         let text = page("check.txt", &json!({ "case": "c", "criteria": criteria }));
         assert!(text.starts_with(&format!("c: {words}\n")), "{text}");

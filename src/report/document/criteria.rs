@@ -38,14 +38,14 @@ fn outcome(judged: &Judged) -> &'static str {
 /// All criteria of a case, one for each line of `[criteria]`; none where the case asks for nothing.
 pub fn criteria(case: &Case, judged: &[Judged]) -> Option<Value> {
     let count = |of: &str| judged.iter().filter(|one| outcome(one) == of).count();
-    let undecided = count("not-decided");
     badge(judged).map(|badge| {
         json!({
             "badge": badge,
             "count": judged.len(),
-            // Those too close to call that do not hold included, those that are not decided not.
-            "failing": judged.iter().filter(|one| one.holds != Some(true)).count() - undecided,
-            "undecided": undecided,
+            "holding": judged.iter().filter(|one| one.holds == Some(true)).count(),
+            "failing": count("fails") + count("not-measured"),
+            "undecided": count("not-decided"),
+            // Those that hold, and those that an error alone keeps from it.
             "too_close": count("too-close-to-call"),
             "count_inactive": case.count_inactive,
             "contact_time": case

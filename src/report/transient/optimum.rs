@@ -56,7 +56,7 @@ pub fn optimum(case: &Case, best: &ClearanceOptimum, written: &Value, beside: &[
         "edges": edges(case, beside),
         "records": records,
         "feasible": written["criteria"].is_null()
-            || ["failing", "undecided"].iter().all(|key| written["criteria"][key] == 0),
+            || written["criteria"]["holding"] == written["criteria"]["count"],
         "clearance": clearance(best.design.clearance()),
         "own": { "clearance": clearance(case.design.clearance()), "value": simulated(best.own) },
         "alone": alone,
