@@ -1,4 +1,4 @@
-//! The units of a design and its pages: from a dimensionless number to SI, and from there ([`shown`]) to what a reader
+//! The units of a design and its pages: from a dimensionless number to SI, and from there (`shown`) to what a reader
 //! sees.
 
 mod shown;
