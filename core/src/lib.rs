@@ -45,7 +45,7 @@
 //!
 //! | layer | answers | begin with |
 //! | --- | --- | --- |
-//! | [`system`] | what moves: parameters that are proven valid once | [`System::new`](system::System::new) |
+//! | [`system`] | what moves: parameters that are proven valid once | [`System::physical`](system::System::physical), [`System::new`](system::System::new) |
 //! | [`analysis`] | what the theory of first order in `ε` says, in closed form | [`Analysis::of`](analysis::Analysis::of) |
 //! | [`orbits`] | exact periodic orbits at any `ε`, their bifurcations and branches | [`symmetric_orbits`](orbits::symmetric_orbits), [`branch::follow`](orbits::branch::follow) |
 //! | [`simulation`] | one trajectory, or many side by side, from event to event | [`Simulation::new`](simulation::Simulation::new) |

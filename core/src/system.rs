@@ -7,6 +7,7 @@
 
 mod band;
 mod parameter;
+mod physical;
 mod scales;
 mod shaking;
 
@@ -14,6 +15,9 @@ use serde::{Deserialize, Serialize};
 
 pub use band::{Band, BandOver, Stretch};
 pub use parameter::Parameter;
+pub use physical::{
+    Absorber, Harmonic, STANDARD_GRAVITY, Structure, gravity_shares, modal_stiffness,
+};
 pub use scales::Scales;
 pub use shaking::Shaking;
 
@@ -111,7 +115,8 @@ pub struct InvalidParameter {
 
 /// A dimensionless system whose parameters have been proven valid once, here.
 ///
-/// [`System::new`] checks every number and names the one that no system can have.
+/// [`System::new`] checks every number and names the one that no system can have; [`System::physical`] begins with those
+/// of a drawing.
 ///
 /// ```
 /// use vinesink_core::system::{Cavity, Excitation, Parameters, System};

@@ -1,19 +1,11 @@
 //! The dimensionless system of a design, and the units that lead back.
-//!
-//! Lengths are divided by the clearance `b`, time by `1/omega0` with `omega0 = sqrt(k1/m1)`,
-//! energies by `m1 omega0^2 b^2`. With `eps = m2/m1`:
-//! `lambda = c1/(m2 omega0)`, `Omega = 2 pi f/omega0`, and the reduced forcing `G = F/eps` for a
-//! base displacement `F` (equation (7) of Li, Seguy, Berlioz 2016) or `G = P/(k1 eps)` for a force
-//! `P`; `gamma = G/b`. Accelerations are over `b omega0^2`: of a cavity's gravity `g sin(alpha)` and friction
-//! `mu g cos(alpha)`, with standard gravity `g = 9.80665 m/s^2`.
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Design, Physical};
+use super::Design;
 use crate::excitation::{Release, Scene, SineSweep, Transient};
 use crate::quantity::Units;
-use crate::quantity::unit::STANDARD_GRAVITY;
-use crate::system::{Cavity, Excitation, InvalidParameter, Parameters, Scales, System};
+use crate::system::{InvalidParameter, Parameters, Scales, System};
 
 impl Design {
     /// The dimensionless system.
@@ -22,25 +14,15 @@ impl Design {
     /// [`InvalidParameter`] when values, each valid by itself, combine to a number that a double
     /// cannot hold, or when the design did not come from [`Case::parse`](super::Case::parse).
     pub fn system(&self) -> Result<System, InvalidParameter> {
-        let units = self.units();
-        let forcing_per_clearance = self.forcing() / units.clearance;
         match self {
-            Self::Physical(p) => System::new(Parameters {
-                mass_ratio: p.absorber_mass_kg / p.mass_kg,
-                damping: p.damping_n_s_per_m / (p.absorber_mass_kg * units.natural_frequency),
-                restitution: p.restitution,
-                frequency_ratio: units.frequency_ratio(p.frequency_hz),
-                forcing_per_clearance,
-                excitation: p.excitation,
-                cavity: cavity(p, &units),
-            }),
+            Self::Physical(p) => p.dimensionless().map(|(system, _)| system),
             Self::Reduced(r) => {
                 let system = System::new(Parameters {
                     mass_ratio: r.mass_ratio,
                     damping: r.damping,
                     restitution: r.restitution,
                     frequency_ratio: r.frequency_ratio.unwrap_or(1.0),
-                    forcing_per_clearance,
+                    forcing_per_clearance: r.forcing / r.clearance,
                     excitation: r.excitation,
                     cavity: r.cavity,
                 })?;
@@ -87,12 +69,7 @@ impl Design {
     /// The units of its results.
     pub fn units(&self) -> Units {
         let scales: Scales = match self {
-            Self::Physical(p) => Scales {
-                natural_frequency: p.natural_frequency_rad_per_s(),
-                oscillator_mass: p.mass_kg,
-                physical: true,
-                clearance: p.clearance_m,
-            },
+            Self::Physical(p) => Scales::of(&p.structure(), &p.absorber()),
             Self::Reduced(r) => Scales { clearance: r.clearance, ..Scales::REDUCED },
         };
         Units::from(scales).with_pulse(self.pulse())
@@ -111,30 +88,8 @@ impl Design {
     /// `G`, the reduced forcing, in metres or the design's own unit.
     pub fn forcing(&self) -> f64 {
         match self {
-            Self::Physical(p) => {
-                let displacement = match p.excitation {
-                    Excitation::BaseDisplacement => p.amplitude,
-                    Excitation::Force => p.amplitude / p.stiffness_n_per_m,
-                };
-                displacement / (p.absorber_mass_kg / p.mass_kg)
-            }
+            Self::Physical(p) => p.harmonic().reduced_forcing_m(&p.structure(), &p.absorber()),
             Self::Reduced(r) => r.forcing,
         }
-    }
-}
-
-/// Gravity and friction in a cavity, over `b omega0^2`; neither acts on an absorber that a pendulum or a spring carries.
-fn cavity(physical: &Physical, units: &Units) -> Cavity {
-    let Physical { friction, restitution_difference, .. } = *physical;
-    let unit = units.acceleration(1.0);
-    // A level cavity is level even where the unit is too small for a number.
-    let over_unit =
-        |share: f64| if share == 0.0 { 0.0 } else { STANDARD_GRAVITY.size * share / unit };
-    let carried = physical.support.is_some_and(|support| support.carries());
-    let [along, across] = if carried { [0.0; 2] } else { physical.gravity_shares() };
-    Cavity {
-        gravity_along: over_unit(along),
-        friction_acceleration: over_unit(friction * across),
-        restitution_difference,
     }
 }

@@ -2,7 +2,6 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use libm::sqrt;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -15,7 +14,9 @@ use super::support::{self, Orientation, Support, SupportKind};
 use crate::excitation::Transient;
 use crate::quantity::Dimension;
 use crate::quantity::numbers::rounded_to;
-use crate::system::Excitation;
+use crate::system::{
+    Absorber, Excitation, Harmonic, InvalidParameter, Scales, Structure, System, modal_stiffness,
+};
 
 /// The linear oscillator whose vibration is to be reduced.
 #[derive(Deserialize, JsonSchema)]
@@ -127,14 +128,45 @@ pub struct Physical {
 }
 
 impl Physical {
+    /// The linear oscillator.
+    pub const fn structure(&self) -> Structure {
+        Structure {
+            mass_kg: self.mass_kg,
+            stiffness_n_per_m: self.stiffness_n_per_m,
+            damping_n_s_per_m: self.damping_n_s_per_m,
+        }
+    }
+
+    /// The absorber; on one that a pendulum or a spring carries neither gravity nor friction acts.
+    pub fn absorber(&self) -> Absorber {
+        let ideal = Absorber {
+            restitution_difference: self.restitution_difference,
+            ..Absorber::new(self.absorber_mass_kg, self.clearance_m, self.restitution)
+        };
+        if self.support.is_some_and(|support| support.carries()) {
+            return ideal;
+        }
+        Absorber { inclination_rad: self.inclination_rad, friction: self.friction, ..ideal }
+    }
+
+    /// What drives the oscillator.
+    pub const fn harmonic(&self) -> Harmonic {
+        let Self { excitation, amplitude, frequency_hz, .. } = *self;
+        Harmonic { excitation, amplitude, frequency_hz }
+    }
+
+    pub(super) fn dimensionless(&self) -> Result<(System, Scales), InvalidParameter> {
+        System::physical(&self.structure(), &self.absorber(), &self.harmonic())
+    }
+
     /// `omega0 = sqrt(k1/m1)`, the natural frequency in rad/s.
     pub fn natural_frequency_rad_per_s(&self) -> f64 {
-        sqrt(self.stiffness_n_per_m) / sqrt(self.mass_kg)
+        self.structure().natural_frequency_rad_per_s()
     }
 
     /// `2 sqrt(k1 m1)`, the damping at which the oscillator alone ceases to ring, in N s/m.
     pub fn critical_damping_n_s_per_m(&self) -> f64 {
-        2.0 * sqrt(self.stiffness_n_per_m) * sqrt(self.mass_kg)
+        self.structure().critical_damping_n_s_per_m()
     }
 }
 
@@ -212,8 +244,7 @@ fn report_missing(reader: &mut Reader, root: &Table) {
 
 /// `k1` in N/m of a natural frequency in Hz and a mass in kg, each valid by itself.
 fn stiffness_of(reader: &mut Reader, table: &Table, frequency: f64, mass: f64) -> Option<f64> {
-    let omega0 = TAU * frequency;
-    let stiffness = mass * omega0 * omega0;
+    let stiffness = modal_stiffness(mass, frequency);
     if stiffness.is_finite() && stiffness > 0.0 {
         return Some(stiffness);
     }

@@ -7,7 +7,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use libm::{cos, sin, sqrt};
+use libm::{sin, sqrt};
 use vinesink_core::names;
 
 use super::inputs::Input;
@@ -17,8 +17,8 @@ use super::{Case, Design, Rounding};
 use crate::excitation::{Scene, Transient};
 use crate::linear::{BandSystems, bare_along};
 use crate::quantity::numbers::rounded_to;
-use crate::quantity::unit::STANDARD_GRAVITY;
 use crate::system::{Band, BandOver, Parameter, System};
+use crate::system::{STANDARD_GRAVITY, gravity_shares};
 
 names! { name:
     /// How a cavity lies.
@@ -69,18 +69,13 @@ const MOST_ROOM: f64 = 1e6;
 /// `g/(2 pi f)^2` in m: the length of a pendulum of a frequency in Hz, and by how much its weight stretches a spring.
 pub(super) fn static_length(frequency_hz: f64) -> f64 {
     let omega = TAU * frequency_hz;
-    STANDARD_GRAVITY.size / (omega * omega)
+    STANDARD_GRAVITY / (omega * omega)
 }
 
 impl Physical {
-    /// Shares of gravity along the cavity and across it.
-    pub(super) fn gravity_shares(&self) -> [f64; 2] {
-        shares(self.inclination_rad)
-    }
-
     /// How the cavity lies; none where it is inclined.
     pub fn orientation(&self) -> Option<Orientation> {
-        match shares(self.inclination_rad) {
+        match gravity_shares(self.inclination_rad) {
             [0.0, _] => Some(Orientation::Horizontal),
             [_, 0.0] => Some(Orientation::Vertical),
             _ => None,
@@ -92,13 +87,6 @@ impl Physical {
     pub fn support_length_m(&self) -> Option<f64> {
         length(self.support?, self.inclination_rad)
     }
-}
-
-/// Shares of gravity along a cavity of an inclination and across it.
-fn shares(inclination_rad: f64) -> [f64; 2] {
-    // The cosine of a rounded quarter turn is not 0, and yet nothing presses the absorber on an upright track.
-    let across = Some(cos(inclination_rad).abs()).filter(|share| *share > f64::EPSILON);
-    [sin(inclination_rad), across.unwrap_or_default()]
 }
 
 fn length(support: Support, inclination_rad: f64) -> Option<f64> {
@@ -214,7 +202,7 @@ pub(super) fn read(
         let said = absorber.support.is_some() || absorber.orientation.is_some();
         return Some((inclination, said.then_some(Support { kind, frequency_hz: None })));
     }
-    if kind == SupportKind::Pendulum && shares(inclination)[0] != 0.0 {
+    if kind == SupportKind::Pendulum && gravity_shares(inclination)[0] != 0.0 {
         let message = "a pendulum swings to and fro, and the cavity is not level";
         let expected = "expected a horizontal cavity, or support = \"spring\"";
         let help = "a soft spring carries what moves up and down: write support = \"spring\"";
@@ -270,7 +258,7 @@ fn inclination(reader: &mut Reader, table: &Table, absorber: &AbsorberTable) -> 
     // What is rounded at a quarter turn is one.
     let agree = match orientation {
         Orientation::Horizontal => given == 0.0,
-        Orientation::Vertical => shares(given)[1] == 0.0,
+        Orientation::Vertical => gravity_shares(given)[1] == 0.0,
     };
     let span = table.span_of_value("orientation");
     if !agree {

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::catalogue::Dimension;
+use crate::system::STANDARD_GRAVITY;
 
 /// A unit with a prefix.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +45,7 @@ const PER_INCH: [f64; 2] = [POUND_OF_FORCE[0], 254e9];
 /// Squared standard gravity.
 const GRAVITY_SQUARED: [f64; 2] = [980_665.0 * 980_665.0, 1e10];
 /// `9.80665 m/s²`.
-pub(crate) const STANDARD_GRAVITY: Unit = quotient("g", 9.80665, 1.0);
+pub(crate) const GRAVITY: Unit = quotient("g", STANDARD_GRAVITY, 1.0);
 const DEGREE: Unit = quotient("deg", PI, 180.0);
 
 impl Dimension {
@@ -86,7 +87,7 @@ impl Dimension {
         match self {
             Self::Length => const { &[quotient("in", INCH[0], INCH[1])] },
             Self::Velocity => const { &[quotient("in/s", INCH[0], INCH[1])] },
-            Self::Acceleration => const { &[STANDARD_GRAVITY] },
+            Self::Acceleration => const { &[GRAVITY] },
             Self::Mass => {
                 const { &[quotient("lb", POUND[0], POUND[1]), quotient("oz", POUND[0], 16.0 * POUND[1])] }
             }
@@ -168,7 +169,7 @@ impl Dimension {
                         unit("m/s2", 0),
                         unit("mm/s^2", -3),
                         unit("cm/s²", -2),
-                        STANDARD_GRAVITY,
+                        GRAVITY,
                         quotient("in/s²", INCH[0], INCH[1]),
                         quotient("in/s2", INCH[0], INCH[1]),
                     ]

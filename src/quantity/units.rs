@@ -7,8 +7,8 @@ use std::ops::Deref;
 
 use super::Quantity;
 use super::catalogue::{Dimension, Kind};
-use super::unit::STANDARD_GRAVITY;
 use crate::method::Method;
+use crate::system::STANDARD_GRAVITY;
 use crate::system::Scales;
 
 /// The units of a design and its pages: SI, or for a reduced design those of an oscillator with m1 = k1 = 1, lengths in
@@ -106,15 +106,14 @@ impl Units {
     /// The inclination in rad of a cavity along which gravity accelerates by so much over `b omega0^2`; none where that is
     /// more than gravity.
     pub fn inclination(&self, along: f64) -> Option<f64> {
-        let sine = self.acceleration(along) / STANDARD_GRAVITY.size;
+        let sine = self.acceleration(along) / STANDARD_GRAVITY;
         (sine.abs() <= 1.0).then(|| libm::asin(sine))
     }
 
     /// The coefficient of friction in a cavity by the accelerations of gravity along it and of friction, over
     /// `b omega0^2`; none where gravity does not press on it.
     pub fn friction(&self, accelerations: [f64; 2]) -> Option<f64> {
-        let [sine, friction] =
-            accelerations.map(|one| self.acceleration(one) / STANDARD_GRAVITY.size);
+        let [sine, friction] = accelerations.map(|one| self.acceleration(one) / STANDARD_GRAVITY);
         let coefficient = friction / ((1.0 - sine) * (1.0 + sine)).sqrt();
         coefficient.is_finite().then_some(coefficient)
     }

@@ -17,6 +17,7 @@ mod coexistence;
 mod contact;
 mod diagrams;
 mod dissipation;
+mod drawing;
 mod dynamics_kind;
 mod equations;
 mod fixed_point_curve;
