@@ -194,6 +194,8 @@ pub fn for_sweep(system: &System, scales: &Scales, sweep: &SineSweep) -> TunedMa
         let rate = if octaves { SweepRate::Octaves(rate) } else { SweepRate::Linear(rate) };
         let sweep = SineSweep { from, to, rate, turn: TAU };
         let how = Designing { steps: STEPS_OF_SWEEP, restarts: 1, ..Designing::USUAL };
-        best(usual, how, |damper| swept(&system, Some(damper), &Scales::REDUCED, &sweep).peak()[1])
+        best(usual, how, |damper| {
+            swept(&system, Some(damper), &Scales::REDUCED, &sweep, false).peak()[1]
+        })
     })
 }

@@ -115,7 +115,9 @@ const HALVINGS: u32 = 40;
 const POINTS: u32 = 40;
 /// Dampers over the usual one from the best of which one for little room is looked for.
 const TUNINGS: [f64; 3] = [0.95, 1.0, 1.05];
-const DAMPINGS: [f64; 8] = [1.0, 1.5, 2.2, 3.3, 5.0, 8.0, 12.0, 20.0];
+/// Their damping, as powers of the ratio from the usual one's to a heavy one.
+const DAMPINGS: [f64; 9] = [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
+const HEAVY: f64 = 4.0;
 
 /// What is known of a case.
 #[derive(Clone, Copy)]
@@ -292,8 +294,7 @@ fn asked(case: &Case) -> Measure {
     let first = case.criteria.first().map(|one| one.measure);
     match (case.design.scene(), first) {
         (Scene::Release, _) => Measure::DecayTime,
-        (Scene::Record, Some(Measure::Rms)) => Measure::Rms,
-        (Scene::Steady, Some(asked)) if asked.of_sine(1.0, 1.0).is_some() => asked,
+        (_, Some(asked)) if asked.of_sine(1.0, 1.0).is_some() => asked,
         _ => Measure::Peak,
     }
 }
@@ -342,7 +343,7 @@ fn absorber(
     let even = case.absorber_places().unwrap_or_default();
     let even = if case.recording.is_some() { even.min(PLACES_OF_RECORD) } else { even };
     let closer = case.recording.is_none();
-    let places = Places { even, closer, shaking: false, executor: on };
+    let places = Places { even, closer, shaking: measure.is_of_shaking(), executor: on };
     let Some(study) = Study::brief_of_case(case, places) else { return Ok(None) };
     let study = study?;
     let found = study.quantity(&units, measure, Device::Absorber);
@@ -374,16 +375,7 @@ impl Structure {
             return with(damping);
         }
         let room = room.map_or(f64::INFINITY, |room| room * self.case.design.clearance());
-        let fits = |ratio: f64| self.told(Some(&with(ratio)), Room::AsDesigned)[1] <= room;
-        let [mut least, mut most] = [from.damping_ratio, MOST_DAMPING];
-        if fits(least) {
-            return from;
-        }
-        for _ in 0..HALVINGS {
-            let middle = (least * most).sqrt();
-            if fits(middle) { most = middle } else { least = middle }
-        }
-        with(most)
+        more_damped(from, |damper| self.told(Some(damper), Room::AsDesigned)[1] <= room)
     }
 
     /// The damper whose worst value over this structure and others is smallest, within a room over the clearance, of a
@@ -407,16 +399,36 @@ impl Structure {
             let beyond = room.map_or(0.0, |room| (stroke / (room * clearance) - 1.0).max(0.0));
             worst * (1.0 + PENALTY * beyond)
         };
-        // What keeps a damper in little room may be far from what it does with much.
+        let Some(room) = room else { return dampers::best(from, how, cost) };
+        // What keeps a damper in little room may be far from what it does with much: from its damping up to a multiple of the
+        // critical one.
+        let ratio = HEAVY / from.damping_ratio.clamp(1e-6, 0.5 * HEAVY);
         let others = TUNINGS.iter().flat_map(|tuning| {
-            DAMPINGS.map(|damping| TunedMassDamper {
+            DAMPINGS.map(|part| TunedMassDamper {
                 tuning: tuning * from.tuning,
-                damping_ratio: damping * from.damping_ratio,
+                damping_ratio: from.damping_ratio * libm::pow(ratio, part),
             })
         });
-        let others = others.filter(|_| room.is_some()).chain([from]);
-        let first = others.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        let from = first.unwrap_or(from);
-        dampers::best(from, how, cost)
+        let first = others.chain([from]).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let found = dampers::best(first.unwrap_or(from), how, cost);
+        let fits = |damper: &TunedMassDamper| {
+            let strokes = all.iter().map(|one| one.told(Some(damper), Room::AsDesigned)[1]);
+            strokes.fold(0.0, f64::max) <= (1.0 + DESIGN) * room * clearance
+        };
+        more_damped(found, fits)
     }
+}
+
+/// A damper with as much more damping as it takes to fit.
+fn more_damped(from: TunedMassDamper, fits: impl Fn(&TunedMassDamper) -> bool) -> TunedMassDamper {
+    if fits(&from) {
+        return from;
+    }
+    let with = |damping_ratio: f64| TunedMassDamper { damping_ratio, ..from };
+    let [mut least, mut most] = [from.damping_ratio, MOST_DAMPING];
+    for _ in 0..HALVINGS {
+        let middle = (least * most).sqrt();
+        if fits(&with(middle)) { most = middle } else { least = middle }
+    }
+    with(most)
 }

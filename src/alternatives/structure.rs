@@ -9,7 +9,7 @@ use crate::linear::{
 };
 use crate::measure::{Device, Measure};
 use crate::system::{Band, System};
-use crate::transient::longest;
+use crate::transient::{Run, longest};
 
 /// Its case, and what drives it.
 pub(super) struct Structure {
@@ -60,6 +60,7 @@ impl Structure {
     pub fn told(&self, damper: Option<&TunedMassDamper>, room: Room) -> [f64; 2] {
         let damper = damper.map(|damper| damper.on_detuned(self.factor));
         let (system, units) = (self.case.system(), self.case.units());
+        let asked = |found: &dyn Run| found.get(self.measure).unwrap_or(f64::INFINITY);
         let [worst, stroke] = match self.case.design.transient() {
             None => self.along(damper.as_ref()),
             Some(Transient::Release(release)) => {
@@ -75,14 +76,16 @@ impl Structure {
                 [found.settles, found.stroke]
             }
             Some(Transient::Sweep(sweep)) => {
-                let found = swept(&system, damper.as_ref(), &units, &sweep);
-                [found.peak()[1], found.stroke]
+                let shaking = self.measure.is_of_shaking();
+                let found = swept(&system, damper.as_ref(), &units, &sweep, shaking);
+                [asked(&found), found.stroke]
             }
             Some(Transient::Record(_)) => {
                 let mut sums = [0.0; 2];
                 for pieces in &self.pieces {
-                    let found = driven(&system, damper.as_ref(), pieces);
-                    sums[0] += if self.measure == Measure::Rms { found.rms } else { found.peak };
+                    let shaking = self.measure.is_of_shaking();
+                    let found = driven(&system, damper.as_ref(), pieces, shaking);
+                    sums[0] += asked(&found);
                     sums[1] += found.stroke;
                 }
                 sums.map(|sum| sum / self.pieces.len() as f64)

@@ -135,7 +135,7 @@ impl SweepStudy {
             sweep: *sweep,
             starts: Self::starts(system, units, sweep, places, inactive)?,
             back: Passage::new(0, 0.0),
-            alone: swept(system, None, units, sweep),
+            alone: swept(system, None, units, sweep, places.shaking),
             units: *units,
             damped: OnceLock::new(),
             steady: Vec::new(),
@@ -175,7 +175,7 @@ impl SweepStudy {
         let there = study.worst().map(|(_, found)| found.clone());
         let damper = study.damped().0;
         let linear = |damper: Option<&TunedMassDamper>, sweep: &SineSweep| {
-            swept(system, damper, units, sweep)
+            swept(system, damper, units, sweep, false)
         };
         let by_rate = rates.iter().map(|other| {
             let found = if other == sweep { there.clone() } else { worst_of(other) };
@@ -208,7 +208,7 @@ impl SweepStudy {
         self.damped.get_or_init(|| {
             let Self { system, units, sweep, .. } = self;
             let damper = dampers::for_sweep(system, units, sweep);
-            (damper, swept(system, Some(&damper), units, sweep))
+            (damper, swept(system, Some(&damper), units, sweep, self.alone.shaking.is_some()))
         })
     }
 

@@ -162,8 +162,8 @@ fn realisations(
             _ => Response { trace: Vec::new(), ..response },
         };
         Ok(Realisation {
-            bare: kept(driven(system, None, pieces)),
-            damped: kept(driven(system, Some(&damper), pieces)),
+            bare: kept(driven(system, None, pieces, places.shaking)),
+            damped: kept(driven(system, Some(&damper), pieces, places.shaking)),
             places: Runs {
                 all: found.all.into_iter().map(|(w, response)| (w, kept(response))).collect(),
                 ..found
@@ -206,7 +206,7 @@ fn spectrum_point(
         for w in even(places) {
             worst = worst.max(follow(system, &pieces, w)?.peak);
         }
-        let linear = |damper| driven(system, damper, &pieces).peak;
+        let linear = |damper| driven(system, damper, &pieces, false).peak;
         for (sum, peak) in sums.iter_mut().zip([linear(None), worst, linear(Some(&damper))]) {
             *sum += peak;
         }

@@ -160,6 +160,37 @@ fn dampers_along_a_band_are_those_of_runge_and_kutta() {
     assert!(room.expect("a stroke") < 2.7e-3 * 1.002, "{room:?}");
 }
 
+/// A narrow band has a damper with little damping and much stroke, far from the one that fits: no damper of a grid that stays
+/// within the absorber's room is better by more than its steps leave, and the one that is told stays within.
+#[test]
+fn a_damper_in_the_absorbers_room_stays_within_it() {
+    let text = std::fs::read_to_string("docs/src/cases/foot.toml").expect("a case");
+    for clearance in [0.2, 1.0, 1.561, 2.5] {
+        let (case, found) =
+            compared("foot", text.replace("\"1 mm\"", &format!("\"{clearance} mm\"")));
+        let row = found.row(Which::DamperInEqualRoom, 0.0).expect("a row");
+        let stroke = 1e3 * row.stroke.expect("a damper");
+        assert!(stroke <= clearance * (1.0 + 1e-5), "{clearance} mm: {stroke} mm");
+        let system = case.system();
+        let band = |tuning: f64, damping_ratio: f64| {
+            let damper = TunedMassDamper { tuning, damping_ratio };
+            let at = |k: u32| {
+                let ratio = (11.6 + 0.8 * f64::from(k) / 40.0) / 12.0;
+                let there = system.with_frequency_ratio(ratio).expect("valid");
+                [damper.amplitude(&there), damper.stroke(&there)].map(|one| one * clearance)
+            };
+            (0..=40).map(at).fold([0.0_f64; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])])
+        };
+        let dampings = (0..=60).map(|k| libm::pow(10.0, -3.0 + 4.0 * f64::from(k) / 60.0));
+        let grid = dampings
+            .flat_map(|damping| (0..=60).map(move |k| (0.6 + 0.8 * f64::from(k) / 60.0, damping)));
+        let fits =
+            grid.map(|(tuning, damping)| band(tuning, damping)).filter(|one| one[1] <= clearance);
+        let best = fits.map(|one| one[0]).fold(f64::INFINITY, f64::min);
+        assert!(1e3 * row.worst[0] < 1.002 * best, "{clearance} mm: {row:?} against {best} mm");
+    }
+}
+
 /// What the first criterion asks about is compared: velocity and acceleration are largest at other frequencies
 /// than displacement.
 #[test]
@@ -196,6 +227,41 @@ fn dampers_are_compared_by_what_is_asked() {
             }
         }
         close(largest, row.worst[0], 0.01, key);
+    }
+}
+
+/// The same on the way through a resonance, from rest.
+#[test]
+fn dampers_of_a_sweep_are_compared_by_what_is_asked() {
+    let text = std::fs::read_to_string("cases/sweep-fast.toml").expect("a case");
+    let text =
+        text.replace("\"base-displacement\"", "\"force\"").replace("\"0.25 mm\"", "\"2.9 N\"");
+    for (key, limit, k) in [("peak_velocity", "0.2 m/s", 1), ("acceleration", "9 m/s2", 2)] {
+        let (case, found) = compared(key, format!("{text}\n[criteria]\n{key} = \"<= {limit}\"\n"));
+        let own = found.row(Which::Absorber, 0.0).expect("a row").worst;
+        let judged = Answer::of(&case, Asked::Criteria, None, &Serial).expect("answered").judged;
+        assert_eq!(Some(own[0]), judged[0].found, "{key}");
+        let natural = f64::sqrt(11.47e3 / 4.168) / TAU;
+        for (which, drift) in
+            [(Which::Damper, 0.0), (Which::DamperInEqualRoom, 0.0), (Which::NoAbsorber, 0.0)]
+        {
+            let row = found.row(which, drift).expect("a row");
+            let none = TunedMassDamper { tuning: 1e-9, damping_ratio: 0.0 };
+            let rig = Rig::of(&case, natural, &row.damper.unwrap_or(none), drift);
+            let force = |t: f64| 2.9 * libm::sin(TAU * (7.5 * t + 0.05 * t * t));
+            let (mut at, mut largest) = ([0.0; 4], [0.0_f64; 3]);
+            let h = 2.5e-4;
+            for step in 0..60_000 {
+                let time = f64::from(step) * h;
+                at = rig.step(at, time, h, &force);
+                let [velocity, acceleration, ..] = rig.rates(at, force(time + h));
+                for (one, seen) in largest.iter_mut().zip([at[0], velocity, acceleration]) {
+                    *one = one.max(seen.abs());
+                }
+            }
+            // Stretches of a sweep hold its frequency: 1e-3 of the motion.
+            close(largest[k], row.worst[0], 2e-3, key);
+        }
     }
 }
 

@@ -190,22 +190,44 @@ fn what_does_not_rattle_is_integrated_without_error() {
         for damper in [None, Some(&damper)] {
             let [spring, dashpot] = damper
                 .map_or([0.0; 2], |of| [of.tuning * of.tuning, 2.0 * of.damping_ratio * of.tuning]);
+            let force = |t: f64| sign * between(&record, t);
             let rate = |s: [f64; 4], t: f64| {
-                let force = sign * between(&record, t);
+                let force = force(t);
                 let pull = spring * (s[0] - s[2]) + dashpot * (s[1] - s[3]);
                 let own = force - s[0] - eps * lambda * s[1] - eps * pull;
                 [s[1], own, s[3], pull + if shakes { force } else { 0.0 }]
             };
             let (mut s, mut peak) = ([0.0; 4], 0.0_f64);
+            // Velocity of the base, largest absolute velocity and acceleration, and the integrals of their squares.
+            let (mut base, mut peaks, mut squares) = (0.0, [0.0_f64; 2], [0.0; 2]);
             for k in 0..35_000 {
-                s = runge_kutta(s, f64::from(k) * 1e-3, 1e-3, &rate);
+                let t = f64::from(k) * 1e-3;
+                s = runge_kutta(s, t, 1e-3, &rate);
                 peak = peak.max(s[0].abs());
+                let [before, after] = [t, t + 1e-3].map(|t| if shakes { force(t) } else { 0.0 });
+                base -= 0.5e-3 * (before + after);
+                let absolute = [s[1] + base, rate(s, t + 1e-3)[1] - after];
+                for k in 0..2 {
+                    peaks[k] = peaks[k].max(absolute[k].abs());
+                    squares[k] += 1e-3 * absolute[k] * absolute[k];
+                }
             }
-            let found =
-                driven(&system(eps, lambda, 0.6), damper, &record.pieces(&UNITS, Record::LONGEST));
+            let pieces = record.pieces(&UNITS, Record::LONGEST);
+            let found = driven(&system(eps, lambda, 0.6), damper, &pieces, true);
             // Exact at ends of pieces; the peak by cubics, 0.2^4/384 of it.
             assert!((last(&found) - s[0]).abs() < 1e-10, "{quantity:?}");
             assert!((found.peak - peak).abs() < 5e-6 * peak, "{} {peak}", found.peak);
+            // The integration is read at the ends of its steps: the largest between them, and the first and last of a sum.
+            let told = found.shaking.expect("asked for");
+            let [rms_velocity, rms_acceleration] = squares.map(|one| f64::sqrt(one / 35.0));
+            for (found, exact) in [
+                (told.peak_velocity, peaks[0]),
+                (told.peak_acceleration, peaks[1]),
+                (told.rms_velocity, rms_velocity),
+                (told.rms_acceleration, rms_acceleration),
+            ] {
+                assert!((found / exact - 1.0).abs() < 3e-5, "{quantity:?} {found} {exact}");
+            }
         }
     }
 }
@@ -219,6 +241,7 @@ fn a_sudden_force_swings_to_twice_its_displacement() {
         &system(0.01, 2.0 * zeta / 0.01, 0.6),
         None,
         &record.pieces(&UNITS, Record::LONGEST),
+        false,
     );
     let exact = 0.3 * (1.0 + libm::exp(-PI * zeta / (1.0 - zeta * zeta).sqrt()));
     assert!((found.peak / exact - 1.0).abs() < 5e-6, "{} {exact}", found.peak);
@@ -342,7 +365,7 @@ fn noise_of_a_spectrum_shakes_as_it_must() {
     for record in spectrum.records(RecordQuantity::BaseAcceleration) {
         let sum: f64 = record.samples.iter().map(|sample| sample[1] * sample[1]).sum();
         inputs.push(sum / record.samples.len() as f64);
-        let found = driven(&of, None, &record.pieces(&UNITS, Record::LONGEST));
+        let found = driven(&of, None, &record.pieces(&UNITS, Record::LONGEST), false);
         squares.push(found.rms * found.rms);
     }
     let built_up = 1.0 - 1.0 / (2.0 * zeta * spectrum.duration);
@@ -396,13 +419,13 @@ fn the_worst_place_counts() {
     assert_eq!(ask(Measure::Peak), worst);
     assert_eq!(worst[0], flown.iter().map(|one| one.1).fold(0.0, f64::max));
     let even = flown[..8].iter().map(|one| one.1).fold(0.0, f64::max);
-    let bare = driven(&of, None, &pieces).peak;
+    let bare = driven(&of, None, &pieces, false).peak;
     let own = study.spectrum.iter().find(|point| point.ratio == 1.0).expect("its own frequency");
     assert_eq!((own.bare, own.absorber), (bare, even));
     let [reduction, _] = ask(Measure::ReductionDb);
     assert!((reduction - 20.0 * libm::log10(bare / worst[0])).abs() < 1e-12);
     // Twice as stiff a structure in the same units of SI: time runs sqrt(2) times as fast.
     let stiff = Scales { natural_frequency: study.spectrum[20].ratio, ..UNITS };
-    let stiff = driven(&of, None, &record.pieces(&stiff, Record::LONGEST)).peak;
+    let stiff = driven(&of, None, &record.pieces(&stiff, Record::LONGEST), false).peak;
     assert_eq!(study.spectrum[20].bare, stiff);
 }

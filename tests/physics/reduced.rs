@@ -130,7 +130,7 @@ fn a_sweep_is_the_same_without_units() {
         let start = State { y: 0.5, ..State::AT_REST };
         [
             Passage::follow(&system, &units, &sweep, start).expect("flown"),
-            swept(&system, None, &units, &sweep),
+            swept(&system, None, &units, &sweep, false),
         ]
     };
     let [physical, reduced] = [&physical, &reduced].map(flown);

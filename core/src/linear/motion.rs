@@ -8,8 +8,8 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{Meter, Passage, Response, STEPS, Settling, TunedMassDamper};
 use crate::excitation::{Piece, SineSweep, amplitude};
-use crate::numerics::extremes::Cubic;
-use crate::system::{Scales, State, System};
+use crate::numerics::extremes::{Cubic, RateSums};
+use crate::system::{Scales, Shaking, State, System};
 
 /// A linear structure on its way to rest, per step as [`Ringdown`](crate::flights::Ringdown).
 #[derive(Debug, Clone, PartialEq)]
@@ -107,16 +107,22 @@ fn stopped(
 }
 
 /// The structure with a damper, or alone, at rest until it is driven. A straight line of the excitation is a state
-/// of its own, with which a step is a matrix exponential.
-pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece]) -> Response {
+/// of its own, with which a step is a matrix exponential. Velocity and acceleration are measured where they are asked for.
+pub fn driven(
+    system: &System,
+    damper: Option<&TunedMassDamper>,
+    pieces: &[Piece],
+    shaking: bool,
+) -> Response {
     let mass_ratio = damper.map_or(0.0, |_| system.mass_ratio());
     let mut meter = Meter::new(mass_ratio, system.mass_ratio() * system.damping());
     let mut state = State::AT_REST;
     let mut of_duration = (0.0, Square::identity());
+    let mut rates = Square::zeros();
+    let mut shakes = shaking.then(RateSums::default);
     for piece in pieces {
         meter.jump(piece, &mut state);
         if (of_duration.0 - piece.duration).abs() > SAME * piece.duration {
-            let mut rates = Square::zeros();
             let free = matrix(system, damper);
             rates.fixed_view_mut::<4, 4>(0, 0).copy_from(&free.fixed_view::<4, 4>(0, 0));
             // The force acts on the structure, that of a base which shakes on both masses; and it grows.
@@ -127,15 +133,36 @@ pub fn driven(system: &System, damper: Option<&TunedMassDamper>, pieces: &[Piece
         }
         let State { x, x_velocity, y, y_velocity } = state;
         let [force, slope] = piece.force;
-        let at_end =
-            of_duration.1 * LinearState::from([x, x_velocity, y, y_velocity, force, slope]);
+        let begin = LinearState::from([x, x_velocity, y, y_velocity, force, slope]);
+        let at_end = of_duration.1 * begin;
+        if let Some(sums) = &mut shakes {
+            // The base, which moves by as much as the force is its inertia.
+            let base = f64::from(u8::from(piece.shakes));
+            let absolute = |at: &LinearState, s: f64| {
+                let [velocity, acceleration, jerk] = shaken(&rates, at);
+                let moves = piece.base - base * s * (force + 0.5 * s * slope);
+                [velocity + moves, acceleration - base * at[4], jerk - base * slope]
+            };
+            let ends = [absolute(&begin, 0.0), absolute(&at_end, piece.duration)];
+            sums.add_short(piece.duration, ends);
+        }
         let end =
             State { x: at_end[0], x_velocity: at_end[1], y: at_end[2], y_velocity: at_end[3] };
         meter.moved(piece, [0.0, piece.duration], [&state, &end]);
         meter.passed(piece, &end);
         state = end;
     }
-    meter.finished()
+    Response {
+        shaking: shakes.map(|sums| Shaking::of(sums.peaks, sums.mean_squares())),
+        ..meter.finished()
+    }
+}
+
+/// Velocity, acceleration and jerk of the structure.
+fn shaken(rates: &Square, state: &LinearState) -> [f64; 3] {
+    let first = rates * state;
+    let second = rates * first;
+    [first[0], second[0], (rates * second)[0]]
 }
 
 /// Relative difference of steps that are one: even times of a record are rounded.
@@ -144,21 +171,25 @@ const SAME: f64 = 1e-12;
 /// Steps in a period: cubics between two of them are off by `h^4/384`, 1.5e-8 of the motion.
 const STEPS_OF_PERIOD: u32 = 128;
 
-/// The structure with a damper, or alone, from rest through a sweep.
+/// The structure with a damper, or alone, from rest through a sweep. Velocity and acceleration are measured where they are
+/// asked for.
 pub fn swept(
     system: &System,
     damper: Option<&TunedMassDamper>,
     scales: &Scales,
     sweep: &SineSweep,
+    shaking: bool,
 ) -> Passage {
     let mut found = Passage::new(sweep.count(), 0.0);
+    let mut shakes = shaking.then(RateSums::default);
     let mut state = LinearState::zeros();
     for stretch in sweep.stretches(scales) {
         let Ok(piece) = stretch.system(system) else { break };
         let left = TAU - stretch.begins;
         let steps = libm::ceil(left / TAU * f64::from(STEPS_OF_PERIOD)) as u32;
         let duration = stretch.duration() / f64::from(steps);
-        let step = exponential(matrix(&piece, damper) * duration);
+        let rates = matrix(&piece, damper);
+        let step = exponential(rates * duration);
         let (sine, cosine) = libm::sincos(stretch.begins);
         (state[4], state[5]) = (sine, cosine);
         let mut peak = 0.0_f64;
@@ -166,10 +197,14 @@ pub fn swept(
             let after = step * state;
             let [x, stroke] = largest(duration, [&state, &after]);
             (peak, found.stroke) = (peak.max(x), found.stroke.max(stroke));
+            if let Some(sums) = &mut shakes {
+                sums.add_short(duration, [&state, &after].map(|at| shaken(&rates, at)));
+            }
             state = after;
         }
         found.passed(&stretch, peak);
     }
+    found.shaking = shakes.map(|sums| Shaking::of(sums.peaks, sums.mean_squares()));
     found
 }
 

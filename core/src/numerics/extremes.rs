@@ -114,6 +114,42 @@ impl Cubic {
     }
 }
 
+/// Largest velocity and acceleration, the integrals of their squares, and the time that they are over.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct RateSums {
+    pub peaks: [f64; 2],
+    pub squares: [f64; 2],
+    pub time: f64,
+}
+
+impl RateSums {
+    /// Adds a stretch so short that velocity and acceleration are cubics in it, by velocity, acceleration and jerk at both of
+    /// its ends: off by `h^4/384`.
+    pub fn add_short(&mut self, duration: f64, ends: [[f64; 3]; 2]) {
+        self.time += duration;
+        for k in 0..2 {
+            let cubic = Cubic::of(duration, ends.map(|at| [at[k], at[k + 1]]));
+            self.peaks[k] = self.peaks[k].max(cubic.largest());
+            self.squares[k] += cubic.square();
+        }
+    }
+
+    /// Both together.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        Self {
+            peaks: [0, 1].map(|k| self.peaks[k].max(other.peaks[k])),
+            squares: [0, 1].map(|k| self.squares[k] + other.squares[k]),
+            time: self.time + other.time,
+        }
+    }
+
+    /// Mean square velocity and acceleration; 0 where no time has passed.
+    pub fn mean_squares(&self) -> [f64; 2] {
+        self.squares.map(|one| if self.time > 0.0 { one / self.time } else { 0.0 })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Cubic, largest};

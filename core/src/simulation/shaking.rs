@@ -5,7 +5,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::events::{Detail, Observer, Segment};
-use crate::numerics::extremes::{self, Cubic};
+use crate::numerics::extremes::{self, RateSums};
 use crate::numerics::quadrature;
 use crate::operation_count;
 use crate::system::{Shaking, System};
@@ -41,10 +41,7 @@ pub struct ShakingMeter {
     short: bool,
     /// Velocity of the frame in which segments are told.
     frame: f64,
-    /// Largest velocity and acceleration, integrals of their squares, and the time that they are over.
-    peaks: [f64; 2],
-    squares: [f64; 2],
-    time: f64,
+    sums: RateSums,
 }
 
 impl ShakingMeter {
@@ -58,9 +55,7 @@ impl ShakingMeter {
             first_panel: FRAC_PI_4 / decaying,
             short: false,
             frame: 0.0,
-            peaks: [0.0; 2],
-            squares: [0.0; 2],
-            time: 0.0,
+            sums: RateSums::default(),
         }
     }
 
@@ -76,36 +71,31 @@ impl ShakingMeter {
     }
 
     /// Measures from zero on, and gives what was measured before.
-    pub(crate) const fn taken(&mut self) -> Self {
+    pub(crate) fn taken(&mut self) -> Self {
         let before = *self;
-        (self.peaks, self.squares, self.time) = ([0.0; 2], [0.0; 2], 0.0);
+        self.sums = RateSums::default();
         before
     }
 
     /// Both together.
     #[must_use]
     pub(crate) fn and(self, other: &Self) -> Self {
-        let pair =
-            |k: usize| (self.peaks[k].max(other.peaks[k]), self.squares[k] + other.squares[k]);
-        let [(p, q), (r, s)] = [0, 1].map(pair);
-        Self { peaks: [p, r], squares: [q, s], time: self.time + other.time, ..self }
+        Self { sums: self.sums.and(&other.sums), ..self }
     }
 
     /// Largest absolute velocity and acceleration so far.
     pub(crate) const fn peaks(&self) -> [f64; 2] {
-        self.peaks
+        self.sums.peaks
     }
 
     /// Mean square velocity and acceleration so far; 0 where no time has passed.
     pub(crate) fn mean_squares(&self) -> [f64; 2] {
-        self.squares.map(|one| if self.time > 0.0 { one / self.time } else { 0.0 })
+        self.sums.mean_squares()
     }
 
     /// What was measured so far.
     pub fn found(&self) -> Shaking {
-        let [rms_velocity, rms_acceleration] = self.mean_squares().map(f64::sqrt);
-        let [peak_velocity, peak_acceleration] = self.peaks;
-        Shaking { peak_velocity, rms_velocity, peak_acceleration, rms_acceleration }
+        Shaking::of(self.sums.peaks, self.sums.mean_squares())
     }
 
     /// Velocity, acceleration and jerk a time `s` after a segment began.
@@ -126,18 +116,15 @@ impl Observer for ShakingMeter {
     fn segment(&mut self, segment: &Segment) {
         let duration = segment.duration;
         let seen = *self;
-        self.time += duration;
         if self.short {
             let ends = [0.0, duration].map(|s| seen.rates(segment, s));
-            for k in 0..2 {
-                let cubic = Cubic::of(duration, ends.map(|at| [at[k], at[k + 1]]));
-                self.peaks[k] = self.peaks[k].max(cubic.largest());
-                self.squares[k] += cubic.square();
-            }
+            self.sums.add_short(duration, ends);
             return;
         }
+        let sums = &mut self.sums;
+        sums.time += duration;
         let largest = extremes::largest_each(duration, self.panel, |s| seen.rates(segment, s));
-        for (peak, one) in self.peaks.iter_mut().zip(largest) {
+        for (peak, one) in sums.peaks.iter_mut().zip(largest) {
             *peak = peak.max(one);
         }
         // Eight nodes on a quarter of a turn leave 2e-15 of a square of sinusoids.
@@ -146,7 +133,7 @@ impl Observer for ShakingMeter {
             let at = segment.motion.at(s);
             let rates = [at.v + seen.frame, segment.motion.acceleration(s, at)];
             operation_count::note(2 * operation_count::ELEMENTARY + 14);
-            for (sum, rate) in self.squares.iter_mut().zip(rates) {
+            for (sum, rate) in sums.squares.iter_mut().zip(rates) {
                 *sum += weight * rate * rate;
             }
         });

@@ -28,6 +28,13 @@ impl<T> Shaking<T> {
 }
 
 impl Shaking {
+    /// Of the largest velocity and acceleration, and their mean squares.
+    pub(crate) fn of([velocity, acceleration]: [f64; 2], mean_squares: [f64; 2]) -> Self {
+        let [rms_velocity, rms_acceleration] = mean_squares.map(f64::sqrt);
+        let (peak_velocity, peak_acceleration) = (velocity, acceleration);
+        Self { peak_velocity, rms_velocity, peak_acceleration, rms_acceleration }
+    }
+
     /// That of a sine: its amplitude and frequency ratio.
     pub fn of_sine(amplitude: f64, frequency: f64) -> Self {
         let velocity = amplitude * frequency;

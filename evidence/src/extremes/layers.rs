@@ -368,11 +368,11 @@ const SWEEP: SineSweep =
 
 fn sweep(system: &System) -> Result<LayerAnswer, String> {
     // A cavity that nobody reaches the end of.
-    let wide = 10.0 * swept(system, None, &Scales::REDUCED, &SWEEP).peak()[1].max(1.0);
+    let wide = 10.0 * swept(system, None, &Scales::REDUCED, &SWEEP, false).peak()[1].max(1.0);
     let in_wide = system.with_clearance_scaled(wide).map_err(|error| error.to_string())?;
     let flown = Passage::follow(&in_wide, &Scales::REDUCED, &SWEEP, State::AT_REST);
     let flown = flown.map_err(|error| error.to_string())?;
-    let alone = swept(system, None, &Scales::REDUCED, &SWEEP).peak()[1];
+    let alone = swept(system, None, &Scales::REDUCED, &SWEEP, false).peak()[1];
     let values = [("alone", alone), ("flown", wide * flown.peak()[1])];
     Ok((values.map(|(name, value)| (name.to_owned(), value)).into(), Vec::new()))
 }
@@ -386,6 +386,6 @@ fn record(system: &System) -> Result<LayerAnswer, String> {
         Record { quantity: RecordQuantity::Force, samples: LINES.into(), base_velocity: 0.0 };
     let pieces = record.pieces(&Scales::REDUCED, Record::LONGEST);
     let flown = follow(system, &pieces, 0.0).map_err(|error| error.to_string())?;
-    let values = [("alone", driven(system, None, &pieces).peak), ("flown", flown.peak)];
+    let values = [("alone", driven(system, None, &pieces, false).peak), ("flown", flown.peak)];
     Ok((values.map(|(name, value)| (name.to_owned(), value)).into(), Vec::new()))
 }

@@ -91,7 +91,10 @@ fn choice(found: &Alternatives) -> Value {
     let drift = |value: f64| Quantity::new(&of::FREQUENCY_DRIFT, value, Method::Given);
     // From the first on from which it wins at all that are further.
     let lost = drifts.iter().rposition(|one| winner(Which::Damper, *one) != Some(Winner::Absorber));
-    let wins_from = drifts.get(lost.map_or(0, |last| last + 1));
+    let harms = |one: &f64| winner(Which::NoAbsorber, *one) == Some(Winner::Damper);
+    let harmful: Vec<f64> = drifts.iter().skip(1).copied().filter(harms).collect();
+    // To be better than a damper is nothing where no device is better still.
+    let wins_from = drifts.get(lost.map_or(0, |last| last + 1)).filter(|one| !harms(one));
     json!({
         "of_time": found.measure == Measure::DecayTime,
         "inactive": found.inactive,
@@ -103,6 +106,8 @@ fn choice(found: &Alternatives) -> Value {
         "winner_changed": winner(Which::DamperOfChangedFrequency, 0.0),
         // The least drift from which on the absorber is the better one.
         "wins_from": wins_from.map(|one| drift(*one)),
+        // Those at which it is worse than no device.
+        "harmful": harmful.into_iter().map(drift).collect::<Vec<_>>(),
         "robust_winner": drifts.last().and_then(|last| robust(*last)),
     })
 }
