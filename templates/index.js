@@ -1,37 +1,8 @@
-"use strict";
-(() => {
   const all = (selector, within = document) => [...within.querySelectorAll(selector)];
-  const body = document.querySelector("#cases tbody");
-  const rows = [...body.rows];
-  const byName = new Map(rows.map((row, place) => [row, place]));
   all(".scripted").forEach((part) => { part.hidden = false; });
-
-  // What a cell is sorted by; undefined, which comes last in either direction, for nothing.
-  const key = (row, column, kind) => {
-    const cell = row.cells[column];
-    if (kind === "text") return cell.textContent;
-    return cell.dataset.order === undefined ? undefined : Number(cell.dataset.order);
-  };
-  const sort = (head) => {
-    const down = head.getAttribute("aria-sort") === "ascending";
-    all("#cases th[aria-sort]").forEach((other) => other.removeAttribute("aria-sort"));
-    head.setAttribute("aria-sort", down ? "descending" : "ascending");
-    const { cellIndex: column, dataset: { kind } } = head;
-    rows.sort((a, b) => {
-      const [left, right] = [key(a, column, kind), key(b, column, kind)];
-      const missing = (left === undefined) - (right === undefined);
-      const order = left === right ? 0 : (left < right ? -1 : 1) * (down ? -1 : 1);
-      return missing || order || byName.get(a) - byName.get(b);
-    });
-    body.append(...rows);
-  };
-  all("#cases th[data-kind]").forEach((head) => {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = head.textContent;
-    button.addEventListener("click", () => sort(head));
-    head.replaceChildren(button);
-  });
+  const number = ({ dataset: { order } }) => (order === undefined ? undefined : Number(order));
+  const key = (cell, head) => (head.dataset.kind === "text" ? cell.textContent : number(cell));
+  sortable(document.querySelector("#cases"), all("#cases th[data-kind]"), key);
 
   const boxes = all("#cases input[type=checkbox]");
   const numbers = document.querySelector("#numbers");
@@ -60,4 +31,3 @@
   });
   // A browser may keep the boxes of an earlier visit.
   compare();
-})();

@@ -14,17 +14,16 @@ use super::mathml::to_mathml;
 use super::template;
 use crate::quantity::Units;
 
+/// Drawings as SVG by their names: the usual one, and one for the screen of a phone, which may be empty.
+pub type Drawings = BTreeMap<String, (String, String)>;
+
 /// The page as HTML, called by its first heading: of its Markdown, with the files that it links to after it, and of
-/// its drawings as SVG by their names. `tone` is the class of the first quotation, the verdict: `good`, `mixed`, `bad`,
+/// its drawings. `tone` is the class of the first quotation, the verdict: `good`, `mixed`, `bad`,
 /// or nothing.
 ///
 /// # Errors
 /// [`RenderError::Formula`] if a formula is not understood.
-pub fn page(
-    tone: &str,
-    markdown: &str,
-    drawings: &BTreeMap<String, String>,
-) -> Result<String, RenderError> {
+pub fn page(tone: &str, markdown: &str, drawings: &Drawings) -> Result<String, RenderError> {
     let mut writer = PageWriter { tone, drawings: Some(drawings), ..PageWriter::default() };
     let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
     let mut events = Vec::new();
@@ -48,7 +47,7 @@ pub fn page(
 #[derive(Default)]
 struct PageWriter<'a> {
     tone: &'a str,
-    drawings: Option<&'a BTreeMap<String, String>>,
+    drawings: Option<&'a Drawings>,
     /// The first heading.
     title: Option<String>,
     /// Anchors and headings of the table of contents.
@@ -190,10 +189,12 @@ impl<'a> PageWriter<'a> {
         };
         let file = part("src").unwrap_or_default();
         let name = file.rsplit('/').next().unwrap_or_default().trim_end_matches(".svg");
-        let Some(drawing) = self.drawings.and_then(|all| all.get(name)) else {
+        let Some((usual, narrow)) = self.drawings.and_then(|all| all.get(name)) else {
             return out.push(html(image.to_owned()));
         };
-        out.push(html(format!("<figure><div class=\"drawing\" tabindex=\"0\">{drawing}</div>")));
+        out.push(html(format!(
+            "<figure><div class=\"drawing\" tabindex=\"0\">{usual}{narrow}</div>"
+        )));
         self.figure = Caption::Expected;
     }
 
@@ -270,7 +271,8 @@ mod tests {
 
     #[test]
     fn a_page_has_its_drawings_formulas_and_contents() {
-        let drawings = BTreeMap::from([("map".to_owned(), "<svg></svg>".to_owned())]);
+        let drawings =
+            BTreeMap::from([("map".to_owned(), ("<svg></svg>".to_owned(), String::new()))]);
         let markdown = "# Case & co\n\n> **Works.** Yes.\n\n<img src=\"figures/map.svg\" width=\"720\" alt=\"A map\">\n\nWhat to see.\n\n## Theory, (18)\n\n| a | b |\n| --- | ---: |\n| $x^2$ | [c](validation.md#claims) |\n";
         let text = page("good", markdown, &drawings).expect("a page");
         for part in [

@@ -42,12 +42,12 @@ pub fn embed(report: &str, live: &str, text: &str) -> Result<String, EmbedError>
     let (style, module, script) = (style?, module?, script?);
     let styles = format!("style-src '{}' ", hash(style, PARTS[0]));
     let scripts =
-        format!("script-src '{}' 'wasm-unsafe-eval'; worker-src blob:", hash(script, PARTS[2]));
+        format!("worker-src blob:; script-src '{}' 'wasm-unsafe-eval' ", hash(script, PARTS[2]));
     let panel = template::render("live.html", &Units::reduced(), &json!({ "text": text }))?;
     let entry = "<li><a href=\"#live\">Live</a></li>\n</ol>\n</nav>";
     let page = report
         .replacen("style-src ", &styles, 1)
-        .replacen("script-src 'none'", &scripts, 1)
+        .replacen("script-src ", &scripts, 1)
         .replacen("</head>", &format!("{style}\n</head>"), 1)
         .replacen("</ol>\n</nav>", entry, 1)
         .replacen("</main>", &format!("{panel}</main>"), 1);

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::document::figure_row;
 pub use super::error::RenderError;
 use super::figure::{self, Figure};
-use super::html;
+use super::html::{self, Drawings};
 use super::template;
 use crate::quantity::Units;
 
@@ -139,13 +139,16 @@ fn appendix(name: &str, page: &str) -> String {
     page.lines().map(line).collect()
 }
 
-/// Every figure as SVG, by its name.
-fn drawings(figures: &[Figure]) -> Result<BTreeMap<String, String>, RenderError> {
-    let each = figures.iter();
-    each.map(|figure| Ok((figure.name.clone(), figure::render(figure)?))).collect()
+/// Every figure as SVG by its name: as its file has it, and one for a phone, or nothing.
+fn drawings(figures: &[Figure]) -> Result<Drawings, RenderError> {
+    let both = |figure: &Figure| {
+        let narrow = figure.narrow().map(|figure| figure::render(&figure)).transpose()?;
+        Ok((figure.name.clone(), (figure::render(figure)?, narrow.unwrap_or_default())))
+    };
+    figures.iter().map(both).collect()
 }
 
-fn figure_files(drawings: BTreeMap<String, String>) -> Files {
+fn figure_files(drawings: Drawings) -> Files {
     let path = |name: String| format!("figures/{name}.svg");
-    texts(drawings.into_iter().map(|(name, drawing)| (path(name), drawing))).collect()
+    texts(drawings.into_iter().map(|(name, (drawing, _))| (path(name), drawing))).collect()
 }

@@ -260,6 +260,99 @@ fn the_index_does_without_scripts() {
     assert_eq!(page.evaluate(dead), 0, "controls that do nothing");
 }
 
+/// Where no pointer rests, the keyboard and a finger tell what a marked point is.
+#[test]
+fn a_marked_point_is_told_by_the_arrow_keys_and_under_a_finger() {
+    let Some(mut browser) = browser() else { return };
+    for view in [DESKTOP, PHONE] {
+        let mut page = browser.page(view);
+        page.open(&REPORTS.join("further").join(FURTHER).join("report.html"));
+        let titles = "drawing = document.querySelector('.drawing:has(+ .told)'),
+            svg = [...drawing.querySelectorAll('svg')].find((one) => one.checkVisibility()),
+            titles = [...svg.querySelectorAll('svg * > title')].map((title) => title.textContent),
+            told = () => drawing.nextElementSibling.textContent, titles";
+        let titles = page.evaluate(titles);
+        let titles: Vec<&str> =
+            titles.as_array().expect("texts").iter().filter_map(|text| text.as_str()).collect();
+        assert!(titles.len() > 2 && titles[0].contains(": "), "{titles:?}");
+        page.evaluate("drawing.focus({ preventScroll: true })");
+        let mut press = |key: &str, code| {
+            page.press(key, code, "");
+            page.evaluate("told()")
+        };
+        assert_eq!(press("ArrowRight", 39), titles[0]);
+        assert_eq!(press("ArrowRight", 39), titles[1]);
+        assert_eq!(press("ArrowLeft", 37), titles[0]);
+        assert_eq!(press("ArrowLeft", 37), titles[titles.len() - 1]);
+        assert_eq!(press("Escape", 27), "");
+        // A click is a finger's touch: near a point, and far from all.
+        page.evaluate(
+            "new Promise((done) => { drawing.scrollIntoView({ block: 'center', behavior: 'instant' });
+                requestAnimationFrame(() => requestAnimationFrame(done)); })",
+        );
+        let point = "((box) => [box.x, box.y])(svg.querySelectorAll('svg * > title')[1].parentNode.getBoundingClientRect())";
+        let point = page.evaluate(point);
+        let [x, y] = [0, 1].map(|k| point[k].as_f64().expect("a number"));
+        page.drag([x, y], [x, y], 1);
+        assert_eq!(page.evaluate("told()"), titles[1]);
+        let corner = "((box) => [box.x + 3, box.y + 3])(drawing.getBoundingClientRect())";
+        let corner = page.evaluate(corner);
+        let corner = [0, 1].map(|k| corner[k].as_f64().expect("a number"));
+        page.drag(corner, corner, 1);
+        assert_eq!(page.evaluate("told()"), "");
+    }
+}
+
+/// A number is one of its unit, whatever its prefix; a list of different quantities has no order.
+#[test]
+fn tables_sort_by_a_column() {
+    let Some(mut browser) = browser() else { return };
+    let mut page = browser.page(DESKTOP);
+    page.open(&REPORTS.join("further").join(FURTHER).join("report.html"));
+    checks::unfold(&mut page);
+    let heads = "[...document.querySelectorAll('.table')].map((table) =>
+        [...table.querySelectorAll('th')].map((head) => head.textContent + (head.querySelector('button') ? ' sorts' : '')))";
+    let heads = page.evaluate(heads);
+    let table = |first: &str| {
+        let mut tables = heads.as_array().expect("tables").iter();
+        tables.position(|heads| heads[0].as_str().is_some_and(|head| head.starts_with(first)))
+    };
+    for (first, sorts) in
+        [("Device", true), ("Boundary", true), ("Criterion", false), ("Quantity", false)]
+    {
+        let head = &heads[table(first).expect("a table")][0];
+        assert_eq!(head.as_str().expect("a text").ends_with(" sorts"), sorts, "{head}");
+    }
+    // By the structure's shift, one of the amplitudes in another prefix.
+    let devices = table("Device").expect("a table");
+    let column = format!(
+        "table = document.querySelectorAll('.table')[{devices}], rows = () => [...table.querySelectorAll('tbody tr')],
+        last = () => rows().map((row) => row.cells[row.cells.length - 1].textContent.split(' (')[0]),
+        rows()[1].cells[rows()[1].cells.length - 1].textContent = '1020\u{a0}\u{b5}m',
+        sort = () => [...table.querySelectorAll('th button')].at(-1).click(), sort(), last()"
+    );
+    let wanted = ["0.923 mm", "1020 \u{b5}m", "1.04 mm", "1.15 mm", "3.06 mm", "3.39 mm"]
+        .map(|one| one.replace(' ', "\u{a0}"));
+    assert_eq!(page.evaluate(&column), json!(wanted));
+    // A change has its sign in front.
+    let boundary = table("Boundary").expect("a table");
+    let changes = page.evaluate(&format!(
+        "table = document.querySelectorAll('.table')[{boundary}], table.querySelectorAll('th button')[4].click(),
+        [...table.querySelectorAll('tbody tr')].map((row) => row.cells[4].textContent[0])"
+    ));
+    assert_eq!(changes, json!(["\u{2212}", "+", "+", "+", "+"]));
+    let last = "[...table.querySelectorAll('tbody tr')].at(-1).cells[4].textContent";
+    assert_eq!(page.evaluate(last), "+204\u{a0}%");
+    page.evaluate(&format!("table = document.querySelectorAll('.table')[{devices}]"));
+    // What has no number comes last, up and down.
+    let stroke = |page: &mut Page| {
+        page.evaluate(
+            "table.querySelectorAll('th button')[1].click(), rows().at(-1).cells[1].textContent",
+        )
+    };
+    assert_eq!([stroke(&mut page), stroke(&mut page)], ["\u{2013}", "\u{2013}"]);
+}
+
 /// The checks themselves: each must see what it is there for.
 #[test]
 fn faults_are_found() {

@@ -55,6 +55,29 @@ fn gallery_words_neither_touch_nor_are_cut() {
     }
 }
 
+/// On a phone too: panels one above the other, as far as the words have room.
+#[test]
+fn narrow_words_neither_touch_nor_are_cut() {
+    let all = gallery::all();
+    let narrow: Vec<Figure> = all.iter().filter_map(Figure::narrow).collect();
+    assert!(narrow.len() > all.len() / 2, "{} of {}", narrow.len(), all.len());
+    for figure in narrow {
+        assert_eq!(figure.size.0, 400);
+        let texts = draw(&figure).unwrap().texts;
+        common::words_are_apart(&figure, &texts);
+    }
+}
+
+/// Words that a phone has no room for, and a figure that is nothing but bars, keep the usual drawing.
+#[test]
+fn what_would_not_be_read_is_not_narrow() {
+    let curve = || Layer::curve(Role::Stable, vec![[0.0, 0.0], [1.0, 1.0]]);
+    assert!(simple(vec![curve().labelled("short")]).narrow().is_some());
+    let long = "words that go on and on and on and on, beyond all that a phone has room for";
+    assert!(simple(vec![curve().labelled(long)]).narrow().is_none());
+    assert!(simple(vec![curve()]).with_size(720, 110).narrow().is_none());
+}
+
 #[test]
 fn gallery_words_are_large_enough_at_full_size() {
     for figure in gallery::all() {

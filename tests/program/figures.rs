@@ -74,6 +74,10 @@ fn check(case: &Case) -> Vec<String> {
         assert!(!figure.title.is_empty(), "{name}");
         common::caption_is_short(figure);
         common::words_are_apart(figure, &drawing.texts);
+        if let Some(narrow) = figure.narrow() {
+            let drawing = draw(&narrow).unwrap_or_else(|error| panic!("{}: {error}", case.title));
+            common::words_are_apart(&narrow, &drawing.texts);
+        }
     }
     let allowed = 190_000 + 30_000 * case.report.figures.len();
     assert!(sum < allowed, "{}: {sum} bytes", case.title);

@@ -257,7 +257,7 @@ fn every_claim_is_told() {
 fn markdown_becomes_a_page() {
     let facts = shipped("li2016-band");
     let markdown = page("steady.md", &facts);
-    let drawings = std::collections::BTreeMap::new();
+    let drawings = html::Drawings::new();
     let html = html::page("bad", &markdown, &drawings).expect("a page");
     assert!(html.contains("<section class=\"verdict bad\">") && html.contains("<table>"));
     assert_eq!(html.matches("<div class=\"table tiles\"").count(), 1);

@@ -10,7 +10,7 @@ use crate::report::chart::Chart;
 use crate::report::figure::{
     Color, Dash, Figure, Layer, MarkedPoint, Marker, Panel, Role, Shape, Style,
 };
-use crate::study::plots::{AmplitudeCurves, BandCurves};
+use crate::study::plots::{AmplitudeCurves, BandCurves, Line};
 use crate::study::scenes::WalkPoint;
 
 use super::parts;
@@ -32,14 +32,13 @@ pub(super) fn band(scene: &DrawnCase, data: &BandCurves) -> Option<Figure> {
         BandOver::Amplitude => scene.forcing.0,
     };
     let chart = scene.chart([kind, &of::PEAK], [band.range, [0.0, top]]);
-    let damper = Style::new(Color::Orange, 1.6, Dash::LongDashed);
     let marks = found.iter().map(|(at, what)| scene.mark(&chart, *at, what));
     let marker = Marker::filled(Shape::Cross).sized(7.0);
     let [stable, unstable] = &data.orbits;
     let mut panel = chart
         .panel()
         .with(Layer::curve(Role::BareOscillator, data.bare.clone()).labelled("without absorber"))
-        .with(Layer::curve(damper, data.damper.clone()).labelled("tuned mass damper"))
+        .with(damper(&data.damper))
         .with(Layer::curve(Role::Unstable, unstable.clone()).labelled("unstable 1:1"))
         .with(Layer::curve(Role::Stable, stable.clone()).labelled("stable 1:1 (exact)"))
         .with(Layer::marked(marker, Role::Simulation.color(), marks).labelled("simulated"));
@@ -59,6 +58,12 @@ pub(super) fn band(scene: &DrawnCase, data: &BandCurves) -> Option<Figure> {
         "inactive": survey.count_rest && survey.motions.rest_at().is_some(),
     });
     Some(scene.figure("band", "captions/band", facts).with_panel(panel))
+}
+
+/// The response with a tuned mass damper.
+fn damper(line: &Line) -> Layer {
+    let style = Style::new(Color::Orange, 1.6, Dash::LongDashed);
+    Layer::curve(style, line.clone()).labelled("tuned mass damper")
 }
 
 /// Simulated peaks along the band where they are not the exact orbit's.
@@ -91,6 +96,7 @@ pub(super) fn amplitude(scene: &DrawnCase, data: &AmplitudeCurves) -> Figure {
     let mut panel = chart
         .panel()
         .with(Layer::curve(Role::BareOscillator, data.bare.clone()).labelled("without absorber"))
+        .with(damper(&data.damper))
         .with(Layer::curve(Role::Unstable, unstable.clone()).labelled("unstable 1:1"))
         .with(Layer::curve(Role::Stable, stable.clone()).labelled("stable 1:1 (theory)"));
     for (attracts, name) in [(true, "exact stable orbit"), (false, "exact unstable orbit")] {

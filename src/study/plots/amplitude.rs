@@ -1,4 +1,5 @@
-//! Peak displacement of the oscillator over frequency: theory, exact orbits, simulation, and without absorber.
+//! Peak displacement of the oscillator over frequency: theory, exact orbits, simulation, without absorber, and with a tuned
+//! mass damper.
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
@@ -30,6 +31,8 @@ pub struct AmplitudeCurves {
     pub window: [f64; 2],
     /// Without absorber.
     pub bare: Line,
+    /// With the tuned mass damper of its mass instead.
+    pub damper: Line,
     /// The theory's 1:1 motions: the stable ones, and the others.
     pub theory: [Line; 2],
     /// Exact 1:1 orbits that are motions, with their frequency ratio.
@@ -48,13 +51,17 @@ impl AmplitudeCurves {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
         let window = window(system);
         let over = |count| even(window[0], window[1], count);
-        let peak_at = |ratio: f64| {
-            let there = system.with_frequency_ratio(ratio);
-            [ratio, there.map_or(f64::NAN, |there| bare_amplitude(&there))]
+        let mut ratios: Vec<f64> = over(BARE).chain([system.frequency_ratio(), 1.0]).collect();
+        ratios.sort_by(f64::total_cmp);
+        let linear = |amplitude: &dyn Fn(&System) -> f64| -> Line {
+            let at = |ratio: &f64| {
+                let there = system.with_frequency_ratio(*ratio);
+                [*ratio, there.map_or(f64::NAN, |there| amplitude(&there))]
+            };
+            ratios.iter().map(at).collect()
         };
-        let mut bare: Line =
-            over(BARE).chain([system.frequency_ratio(), 1.0]).map(peak_at).collect();
-        bare.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let bare = linear(&bare_amplitude);
+        let damper = linear(&|there| study.rivals.damper.amplitude(there));
         let half = 0.5 * (window[1] - window[0]) / f64::from(SWEEP);
         let middles: Vec<f64> = even(window[0] + half, window[1] - half, SWEEP - 1).collect();
         let simulated = visited(&middles, |ratio| system.with_frequency_ratio(ratio))?;
@@ -71,7 +78,7 @@ impl AmplitudeCurves {
         let orbits = |ratio| steady_orbits_at(system.with_frequency_ratio(ratio).ok());
         let exact = over(EXACT).flat_map(|at| orbits(at).into_iter().map(move |one| (at, one)));
         let exact = exact.filter(|(_, one)| one.orbit.admissibility.admissible).collect();
-        Ok(Self { window, bare, theory, exact, simulated, here, top })
+        Ok(Self { window, bare, damper, theory, exact, simulated, here, top })
     }
 }
 

@@ -36,6 +36,9 @@ const LAYOUT: &str = "(() => {
     for (const part of document.querySelectorAll('math, svg, img, table')) {
         // The first numbers are cards on a phone, and their table is no box.
         if (part.closest('[hidden]') || getComputedStyle(part).display === 'contents') continue;
+        // Of two drawings one is for a phone.
+        const twin = part.matches('.drawing svg') && (part.nextElementSibling ?? part.previousElementSibling);
+        if (twin && getComputedStyle(part).display === 'none' && twin.checkVisibility()) continue;
         const at = part.getBoundingClientRect();
         if (at.width < 1 || at.height < 1) wrong.push(`no size: ${name(part)}`);
         else if ((at.left < -1 || at.right > width + 1) && !scrolls(part))
@@ -117,6 +120,7 @@ pub fn tooltips(page: &mut Page) -> Result<u64, String> {
             for (const title of document.querySelectorAll('svg title')) {
                 const mark = title.parentElement;
                 if (mark.tagName === 'svg' || !title.textContent.trim()) continue;
+                if (!mark.closest('svg').checkVisibility()) continue;
                 mark.scrollIntoView({ block: 'center', inline: 'center', behavior: 'instant' });
                 const at = mark.getBoundingClientRect();
                 const there = document.elementFromPoint(
