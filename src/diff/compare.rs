@@ -9,6 +9,9 @@ use super::reader::{label, sorted, without_elements};
 use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::motions::wilson;
 
+/// Elements of a list from which on it is told as one where the other side has none.
+const MANY: usize = 8;
+
 /// What has a way of its own; all else is compared value by value. Of these it is compared which fields there are.
 const APART: [&str; 10] = [
     "asked",
@@ -238,6 +241,15 @@ impl Comparator<'_> {
             return;
         }
         let key = path.rsplit('/').next().unwrap_or(path);
+        // What one side did not look at is one thing that came or went.
+        if old.is_empty() != new.is_empty() && old.len() + new.len() >= MANY {
+            let count = |of: &[Value]| match of.len() {
+                0 => Value::Null,
+                count => json!(format!("{count} entries")),
+            };
+            self.found.states.push(change(path, &count(old), &count(new)));
+            return;
+        }
         let (old, new) = (named(key, old), named(key, new));
         // A figure whose drawing came or went is told as that.
         let [drawn, redrawn] = [self.old, self.new].map(|of| &of.figures);

@@ -314,7 +314,7 @@ fn another_main_motion_is_compared_with_the_old_one() {
     let printed = diff(Path::new("."), &[&old, &new], 1);
     for row in [
         "\n> Works: less vibration than without absorber.",
-        "| Main motion | strongly-modulated | two-symmetric | |",
+        "| Main motion | strongly modulated response | two symmetric impacts per period | |",
         "| Peak displacement | ",
         " | 3.587 mm | −",
         "| Absorber clearance | 28 mm | 20 mm |",
@@ -353,6 +353,19 @@ fn motions_and_reports_that_appear_or_vanish_are_told() {
 }
 
 /// A criterion in `report.json`, with lengths in mm.
+/// What one side did not look at is one line, however much the other found.
+#[test]
+fn a_list_that_one_side_has_is_told_as_one() {
+    let folder = two_trees(&[STEADY]);
+    edit(&folder, STEADY, "/combined", |list| {
+        assert_eq!(*list, json!([]), "without criteria nothing is combined");
+        *list = (0..9).map(|k| json!({ "outcome": "holds", "of": k })).collect();
+    });
+    let printed = diff(folder.path(), &["old", "new"], 1);
+    assert!(printed.contains("| Combination | – | 9 entries |"), "{printed}");
+    assert!(!printed.contains("| Combination 1 |"), "{printed}");
+}
+
 fn criterion(name: &str, asked: &str, found: f64, error: f64, outcome: &str) -> Value {
     let holds = match outcome {
         "not-measured" => Value::Null,
