@@ -23,13 +23,15 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 21] = [
+const NOT_IN_A_BROWSER: [&str; 23] = [
     "analyze",
     "captions/record",
     "captions/release",
     "captions/sine-sweep",
     "captions/sweep",
-    "check",
+    "check.github",
+    "check.txt",
+    "check.xml",
     "clearance",
     "diff",
     "evidence",

@@ -109,6 +109,18 @@ impl Checked {
     }
 }
 
+/// The criteria of a case that were judged, in Markdown, under a name: nothing of what else could be done or how far they hold.
+///
+/// # Errors
+/// As [`Checked::text`].
+pub fn table(name: &str, case: &Case, judged: &[Judged]) -> Result<String, RenderError> {
+    let page = json!({
+        "case": name, "criteria": criteria(case, judged), "error": null, "outside": null, "choice": null,
+        "ranges": null, "reliability": null,
+    });
+    render("check.md", &case.units(), &page)
+}
+
 /// A JUnit report: a suite for each case, a test for each criterion; one that is an error for a case that
 /// could not be checked.
 ///

@@ -391,6 +391,43 @@ fn the_best_clearance_is_the_programs() {
     assert_eq!(text(&mut page), best);
 }
 
+/// The criteria, over the band: what `vinesink check` says.
+#[test]
+fn criteria_are_judged_as_check_judges_them() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    page.evaluate("((choose) => { choose.value = '1'; choose.dispatchEvent(new Event('change')); })(document.querySelector('.live-bar select'))");
+    settle(&mut page);
+    let folder = tempfile::tempdir().expect("a folder");
+    for slides in [None, Some(700)] {
+        if let Some(position) = slides {
+            slide(&mut page, "clearance", position);
+            settle(&mut page);
+        }
+        let shown = page.evaluate(
+            "[...document.querySelectorAll('.live-decision :is(tr, p)')].map((one) =>
+                one.cells ? [...one.cells].map((cell) => cell.textContent).join(' | ') : one.textContent)",
+        );
+        let case = folder.path().join("Criteria.toml");
+        fs::write(&case, text(&mut page)).expect("written");
+        let mut check = Command::cargo_bin("vinesink").expect("built");
+        let output = check
+            .args(["check", "--criteria-only", "--format", "markdown"])
+            .arg(&case)
+            .output()
+            .expect("run");
+        let said = String::from_utf8(output.stdout).expect("text").replace("**", "");
+        let lines = said.lines().map(|line| line.trim_matches(['|', ' ']).to_owned());
+        let lines: Vec<String> =
+            lines.filter(|line| !line.is_empty() && !line.starts_with("---")).collect();
+        let shown: Vec<&str> =
+            shown.as_array().expect("lines").iter().filter_map(|one| one.as_str()).collect();
+        let request = json!({ "ask": "judge", "text": text(&mut page) });
+        assert!(shown.len() > 2, "{shown:?} {}", page.evaluate(&format!("{LIVE}.ask({request})")));
+        assert_eq!(shown, lines);
+    }
+}
+
 /// What one sees first: a scale that stays while the motion goes on, and a title that says whose numbers these are; a finger
 /// beside the star scrolls, and nothing jumps while the page fills.
 #[test]

@@ -82,6 +82,8 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+/** Whether drawings are for a phone. */
+const narrow = () => innerWidth < 640;
 const DAMAGED = "The link is damaged; this is another case.";
 /** Periods after which the simulation of a case is first seen: its verdict is of what comes after the transient. */
 const SETTLED = 400;
@@ -96,10 +98,11 @@ function Live(place) {
   const wanted = (name) => !shown || shown.includes(name);
   let text = "", controls = [], notes = [], past = [], future = [], asked = 0, waiting = null;
   const values = new Map(), sliders = new Map(), figures = new Map();
-  let here, desks, compiled, seeker = null, keeps = false, choose;
+  let here, desks, compiled, seeker = null, judge = null, keeps = false, judges = false, written, choose;
   const status = make("p", { class: "live-status", role: "status" });
   const problem = make("p", { class: "live-problem", role: "alert", hidden: true });
   const verdict = make("div", { class: "live-verdict", "aria-live": "polite" });
+  const decision = make("div", { class: "live-decision", "aria-live": "polite" });
   const panel = make("form", { class: "live-sliders", "aria-label": "Sliders", onsubmit: (e) => e.preventDefault() });
   const board = make("div", { class: "live-figures" });
   // One understands the first figures first; the others are a fold deeper.
@@ -131,7 +134,7 @@ function Live(place) {
     }
     const presets = here.ask({ ask: "presets" });
     document.body.classList.toggle("live-small", Boolean(shown));
-    const parts = [["running", running.figure], ["verdict", verdict]].filter(([name]) => wanted(name)).map(([, part]) => part);
+    const parts = [["running", running.figure], ["verdict", verdict], ["decision", decision]].filter(([name]) => wanted(name)).map(([, part]) => part);
     place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
       make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board, shown ? "" : fold)));
     const own = document.getElementById("live-case")?.textContent;
@@ -218,6 +221,7 @@ function Live(place) {
     complain(answer.problems);
     if (answer.problems) {
       // No verdict stands there for a case that was refused.
+      decided([]);
       verdict.replaceChildren(make("p", {}, "The case was refused. Sliders and figures are those of the case before."));
       return;
     }
@@ -230,7 +234,7 @@ function Live(place) {
     panel.replaceChildren(make("h3", {}, answer.title), ...rows.filter(isFirst),
       make("details", { class: "live-further", hidden: Boolean(chosen) }, make("summary", {}, "Mass and damping"), ...rows.filter((row, k) => !isFirst(row, k))));
     rows.forEach((row, k) => { row.hidden = chosen && !chosen.includes(controls[k].key); });
-    notes = answer.notes;
+    [notes, judges] = [answer.notes, answer.judges];
     running.change(text, "push", SETTLED);
     change(new Map());
   }
@@ -277,7 +281,7 @@ function Live(place) {
   /** The case with other values: at once what is cheap, the rest when it comes. */
   function change(some) {
     const begin = performance.now();
-    const answer = here.ask({ ask: "change", text, values: Object.fromEntries(some) });
+    const answer = here.ask({ ask: "change", text, values: Object.fromEntries(some), narrow: narrow() });
     complain(answer.problems);
     if (answer.problems) return show(controls, true);
     const other = answer.text !== text;
@@ -329,13 +333,27 @@ function Live(place) {
     const needsStudy = !shown || shown.some((name) => !["map", "sim", "running"].includes(name));
     await Promise.all([
       wanted("map") && !skipped && drawMap(),
-      needsStudy && desks[1].ask({ ask: "study", text }).then(done(showStudy)),
+      needsStudy && desks[1].ask({ ask: "study", text, narrow: narrow() }).then(done(showStudy)),
     ]);
   }
   async function drawMap() {
     skipped = false;
-    const version = asked, answer = await desks[0].ask({ ask: "map", text });
+    const version = asked, answer = await desks[0].ask({ ask: "map", text, narrow: narrow() });
     if (version === asked) showMap(answer);
+  }
+
+  /** Criteria over the case's band, in a worker of their own: that may take seconds. */
+  async function decide() {
+    if (!judges) return decided([]);
+    judge ??= new Desk(compiled, document.getElementById("live-script").textContent);
+    const version = asked;
+    decision.classList.add("live-older");
+    const { markdown } = await judge.ask({ ask: "judge", text });
+    if (version === asked) decided(markdown ? blocks(markdown) : []);
+  }
+  function decided(parts) {
+    decision.classList.remove("live-older");
+    decision.replaceChildren(...parts);
   }
 
   /** The clearance that the program would choose, in a worker of its own: it takes seconds. */
@@ -367,7 +385,8 @@ function Live(place) {
 
   /** Until everything on the page belongs to the sliders. */
   async function settled() {
-    while (waiting !== null || place.querySelector("[aria-busy=true]")) await new Promise((done) => setTimeout(done, 5));
+    while (waiting !== null || place.querySelector("[aria-busy=true], .live-older")) await new Promise((done) => setTimeout(done, 5));
+    await written;
   }
 
   function old(element) { element.setAttribute("aria-busy", "true"); }
@@ -397,20 +416,35 @@ function Live(place) {
     if (answer.problems) return complain(answer.problems);
     verdict.replaceChildren(...firstScreen(answer), ...notes.map((note) => make("p", { class: "live-note" }, note)));
     const version = asked;
-    if (keeps) link().then((address) => { if (version === asked) history.replaceState(null, "", address); });
+    if (keeps) written = link().then((address) => { if (version === asked) history.replaceState(null, "", address); });
     fresh(verdict);
     track(answer);
+    if (wanted("decision")) decide();
     const names = new Set(answer.figures.map(({ name }) => name)).add("map").add("sim");
     for (const [name, figure] of figures) if (!names.has(name)) { figure.remove(); figures.delete(name); }
     answer.figures.forEach(draw);
   }
 
+  // The Markdown of the program: a line, a sentence of it, and a row of a table.
+  const plain = (line) => line.replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code));
+  const sentence = (line) => make("p", {}, ...plain(line).split("**").map((part, k) => k % 2 ? make("strong", {}, part) : part));
+  const cells = (line) => line.split("|").slice(1, -1).map((cell) => plain(cell.trim()));
+  /** Sentences, and a table. */
+  function blocks(markdown) {
+    const lines = markdown.split("\n").filter((line) => line), isRow = (line) => line.startsWith("|");
+    const [heads, , ...rows] = lines.filter(isRow).map(cells);
+    const row = (tag, cells) => make("tr", {}, ...cells.map((cell) => make(tag, {}, cell)));
+    const table = heads && make("div", { class: "table", tabindex: 0, role: "region", "aria-label": "Criteria" },
+      make("table", {}, make("thead", {}, row("th", heads)), make("tbody", {}, ...rows.map((cells) => row("td", cells)))));
+    const [first, ...others] = lines.filter((line) => !isRow(line)).map(sentence);
+    return [first, table, ...others].filter(Boolean);
+  }
+
   /** The verdict and the first numbers, from the Markdown of the report. */
   function firstScreen({ first_screen, document: { verdict: { tone } } }) {
-    const lines = first_screen.split("\n"), plain = (line) => line.replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code));
-    const sentence = (line) => make("p", {}, ...plain(line).split("**").map((part, k) => k % 2 ? make("strong", {}, part) : part));
+    const lines = first_screen.split("\n");
     const some = (begin) => lines.filter((line) => line.startsWith(begin)).map((line) => sentence(line.slice(2)));
-    const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map((line) => line.split("|").slice(1, -1).map((cell) => plain(cell.trim())));
+    const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map(cells);
     return [make("section", { class: `verdict ${tone ?? ""}` }, ...some("> ")), ...some("- "),
       make("dl", { class: "live-numbers" }, ...names.map((name, k) => make("div", {}, make("dt", {}, name), make("dd", {}, numbers[k], make("small", {}, layers[k])))))];
   }
@@ -499,7 +533,7 @@ function Running(engine, say) {
     make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. Grey and dashed: the same structure without an absorber."),
     make("details", {}, make("summary", {}, "Times between impacts"), map,
       make("p", { class: "live-note" }, "The time between impacts over the one before, in periods; two evenly spaced impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents.")));
-  new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(this.figure);
+  new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(scene);
 
   /** Runs a case on from where the simulation is, or anew: at rest, or with an absorber that was pushed. */
   this.change = (text, from, unseen = 0) => {

@@ -11,6 +11,7 @@ use vinesink::executor::Serial;
 use vinesink::optimize::{Optimization, Task};
 use vinesink::quantity::Dimension;
 use vinesink::quantity::catalogue::{CLEARANCE, LARGEST_PEAK};
+use vinesink::report::criteria;
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{self, Figure, PlacedPanel};
 use vinesink::report::{figures, template};
@@ -30,13 +31,28 @@ enum Request {
     /// The sliders of a case.
     Open { text: String },
     /// The case with other values, in SI; then what a frame of a moving picture has time for.
-    Change { text: String, values: BTreeMap<String, f64> },
+    Change {
+        text: String,
+        values: BTreeMap<String, f64>,
+        #[serde(default)]
+        narrow: bool,
+    },
     /// The map of the areas, without the mark of the case.
-    Map { text: String },
+    Map {
+        text: String,
+        #[serde(default)]
+        narrow: bool,
+    },
     /// The report as data, its first screen, and its figures.
-    Study { text: String },
+    Study {
+        text: String,
+        #[serde(default)]
+        narrow: bool,
+    },
     /// The running simulation is of this case now: what its lengths are over, and the structure without an absorber.
     Run { text: String, from: From },
+    /// The criteria of a case, over its band where it has one, in Markdown.
+    Judge { text: String },
     /// The absorber that serves a case best, as the program chooses it.
     Optimize { text: String },
 }
@@ -73,9 +89,9 @@ fn answer(request: Request) -> Result<Value, Value> {
     match request {
         Request::Presets => Ok(PRESETS.iter().map(|(name, text)| json!([name, text])).collect()),
         Request::Open { text } => Ok(opened(&parsed(&text)?, &text)),
-        Request::Change { text, values } => change(&text, &values),
-        Request::Map { text } => map(&read(&text)?),
-        Request::Study { text } => study(&read(&text)?),
+        Request::Change { text, values, narrow } => change(&text, &values, narrow),
+        Request::Map { text, narrow } => map(&read(&text)?, narrow),
+        Request::Study { text, narrow } => study(&read(&text)?, narrow),
         Request::Run { text, from } => {
             let case = read(&text)?;
             let (system, clearance) = (case.system(), case.units().clearance);
@@ -85,8 +101,17 @@ fn answer(request: Request) -> Result<Value, Value> {
                 "clearance": clearance / unit.size, "unit": unit.symbol, "bare": running::bare(&system),
             }))
         }
+        Request::Judge { text } => judged(&parsed(&text)?),
         Request::Optimize { text } => best(&parsed(&text)?, &text),
     }
+}
+
+/// What `vinesink check --criteria-only` says of a case.
+fn judged(case: &Case) -> Result<Value, Value> {
+    let answer = Answer::steady(case, Asked::Criteria, None, case.effort(), &Serial);
+    let answer = answer.map_err(words)?;
+    let table = criteria::table("Criteria", case, &answer.judged).map_err(words)?;
+    Ok(json!({ "markdown": table }))
 }
 
 /// The case with the best absorber, where that is better than its own and meets what it asks for, and what is said of it.
@@ -153,23 +178,27 @@ fn read(text: &str) -> Result<Case, Value> {
 
 fn opened(case: &Case, text: &str) -> Value {
     let mut notes = Vec::new();
-    if case.band.is_some() || !case.criteria.is_empty() {
-        notes.push(
-            "What stands here is at the excitation of the sliders alone. The case also has a band or criteria, \
-             which vinesink check and report judge: they may say otherwise.",
-        );
+    let judges = !case.criteria.is_empty();
+    let alone = "The verdict and the figures are of the excitation of the sliders alone";
+    if judges {
+        notes.push(format!(
+            "{alone}; the criteria below are judged over all that the case asks for."
+        ));
+    } else if case.band.is_some() {
+        notes.push(format!("{alone}, not of the case's band, which vinesink report shows."));
     }
     if !case.system().cavity().is_ideal() {
         notes.push(
             "The case has a tilt, friction or walls that differ; they stay as they are. The restitution is the mean \
-             of both walls.",
+             of both walls."
+                .to_owned(),
         );
     }
     let controls = controls::controls(case);
-    json!({ "text": text, "title": case.title, "controls": controls, "notes": notes })
+    json!({ "text": text, "title": case.title, "controls": controls, "notes": notes, "judges": judges })
 }
 
-fn change(text: &str, values: &BTreeMap<String, f64>) -> Result<Value, Value> {
+fn change(text: &str, values: &BTreeMap<String, f64>, narrow: bool) -> Result<Value, Value> {
     let case = parsed(text)?;
     let mut design = case.design;
     for (key, value) in values {
@@ -185,8 +214,10 @@ fn change(text: &str, values: &BTreeMap<String, f64>) -> Result<Value, Value> {
     let case = alone(changed.case);
     let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
     let manifold = drawn(&case, &sketch, &[Plot::Manifold])?;
-    answer["figures"] =
-        manifold.into_iter().map(|figure| Ok(shown(figure)?.0)).collect::<Result<_, Value>>()?;
+    answer["figures"] = manifold
+        .into_iter()
+        .map(|figure| Ok(shown(figure, narrow)?.0))
+        .collect::<Result<_, Value>>()?;
     Ok(answer)
 }
 
@@ -194,8 +225,9 @@ fn drawn(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Result<Vec<Figure>, 
     template::worded(figures::all(case, study, plots), &case.units()).map_err(words)
 }
 
-/// A figure for the page, and where its panels are.
-fn shown(figure: Figure) -> Result<(Value, Vec<PlacedPanel>), Value> {
+/// A figure for the page, or for that on a phone, and where its panels are.
+fn shown(figure: Figure, narrow: bool) -> Result<(Value, Vec<PlacedPanel>), Value> {
+    let figure = if narrow { figure.narrow().unwrap_or(figure) } else { figure };
     let drawing = figure::draw(&figure).map_err(words)?;
     let mut row = document::figure_row(&figure);
     row["svg"] = drawing.svg.into();
@@ -204,7 +236,7 @@ fn shown(figure: Figure) -> Result<(Value, Vec<PlacedPanel>), Value> {
 
 /// The map, the rectangle of its data in shares of the drawing, its axes, and where the case is on them: the
 /// page draws the mark, which a reader may drag.
-fn map(case: &Case) -> Result<Value, Value> {
+fn map(case: &Case, narrow: bool) -> Result<Value, Value> {
     let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
     if case.system().forcing_per_clearance() == 0.0 {
         return Err(words("nothing drives this case: there is no map"));
@@ -213,8 +245,11 @@ fn map(case: &Case) -> Result<Value, Value> {
     let mut figure =
         drawn(case, &sketch, &[plot])?.pop().ok_or_else(|| words("there is no map"))?;
     let at = figure.take_case();
+    if narrow {
+        figure = figure.narrow().unwrap_or(figure);
+    }
     let (width, height) = figure.size;
-    let (mut answer, panels) = shown(figure)?;
+    let (mut answer, panels) = shown(figure, false)?;
     if let (Some(panel), Some(at)) = (panels.first(), at) {
         let [left, right] = [panel.room.left, panel.room.right].map(|x| x / f64::from(width));
         let [top, bottom] = [panel.room.top, panel.room.bottom].map(|y| y / f64::from(height));
@@ -230,7 +265,7 @@ fn map(case: &Case) -> Result<Value, Value> {
 
 /// A study at the case's own excitation, without what would spoil it: its document, the first screen of the report,
 /// and the figures.
-fn study(case: &Case) -> Result<Value, Value> {
+fn study(case: &Case, narrow: bool) -> Result<Value, Value> {
     let answer = Answer::steady(case, Asked::Study, None, case.effort(), &Serial).map_err(words)?;
     let study = answer.studied().map_err(words)?;
     let figures = drawn(case, study, &Plot::usual(study).map_err(words)?)?;
@@ -246,6 +281,7 @@ fn study(case: &Case) -> Result<Value, Value> {
     let first_screen = report.split("<img ").next().unwrap_or_default();
     // The map is the page's own.
     let others = figures.into_iter().filter(|figure| figure.name != "map");
-    let figures: Result<Vec<Value>, Value> = others.map(|figure| Ok(shown(figure)?.0)).collect();
+    let figures: Result<Vec<Value>, Value> =
+        others.map(|figure| Ok(shown(figure, narrow)?.0)).collect();
     Ok(json!({ "document": document, "first_screen": first_screen, "figures": figures? }))
 }
