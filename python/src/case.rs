@@ -211,8 +211,12 @@ impl Case {
         work::done(py, progress, optimum)
     }
 
-    /// The columns of `vinesink sweep`.
-    fn sweep<'py>(&self, py: Python<'py>, progress: Option<Py<PyAny>>) -> PyResult<Columns<'py>> {
+    /// The columns of `vinesink sweep`, and their units.
+    fn sweep<'py>(
+        &self,
+        py: Python<'py>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Columns<'py>, Columns<'py>)> {
         let found = work::done(py, progress, |work| decide::swept(&self.inner, work))?;
         decide::lists(py, &found)
     }

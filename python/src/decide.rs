@@ -87,10 +87,11 @@ pub fn swept(case: &Case, work: &WorkState) -> PyResult<Vec<Column>> {
     Ok(all)
 }
 
-/// Columns as lists: numbers with NaN where a point has none, words with nothing.
-pub fn lists<'py>(py: Python<'py>, columns: &[Column]) -> PyResult<Columns<'py>> {
-    let dict = PyDict::new(py);
-    for Column { name, storage, cells, .. } in columns {
+/// Columns as lists: numbers with NaN where a point has none, words with nothing; and their units.
+pub fn lists<'py>(py: Python<'py>, columns: &[Column]) -> PyResult<(Columns<'py>, Columns<'py>)> {
+    let [dict, units] = [PyDict::new(py), PyDict::new(py)];
+    for Column { name, unit, storage, cells } in columns {
+        units.set_item(name, unit)?;
         if *storage == Storage::Text {
             let words: Vec<&str> =
                 cells.iter().map(|cell| cell.and_then(Cell::text).unwrap_or_default()).collect();
@@ -101,7 +102,7 @@ pub fn lists<'py>(py: Python<'py>, columns: &[Column]) -> PyResult<Columns<'py>>
             dict.set_item(name, numbers)?;
         }
     }
-    Ok(dict)
+    Ok((dict, units))
 }
 
 /// What changed from one case to another, as `vinesink diff` says it of their reports: the document, and Markdown.

@@ -175,6 +175,8 @@ def test_a_sweep_has_its_parameters(program, tmp_path):
     assert found.columns == ["clearance", "frequency", "largest_peak", "regime", "motions"]
     assert list(found.clearance) == [5e-3, 5e-3, 7.5e-3, 7.5e-3, 12e-3, 12e-3]
     assert list(found.frequency) == [8.0, 8.4] * 3
+    units = {"clearance": "m", "frequency": "Hz", "largest_peak": "m", "regime": "", "motions": "1"}
+    assert found.units == units and found.to_pandas().attrs["units"] == units
     assert len(found.to_pandas()) == 6
     path = tmp_path / "grid.toml"
     path.write_text((CASES / "li2016-8hz-b7p5mm.toml").read_text() + (

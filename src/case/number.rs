@@ -219,7 +219,12 @@ impl Reader<'_> {
                 format!("is {written}, which is not a finite number")
             }
             Some(dimension) if kind == "a number" => {
-                let unit = dimension.words().1.split_once(' ').map_or("", |(_, unit)| unit);
+                let of = |example: &str| {
+                    let (_, unit) = example.trim_matches('"').split_once(' ')?;
+                    Some(unit.to_owned())
+                };
+                let unit = of(&form.example).or_else(|| of(dimension.words().1));
+                let unit = unit.unwrap_or_default();
                 let key = if place.alone { format!("{} = ", place.key) } else { String::new() };
                 help = format!("if {unit} is meant, write {key}\"{written} {unit}\"");
                 "has no unit".to_owned()

@@ -391,8 +391,8 @@ class Case:
             unit = self._core.unit(name)
             table[name] = {"values": plain if unit == "1" else [f"{one!r} {unit}" for one in plain]}
         planned = self._of_text(self._with({"sweep": table}), self._folder, self._allow_outside)
-        columns = planned._core.sweep(_told(progress))
-        return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"})
+        columns, units = planned._core.sweep(_told(progress))
+        return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"}, units)
 
     def simulate(
         self,

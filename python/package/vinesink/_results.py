@@ -328,6 +328,21 @@ class Sweep(Table):
 
     _caption = "Sweep"
 
+    def __init__(self, columns: Mapping[str, NDArray[Any]], units: Mapping[str, str]) -> None:
+        super().__init__(columns)
+        self._units = {name: units[name] for name in self._columns}
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each column: "1" of a plain number, "" of words."""
+        return dict(self._units)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A `pandas.DataFrame`, whose `attrs["units"]` are the units; pandas has to be installed."""
+        frame = super().to_pandas()
+        frame.attrs["units"] = self.units
+        return frame
+
 
 class Branch(Table):
     """Exact orbits along a parameter, in order along the branch.
