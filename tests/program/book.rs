@@ -365,7 +365,7 @@ fn options(program: &str, command: &str) -> Vec<String> {
 fn every_page_is_listed_short_and_says_what_it_is_for() {
     let pages = pages();
     let summary = &pages["SUMMARY.md"];
-    let generated = Regex::new(r"(?s)<!-- equations:.*?<!-- end -->").expect("a pattern");
+    let generated = Regex::new(r"(?s)<!-- (equations|formula):.*?<!-- end -->").expect("a pattern");
     for (name, text) in &pages {
         if name == "SUMMARY.md" {
             continue;
@@ -417,17 +417,22 @@ fn formulas_are_converted_by_the_program() {
     assert!(there == wanted, "docs/formulas.json is out of date; SNAPSHOTS=overwrite writes it");
 }
 
-/// A group of equations as a page has it.
+/// A group of equations as the list of all of them has it.
 fn typeset(group: &Group) -> String {
-    let mut text = format!("**{}**: {}.\n", group.title, group.gives);
+    let Group { title, gives, source, .. } = group;
+    format!("**{title}**: {gives}.\n{}\n*Source: {source}.*\n", formulas_of(group))
+}
+
+/// Its equations alone, where the text says what they are for.
+fn formulas_of(group: &Group) -> String {
+    let mut text = String::new();
     for equation in group.equations {
         write!(text, "\n$${}$$\n", equation.to_latex()).expect("memory");
     }
-    write!(text, "\n*Source: {}.*\n", group.source).expect("memory");
     text
 }
 
-/// The equations of the theory pages are those that the program evaluates, all of them.
+/// The equations of the book are those that the program evaluates, and one page has all of them.
 #[test]
 fn equations_are_those_that_are_evaluated() {
     let _turn = turn();
@@ -445,16 +450,23 @@ fn equations_are_those_that_are_evaluated() {
         vinesink::equations::groups_beyond().for_each(|group| add("", group, kind));
     }
     let mut left: BTreeSet<&str> = groups.keys().map(String::as_str).collect();
-    let mark =
-        Regex::new(r"(?s)<!-- equations: ([^\n]*?) -->\n(.*?)<!-- end -->").expect("a pattern");
+    let mark = r"(?s)<!-- (equations|formula): ([^\n]*?) -->\n(.*?)<!-- end -->";
+    let mark = Regex::new(mark).expect("a pattern");
     for (name, text) in pages() {
         let mut page = text.clone();
         for found in mark.captures_iter(&text) {
-            let group = groups.get(&found[1]);
-            let group = group.unwrap_or_else(|| panic!("{name}: no group `{}`", &found[1]));
-            left.remove(&found[1]);
-            let wanted =
-                format!("<!-- equations: {} -->\n{}<!-- end -->", &found[1], typeset(group));
+            let [kind, titles] = [&found[1], &found[2]];
+            let of = |title| {
+                let group = groups.get(title);
+                *group.unwrap_or_else(|| panic!("{name}: no group `{title}`"))
+            };
+            let wanted = if kind == "equations" {
+                left.remove(titles);
+                typeset(of(titles))
+            } else {
+                titles.split("; ").map(|title| formulas_of(of(title))).collect()
+            };
+            let wanted = format!("<!-- {kind}: {titles} -->\n{wanted}<!-- end -->");
             if overwrites() {
                 page = page.replace(&found[0], &wanted);
             } else {
