@@ -394,6 +394,10 @@ class Case:
         columns, units = planned._core.sweep(_told(progress))
         return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"}, units)
 
+    def orbits(self) -> Orbits:
+        """The exact periodic orbits with two impacts per period: in an ideal cavity the symmetric ones, else all."""
+        return Orbits(json.loads(self._core.orbits()))
+
     def simulate(
         self,
         *,
