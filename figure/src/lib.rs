@@ -25,6 +25,7 @@ mod layers;
 mod layout;
 mod limits;
 mod markers;
+mod narrow;
 mod paint;
 mod palette;
 mod raster;

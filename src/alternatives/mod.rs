@@ -2,7 +2,7 @@
 //! record of a case, as designed, in the room of the absorber, without a damping medium, and where the structure's natural
 //! frequency is another than was thought.
 
-mod structure;
+mod drifted_case;
 
 use serde::Serialize;
 
@@ -17,7 +17,7 @@ use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::motions::{BandEffort, Effort, along};
 use crate::transient::Study;
-use structure::Structure;
+use drifted_case::DriftedCase;
 
 /// Which room a device has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -113,10 +113,10 @@ const MOST_DAMPING: f64 = 100.0;
 const HALVINGS: u32 = 40;
 /// Points of a line over the drift.
 const POINTS: u32 = 40;
-/// Dampers over the usual one from the best of which one for little room is looked for.
+/// Dampers from the best of which one for little room is looked for: tunings over the usual one, and so many steps of equal
+/// ratio from its damping to a heavy one.
 const TUNINGS: [f64; 3] = [0.95, 1.0, 1.05];
-/// Their damping, as powers of the ratio from the usual one's to a heavy one.
-const DAMPINGS: [f64; 9] = [0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
+const DAMPINGS: u32 = 8;
 const HEAVY: f64 = 4.0;
 
 /// What is known of a case.
@@ -143,7 +143,7 @@ impl Alternatives {
         let measure = asked(case);
         let found = own(case, known, measure).filter(|([worst, _], _)| *worst > 0.0);
         let Some((own, inactive)) = found else { return Ok(None) };
-        let Some(here) = Structure::of(case, measure, 1.0) else { return Ok(None) };
+        let Some(here) = DriftedCase::of(case, measure, 1.0) else { return Ok(None) };
         let usual = as_designed(known, &here);
         let equal = here.designed(&[], usual, Some(1.0), None);
         let over_drift = OverDrift { absorber: vec![(0.0, own)], ..OverDrift::default() };
@@ -171,13 +171,13 @@ impl Alternatives {
         case: &Case,
         effort: &Effort,
         on: &dyn Executor,
-    ) -> Result<Vec<(f64, Vec<Structure>)>, DrivenError> {
+    ) -> Result<Vec<(f64, Vec<DriftedCase>)>, DrivenError> {
         let mut drifts = Vec::new();
         for drift in &case.alternatives.drift {
             let mut worst: Option<[f64; 2]> = None;
             let mut ends = Vec::new();
             for factor in [1.0 - drift, 1.0 + drift] {
-                let Some(there) = Structure::of(case, self.measure, factor) else { continue };
+                let Some(there) = DriftedCase::of(case, self.measure, factor) else { continue };
                 if let Some(found) = absorber(&there.case, self.measure, effort, on)? {
                     self.over_drift.absorber.push((factor - 1.0, found));
                     let reach = |one: [f64; 2]| one[0] + one[1];
@@ -196,7 +196,7 @@ impl Alternatives {
 
     /// Adds the lines of two dampers over the drift. A passage or a record is long: there they are known where the absorber
     /// is.
-    fn add_lines(&mut self, case: &Case, here: &Structure, dampers: [TunedMassDamper; 2]) {
+    fn add_lines(&mut self, case: &Case, here: &DriftedCase, dampers: [TunedMassDamper; 2]) {
         let furthest = case.alternatives.drift.last().copied().unwrap_or_default();
         let at = |k: u32| (2.0 * f64::from(k) / f64::from(POINTS) - 1.0) * furthest;
         let drifts: Vec<f64> = match here.designing() == Designing::USUAL {
@@ -204,7 +204,7 @@ impl Alternatives {
             false => self.over_drift.absorber.iter().map(|(drift, _)| *drift).collect(),
         };
         for drift in drifts {
-            let Some(there) = Structure::of(case, self.measure, 1.0 + drift) else { continue };
+            let Some(there) = DriftedCase::of(case, self.measure, 1.0 + drift) else { continue };
             for (line, damper) in self.over_drift.dampers.iter_mut().zip(&dampers) {
                 line.push([drift, there.told(Some(damper), Room::AsDesigned)[0]]);
             }
@@ -252,7 +252,7 @@ impl Row {
     }
 
     /// The same linear device at a drift, on the worst of some structures.
-    fn at<'a>(&self, all: impl IntoIterator<Item = &'a Structure>, drift: f64) -> Option<Self> {
+    fn at<'a>(&self, all: impl IntoIterator<Item = &'a DriftedCase>, drift: f64) -> Option<Self> {
         let told = all.into_iter().map(|one| one.told(self.damper.as_ref(), self.room));
         let [worst, stroke] = told.reduce(larger)?;
         let error = if self.damper.is_some() { DESIGN * worst } else { 0.0 };
@@ -263,7 +263,7 @@ impl Row {
 /// No device, and every damper but those that are designed for a drift.
 fn linear(
     case: &Case,
-    here: &Structure,
+    here: &DriftedCase,
     usual: TunedMassDamper,
     equal: TunedMassDamper,
 ) -> Vec<Row> {
@@ -351,7 +351,7 @@ fn absorber(
 }
 
 /// The damper of the same mass that is designed for what is asked, as every page tells it.
-fn as_designed(known: Known<'_>, here: &Structure) -> TunedMassDamper {
+fn as_designed(known: Known<'_>, here: &DriftedCase) -> TunedMassDamper {
     match (known.study, known.survey) {
         (Some(Study::Release(study)), _) => study.damped().0,
         (Some(Study::Sweep(study)), _) => study.damped().0,
@@ -361,7 +361,7 @@ fn as_designed(known: Known<'_>, here: &Structure) -> TunedMassDamper {
     }
 }
 
-impl Structure {
+impl DriftedCase {
     /// For a single frequency the best damper would be undamped, and of no use beside it: that of Den Hartog keeps its
     /// tuning, and gets the damping that is given or as much more as its room asks for.
     fn at_one_frequency(
@@ -403,10 +403,11 @@ impl Structure {
         // What keeps a damper in little room may be far from what it does with much: from its damping up to a multiple of the
         // critical one.
         let ratio = HEAVY / from.damping_ratio.clamp(1e-6, 0.5 * HEAVY);
+        let heavier = |k: u32| libm::pow(ratio, f64::from(k) / f64::from(DAMPINGS));
         let others = TUNINGS.iter().flat_map(|tuning| {
-            DAMPINGS.map(|part| TunedMassDamper {
+            (0..=DAMPINGS).map(move |k| TunedMassDamper {
                 tuning: tuning * from.tuning,
-                damping_ratio: from.damping_ratio * libm::pow(ratio, part),
+                damping_ratio: from.damping_ratio * heavier(k),
             })
         });
         let first = others.chain([from]).min_by(|a, b| cost(a).total_cmp(&cost(b)));

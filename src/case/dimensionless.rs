@@ -15,7 +15,10 @@ impl Design {
     /// cannot hold, or when the design did not come from [`Case::parse`](super::Case::parse).
     pub fn system(&self) -> Result<System, InvalidParameter> {
         match self {
-            Self::Physical(p) => p.dimensionless().map(|(system, _)| system),
+            Self::Physical(p) => {
+                let found = System::physical(&p.structure(), &p.absorber(), &p.harmonic());
+                found.map(|(system, _)| system)
+            }
             Self::Reduced(r) => {
                 let system = System::new(Parameters {
                     mass_ratio: r.mass_ratio,

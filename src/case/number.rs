@@ -219,11 +219,9 @@ impl Reader<'_> {
                 format!("is {written}, which is not a finite number")
             }
             Some(dimension) if kind == "a number" => {
-                let of = |example: &str| {
-                    let (_, unit) = example.trim_matches('"').split_once(' ')?;
-                    Some(unit.to_owned())
-                };
-                let unit = of(&form.example).or_else(|| of(dimension.words().1));
+                // That of the key's own example, else of any.
+                let examples = [form.example.trim_matches('"'), dimension.words().1];
+                let unit = examples.iter().find_map(|one| Some(one.split_once(' ')?.1));
                 let unit = unit.unwrap_or_default();
                 let key = if place.alone { format!("{} = ", place.key) } else { String::new() };
                 help = format!("if {unit} is meant, write {key}\"{written} {unit}\"");

@@ -14,9 +14,7 @@ use super::support::{self, Orientation, Support, SupportKind};
 use crate::excitation::Transient;
 use crate::quantity::Dimension;
 use crate::quantity::numbers::rounded_to;
-use crate::system::{
-    Absorber, Excitation, Harmonic, InvalidParameter, Scales, Structure, System, modal_stiffness,
-};
+use crate::system::{Absorber, Excitation, Harmonic, Structure, modal_stiffness};
 
 /// The linear oscillator whose vibration is to be reduced.
 #[derive(Deserialize, JsonSchema)]
@@ -153,10 +151,6 @@ impl Physical {
     pub const fn harmonic(&self) -> Harmonic {
         let Self { excitation, amplitude, frequency_hz, .. } = *self;
         Harmonic { excitation, amplitude, frequency_hz }
-    }
-
-    pub(super) fn dimensionless(&self) -> Result<(System, Scales), InvalidParameter> {
-        System::physical(&self.structure(), &self.absorber(), &self.harmonic())
     }
 
     /// `omega0 = sqrt(k1/m1)`, the natural frequency in rad/s.

@@ -114,10 +114,7 @@ impl Checked {
 /// # Errors
 /// As [`Checked::text`].
 pub fn table(name: &str, case: &Case, judged: &[Judged]) -> Result<String, RenderError> {
-    let page = json!({
-        "case": name, "criteria": criteria(case, judged), "error": null, "outside": null, "choice": null,
-        "ranges": null, "reliability": null,
-    });
+    let page = json!({ "case": name, "criteria": criteria(case, judged) });
     render("check.md", &case.units(), &page)
 }
 

@@ -8,7 +8,7 @@ use crate::common;
 use std::f64::consts::TAU;
 
 use vinesink::simulation::{
-    Absorber, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
+    AbsorberMotion, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
 };
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 use vinesink_evidence::extremes::contact_costs;
@@ -23,7 +23,8 @@ struct First {
 
 impl Observer for First {
     fn segment(&mut self, segment: &Segment) {
-        self.carried |= self.impacts.is_empty() && matches!(segment.absorber, Absorber::Carried(_));
+        self.carried |=
+            self.impacts.is_empty() && matches!(segment.absorber, AbsorberMotion::Carried(_));
         for k in 0..=20 {
             let gap =
                 segment.at(segment.duration * f64::from(k) / 20.0).relative_displacement().abs();

@@ -7,7 +7,7 @@ use crate::common;
 use std::f64::consts::PI;
 
 use vinesink::analysis::{Analysis, Manifold};
-use vinesink::simulation::Absorber;
+use vinesink::simulation::AbsorberMotion;
 use vinesink::simulation::{
     Impact, ImpactLog, Measurement, Observer, Segment, Simulation, Statistics, Stop, Trace,
     TracePoint,
@@ -139,7 +139,7 @@ struct Sticking {
 impl Observer for Sticking {
     fn segment(&mut self, segment: &Segment) {
         let Some(pushes) = self.pushes.take() else { return };
-        let carried = matches!(segment.absorber, Absorber::Carried(_));
+        let carried = matches!(segment.absorber, AbsorberMotion::Carried(_));
         assert_eq!(carried, pushes, "{segment:?}");
         self.stuck += u64::from(carried);
     }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use vinesink::simulation::Absorber;
+use vinesink::simulation::AbsorberMotion;
 use vinesink::simulation::{
     Impact, ImpactLog, Measurement, Observer, Segment, Side, Simulation, StartError, Stop, Trace,
 };
@@ -95,7 +95,7 @@ struct Inspector {
     textbook: Option<Textbook>,
     complaint: Option<String>,
     /// State and phase at the end of the last stretch, of the given absorber.
-    last: Option<(State, Absorber)>,
+    last: Option<(State, AbsorberMotion)>,
     carried: u64,
     released: u64,
     impacts: Vec<Impact>,
@@ -131,7 +131,7 @@ impl Inspector {
             self.check(gap <= 1.0 + rounding(size(&state) + size(&start)), || {
                 format!("abs(w) = {gap} at {s} of {segment:?}")
             });
-            let (Some(textbook), Absorber::Flying { y, y_velocity, .. }) =
+            let (Some(textbook), AbsorberMotion::Flying { y, y_velocity, .. }) =
                 (self.textbook, segment.absorber)
             else {
                 continue;
@@ -170,14 +170,15 @@ impl Inspector {
 impl Observer for Inspector {
     fn segment(&mut self, segment: &Segment) {
         match segment.absorber {
-            Absorber::Flying { .. } => {
-                self.released += u64::from(matches!(self.last, Some((_, Absorber::Carried(_)))));
+            AbsorberMotion::Flying { .. } => {
+                self.released +=
+                    u64::from(matches!(self.last, Some((_, AbsorberMotion::Carried(_)))));
             }
-            Absorber::Carried(side) => {
+            AbsorberMotion::Carried(side) => {
                 self.carried += 1;
                 self.feel_the_contact(segment, side);
             }
-            Absorber::Held { .. } => panic!("held without friction: {segment:?}"),
+            AbsorberMotion::Held { .. } => panic!("held without friction: {segment:?}"),
         }
         self.look_into_the_cavity(segment);
         self.last = Some((segment.at(segment.duration), segment.absorber));
@@ -429,12 +430,12 @@ fn the_absorber_is_released_when_the_contact_force_vanishes() {
     impl Observer for Releases {
         fn segment(&mut self, segment: &Segment) {
             if let Some((force, size)) = self.last.take()
-                && matches!(segment.absorber, Absorber::Flying { .. })
+                && matches!(segment.absorber, AbsorberMotion::Flying { .. })
             {
                 assert!(force.abs() < rounding(size), "released at a force of {force}");
                 self.checked += 1;
             }
-            if matches!(segment.absorber, Absorber::Carried(_)) {
+            if matches!(segment.absorber, AbsorberMotion::Carried(_)) {
                 let end = segment.at(segment.duration);
                 let phase = segment.phase + self.textbook.omega * segment.duration;
                 let force = self.textbook.acceleration(end.x, end.x_velocity, phase);

@@ -6,8 +6,8 @@
 use crate::common;
 use std::f64::consts::TAU;
 use vinesink::simulation::{
-    Absorber, Detail, Impact, ImpactLog, Measurement, Observer, Reversal, Segment, Simulation,
-    Stop, Tangent,
+    AbsorberMotion, Detail, Impact, ImpactLog, Measurement, Observer, Reversal, Segment,
+    Simulation, Stop, Tangent,
 };
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
@@ -39,9 +39,9 @@ impl Observer for Events {
     }
     fn segment(&mut self, segment: &Segment) {
         match segment.absorber {
-            Absorber::Held { .. } => self.held += segment.duration,
-            Absorber::Carried(_) => self.carried += segment.duration,
-            Absorber::Flying { .. } => {}
+            AbsorberMotion::Held { .. } => self.held += segment.duration,
+            AbsorberMotion::Carried(_) => self.carried += segment.duration,
+            AbsorberMotion::Flying { .. } => {}
         }
     }
     fn impact(&mut self, impact: &Impact) {
@@ -159,9 +159,9 @@ impl Observer for Inspector {
         // Rounding of states, and of accelerations by differences of velocities below.
         let small = 1e-13 * scale;
         let kind = match segment.absorber {
-            Absorber::Flying { .. } => 0,
-            Absorber::Held { .. } => 1,
-            Absorber::Carried(_) => 2,
+            AbsorberMotion::Flying { .. } => 0,
+            AbsorberMotion::Held { .. } => 1,
+            AbsorberMotion::Carried(_) => 2,
         };
         self.stretches[kind] += 1;
         let parts = [0.02, 0.21, 0.4, 0.63, 0.86, 0.97];
@@ -180,7 +180,7 @@ impl Observer for Inspector {
             };
             check(state.relative_displacement().abs() <= 1.0 + small, "outside");
             match segment.absorber {
-                Absorber::Flying { y_acceleration, .. } => {
+                AbsorberMotion::Flying { y_acceleration, .. } => {
                     if f > 0.0 && slope.abs() > small {
                         check(sense == 0.0 || slope * sense > 0.0, "turned");
                         sense = slope.signum();
@@ -193,8 +193,10 @@ impl Observer for Inspector {
                         "oscillator",
                     );
                 }
-                Absorber::Held { .. } => check(needed.abs() <= f + small, "slips"),
-                Absorber::Carried(side) => check(side.sign() * needed >= -f - small, "is pulled"),
+                AbsorberMotion::Held { .. } => check(needed.abs() <= f + small, "slips"),
+                AbsorberMotion::Carried(side) => {
+                    check(side.sign() * needed >= -f - small, "is pulled")
+                }
             }
         }
     }
@@ -276,7 +278,7 @@ struct Sums {
 
 impl Observer for Sums {
     fn segment(&mut self, segment: &Segment) {
-        self.held += u64::from(matches!(segment.absorber, Absorber::Held { .. }));
+        self.held += u64::from(matches!(segment.absorber, AbsorberMotion::Held { .. }));
         let pieces = 400;
         let h = segment.duration / f64::from(pieces);
         for k in 0..=pieces {

@@ -55,6 +55,23 @@ fn alone(frequency: &str, clearance: &str, criteria: &str) -> Case {
         .unwrap_or_else(|error| panic!("{error:?}"))
 }
 
+/// What the live page shows is what `check --criteria-only` prints.
+#[test]
+fn the_table_alone_is_that_of_criteria_only() {
+    let folder = TempDir::new().expect("a folder");
+    let text = format!(
+        "{DESIGN}{BAND}[criteria]\npeak_displacement = \"<= 16 mm\"\nstable_share = \">= 50 %\"\n"
+    );
+    std::fs::write(folder.path().join("Table.toml"), &text).expect("written");
+    let mut check = Command::cargo_bin("vinesink").expect("built");
+    check.args(["check", "--criteria-only", "--format", "markdown", "Table.toml"]);
+    let output = check.current_dir(folder.path()).output().expect("run");
+    let case = Case::parse("Table.toml", &text).expect("valid");
+    let answer = Answer::of(&case, Asked::Criteria, None, &Serial).expect("answered");
+    let table = vinesink::report::criteria::table("Table", &case, &answer.judged).expect("a table");
+    assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), table.trim());
+}
+
 #[test]
 fn shares_are_those_of_the_band() {
     let case = case(BAND, "z3_share = \">= 80 %\"\nstable_share = \"<= 0.5\"");

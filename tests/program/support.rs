@@ -10,7 +10,7 @@ use assert_cmd::Command;
 use serde_json::{Value, json};
 use vinesink::case::{Case, Design, Orientation, Physical, SupportKind};
 use vinesink::report::document::{Content, answer};
-use vinesink::simulation::{Absorber, Measurement, Observer, Segment, Side, Simulation};
+use vinesink::simulation::{AbsorberMotion, Measurement, Observer, Segment, Side, Simulation};
 use vinesink::study::deviations::Deviation;
 use vinesink::system::{Cavity, State};
 
@@ -178,7 +178,7 @@ struct Lies {
 
 impl Observer for Lies {
     fn segment(&mut self, segment: &Segment) {
-        self.left += u64::from(segment.absorber != Absorber::Carried(Side::Minus));
+        self.left += u64::from(segment.absorber != AbsorberMotion::Carried(Side::Minus));
     }
 }
 

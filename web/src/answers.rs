@@ -213,21 +213,29 @@ fn change(text: &str, values: &BTreeMap<String, f64>, narrow: bool) -> Result<Va
     let mut answer = opened(&changed.case, &changed.text);
     let case = alone(changed.case);
     let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
-    let manifold = drawn(&case, &sketch, &[Plot::Manifold])?;
-    answer["figures"] = manifold
-        .into_iter()
-        .map(|figure| Ok(shown(figure, narrow)?.0))
-        .collect::<Result<_, Value>>()?;
+    let manifold = drawn(&case, &sketch, &[Plot::Manifold], narrow)?;
+    answer["figures"] =
+        manifold.into_iter().map(|figure| Ok(shown(figure)?.0)).collect::<Result<_, Value>>()?;
     Ok(answer)
 }
 
-fn drawn(case: &Case, study: &CaseStudy, plots: &[Plot]) -> Result<Vec<Figure>, Value> {
-    template::worded(figures::all(case, study, plots), &case.units()).map_err(words)
+/// Figures, for a phone where they are to be.
+fn drawn(
+    case: &Case,
+    study: &CaseStudy,
+    plots: &[Plot],
+    narrow: bool,
+) -> Result<Vec<Figure>, Value> {
+    let all = template::worded(figures::all(case, study, plots), &case.units()).map_err(words)?;
+    let fitted = |figure: Figure| match narrow {
+        true => figure.narrow().unwrap_or(figure),
+        false => figure,
+    };
+    Ok(all.into_iter().map(fitted).collect())
 }
 
-/// A figure for the page, or for that on a phone, and where its panels are.
-fn shown(figure: Figure, narrow: bool) -> Result<(Value, Vec<PlacedPanel>), Value> {
-    let figure = if narrow { figure.narrow().unwrap_or(figure) } else { figure };
+/// A figure for the page, and where its panels are.
+fn shown(figure: Figure) -> Result<(Value, Vec<PlacedPanel>), Value> {
     let drawing = figure::draw(&figure).map_err(words)?;
     let mut row = document::figure_row(&figure);
     row["svg"] = drawing.svg.into();
@@ -243,13 +251,10 @@ fn map(case: &Case, narrow: bool) -> Result<Value, Value> {
     }
     let plot = Plot::Map(BoundaryMap::of(&sketch));
     let mut figure =
-        drawn(case, &sketch, &[plot])?.pop().ok_or_else(|| words("there is no map"))?;
+        drawn(case, &sketch, &[plot], narrow)?.pop().ok_or_else(|| words("there is no map"))?;
     let at = figure.take_case();
-    if narrow {
-        figure = figure.narrow().unwrap_or(figure);
-    }
     let (width, height) = figure.size;
-    let (mut answer, panels) = shown(figure, false)?;
+    let (mut answer, panels) = shown(figure)?;
     if let (Some(panel), Some(at)) = (panels.first(), at) {
         let [left, right] = [panel.room.left, panel.room.right].map(|x| x / f64::from(width));
         let [top, bottom] = [panel.room.top, panel.room.bottom].map(|y| y / f64::from(height));
@@ -268,7 +273,7 @@ fn map(case: &Case, narrow: bool) -> Result<Value, Value> {
 fn study(case: &Case, narrow: bool) -> Result<Value, Value> {
     let answer = Answer::steady(case, Asked::Study, None, case.effort(), &Serial).map_err(words)?;
     let study = answer.studied().map_err(words)?;
-    let figures = drawn(case, study, &Plot::usual(study).map_err(words)?)?;
+    let figures = drawn(case, study, &Plot::usual(study).map_err(words)?, narrow)?;
     let document = document::document(&Source {
         name: "live",
         case,
@@ -281,7 +286,6 @@ fn study(case: &Case, narrow: bool) -> Result<Value, Value> {
     let first_screen = report.split("<img ").next().unwrap_or_default();
     // The map is the page's own.
     let others = figures.into_iter().filter(|figure| figure.name != "map");
-    let figures: Result<Vec<Value>, Value> =
-        others.map(|figure| Ok(shown(figure, narrow)?.0)).collect();
+    let figures: Result<Vec<Value>, Value> = others.map(|figure| Ok(shown(figure)?.0)).collect();
     Ok(json!({ "document": document, "first_screen": first_screen, "figures": figures? }))
 }

@@ -331,7 +331,7 @@ mod tests {
     use nalgebra::Complex;
 
     use super::*;
-    use crate::simulation::{Absorber, Measurement, Observer, Segment};
+    use crate::simulation::{AbsorberMotion, Measurement, Observer, Segment};
     use crate::system::{Excitation, Parameters};
 
     /// Largest displacement of the structure alone from rest, by steps of Runge and Kutta: 2 pi/0.02 steps
@@ -405,7 +405,7 @@ mod tests {
 
     impl Observer for Stays {
         fn segment(&mut self, segment: &Segment) {
-            self.flights += u64::from(matches!(segment.absorber, Absorber::Flying { .. }));
+            self.flights += u64::from(matches!(segment.absorber, AbsorberMotion::Flying { .. }));
         }
     }
 

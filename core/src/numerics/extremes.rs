@@ -114,7 +114,8 @@ impl Cubic {
     }
 }
 
-/// Largest velocity and acceleration, the integrals of their squares, and the time that they are over.
+/// Of two functions of time, a velocity and its rate: the largest sizes, the integrals of the squares, and the time that they
+/// are over.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RateSums {
     pub peaks: [f64; 2],
@@ -123,8 +124,7 @@ pub(crate) struct RateSums {
 }
 
 impl RateSums {
-    /// Adds a stretch so short that velocity and acceleration are cubics in it, by velocity, acceleration and jerk at both of
-    /// its ends: off by `h^4/384`.
+    /// Adds a stretch so short that both are cubics in it, by both and the rate of the second at its ends: off by `h^4/384`.
     pub fn add_short(&mut self, duration: f64, ends: [[f64; 3]; 2]) {
         self.time += duration;
         for k in 0..2 {

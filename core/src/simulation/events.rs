@@ -98,7 +98,7 @@ pub struct Segment {
     /// Motion of the oscillator.
     pub motion: SmoothMotion,
     /// Motion of the absorber.
-    pub absorber: Absorber,
+    pub absorber: AbsorberMotion,
     /// Whole periods since the start of the run.
     pub turns: u64,
     /// Excitation phase at the beginning.
@@ -109,7 +109,7 @@ pub struct Segment {
 
 /// How the absorber moves during a [`Segment`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Absorber {
+pub enum AbsorberMotion {
     /// On a straight line, or on a parabola in a cavity that is tilted or rubs.
     Flying {
         /// Displacement at the beginning.
@@ -133,15 +133,15 @@ impl Segment {
     pub fn at(&self, s: f64) -> State {
         let Kinematics { x, v } = self.motion.at(s);
         match self.absorber {
-            Absorber::Flying { y, y_velocity, y_acceleration } => {
+            AbsorberMotion::Flying { y, y_velocity, y_acceleration } => {
                 let gained = y_acceleration * s;
                 let y = y + (y_velocity + 0.5 * gained) * s;
                 State { x, x_velocity: v, y, y_velocity: y_velocity + gained }
             }
-            Absorber::Carried(side) => {
+            AbsorberMotion::Carried(side) => {
                 State { x, x_velocity: v, y: x - side.sign(), y_velocity: v }
             }
-            Absorber::Held { gap } => State { x, x_velocity: v, y: x - gap, y_velocity: v },
+            AbsorberMotion::Held { gap } => State { x, x_velocity: v, y: x - gap, y_velocity: v },
         }
     }
 }

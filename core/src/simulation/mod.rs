@@ -29,7 +29,7 @@ pub mod trust;
 mod walls;
 
 pub use contact::ContactTolerance;
-pub use events::{Absorber, Detail, Impact, Observer, Reversal, Segment, Side, StartError};
+pub use events::{AbsorberMotion, Detail, Impact, Observer, Reversal, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use run::{Simulation, Stop};
 pub use shaking::ShakingMeter;

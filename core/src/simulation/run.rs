@@ -9,7 +9,7 @@ use fearless_simd::Level;
 use serde::Serialize;
 
 use super::contact::{AtWall, ContactTolerance, Rebound};
-use super::events::{Absorber, Impact, Observer, Segment, Side, StartError};
+use super::events::{AbsorberMotion, Impact, Observer, Segment, Side, StartError};
 use super::flow::Oscillator;
 use super::history::ImpactLog;
 use super::panels::{FlightEnd, Limits};
@@ -286,7 +286,7 @@ impl Simulation {
         let rest = self.sliding.rest(begin.sense);
         Segment {
             motion: self.alone.motion_about(rest, x, x_velocity, begin.phase),
-            absorber: Absorber::Flying { y, y_velocity, y_acceleration },
+            absorber: AbsorberMotion::Flying { y, y_velocity, y_acceleration },
             turns: begin.turns,
             phase: begin.phase,
             duration,

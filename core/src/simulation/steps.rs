@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::contact::rebound;
-use super::events::{Absorber, Observer, Segment, Side};
+use super::events::{AbsorberMotion, Observer, Segment, Side};
 use super::flow::{Kinematics, SmoothMotion};
 use super::path::{Parabola, Path, StraightLine};
 use super::run::{Mode, Simulation, Stop};
@@ -118,8 +118,8 @@ impl Simulation {
         let rest = self.sliding.rest_in_tow();
         let motion = self.carrying.motion_about(rest, x, x_velocity, self.at.phase);
         let (absorber, sign, upper) = match self.mode {
-            Mode::Contact(side) => (Absorber::Carried(side), side.sign(), f64::INFINITY),
-            Mode::Held { gap } => (Absorber::Held { gap }, 1.0, held),
+            Mode::Contact(side) => (AbsorberMotion::Carried(side), side.sign(), f64::INFINITY),
+            Mode::Held { gap } => (AbsorberMotion::Held { gap }, 1.0, held),
             Mode::Flight => return Ok(()),
         };
         let band = CrossingBand { lower: -held, upper, touch };
@@ -137,7 +137,7 @@ impl Simulation {
     fn follow(
         &mut self,
         motion: SmoothMotion,
-        absorber: Absorber,
+        absorber: AbsorberMotion,
         found: Search,
         observer: &mut dyn Observer,
     ) -> Result<Option<Edge>, Stop> {

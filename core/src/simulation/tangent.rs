@@ -31,7 +31,7 @@
 //! A flight that grazes a wall, and a contact that is lost or not, are the exceptions at which no
 //! derivative exists; no trajectory meets them but by choice of its start.
 
-use super::events::{Absorber, Impact, Observer, Reversal, Segment};
+use super::events::{AbsorberMotion, Impact, Observer, Reversal, Segment};
 use super::flow::{Kinematics, Oscillator};
 use super::sliding::Sliding;
 use crate::system::{State, System};
@@ -122,18 +122,18 @@ impl Tangent {
 
 impl Observer for Tangent {
     fn segment(&mut self, segment: &Segment) {
-        if matches!(segment.absorber, Absorber::Carried(_)) {
+        if matches!(segment.absorber, AbsorberMotion::Carried(_)) {
             // A trajectory may begin in contact, with any change; later ones are projected already.
             self.project();
         }
         let State { x, x_velocity, y, y_velocity } = self.change;
         let Kinematics { x, v } = segment.motion.oscillator().free(x, x_velocity, segment.duration);
         self.change = match segment.absorber {
-            Absorber::Flying { .. } => {
+            AbsorberMotion::Flying { .. } => {
                 State { x, x_velocity: v, y: y + y_velocity * segment.duration, y_velocity }
             }
-            Absorber::Carried(_) => State { x, x_velocity: v, y: x, y_velocity: v },
-            Absorber::Held { .. } => {
+            AbsorberMotion::Carried(_) => State { x, x_velocity: v, y: x, y_velocity: v },
+            AbsorberMotion::Held { .. } => {
                 let y = x - self.change.relative_displacement();
                 State { x, x_velocity: v, y, y_velocity: v }
             }

@@ -9,7 +9,7 @@ use super::Entry;
 use crate::reference::{Event, Reference};
 use vinesink::simulation::trust::energy_residual;
 use vinesink::simulation::{
-    Absorber, Doubt, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
+    AbsorberMotion, Doubt, Impact, Measurement, Observer, Segment, Simulation, StartError, Stop,
 };
 
 /// Points of each stretch of motion at which the cavity is looked into.
@@ -114,7 +114,7 @@ impl Witness {
 
 impl Observer for Witness {
     fn segment(&mut self, segment: &Segment) {
-        let carried = !matches!(segment.absorber, Absorber::Flying { .. });
+        let carried = !matches!(segment.absorber, AbsorberMotion::Flying { .. });
         if self.carried && !carried {
             let omega = segment.motion.oscillator().frequency;
             let tau = (segment.turns as f64 * TAU + segment.phase) / omega;

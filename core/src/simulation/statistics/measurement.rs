@@ -4,7 +4,7 @@
 //! Every flight is integrated from where it began, which its end has no part in: the balance of energy is a
 //! check.
 
-use super::super::events::{Absorber, Detail, Impact, Observer, Reversal, Segment};
+use super::super::events::{AbsorberMotion, Detail, Impact, Observer, Reversal, Segment};
 use super::super::integrals::{FlightEnds, Quadrature, Ringing};
 use super::super::peaks;
 use super::super::sliding::Sliding;
@@ -174,19 +174,19 @@ impl Observer for Measurement {
 
     fn segment(&mut self, segment: &Segment) {
         let Segment { absorber, duration, .. } = *segment;
-        let flies = matches!(absorber, Absorber::Flying { .. });
+        let flies = matches!(absorber, AbsorberMotion::Flying { .. });
         if self.leaves_flights_out() || self.ringing.is_some() && flies {
             return;
         }
         let (peak, integrals) = (self.quadrature.peak(segment), self.quadrature.over(segment));
         self.statistics.add(self.statistics.periods, std::iter::once((peak, integrals)));
         self.sense = match absorber {
-            Absorber::Flying { .. } => return,
-            Absorber::Carried(side) => {
+            AbsorberMotion::Flying { .. } => return,
+            AbsorberMotion::Carried(side) => {
                 self.statistics.contact.duration_tau += duration;
                 -side.sign()
             }
-            Absorber::Held { .. } => {
+            AbsorberMotion::Held { .. } => {
                 let pull = segment.motion.acceleration(duration, segment.motion.at(duration));
                 (pull - self.sliding.gravity).signum()
             }

@@ -1,5 +1,5 @@
 use crate::numerics::lanes::LANES;
-use crate::simulation::events::{Absorber, Observer, Segment};
+use crate::simulation::events::{AbsorberMotion, Observer, Segment};
 use crate::simulation::integrals::{FlightEnds, Quadrature, Ringing};
 use crate::simulation::{Simulation, Stop, peaks};
 use crate::system::{Cavity, Excitation, Parameters, State, System};
@@ -14,7 +14,7 @@ struct Comparison {
 
 impl Observer for Comparison {
     fn segment(&mut self, segment: &Segment) {
-        let Absorber::Flying { y, y_velocity, .. } = segment.absorber else { return };
+        let AbsorberMotion::Flying { y, y_velocity, .. } = segment.absorber else { return };
         let Some(ringing) = &self.ringing else { return };
         let (begin, end) = (segment.at(0.0), segment.at(segment.duration));
         let over = segment.phase + self.system.frequency_ratio() * segment.duration;

@@ -12,7 +12,7 @@ use crate::system::{Band, System};
 use crate::transient::{Run, longest};
 
 /// Its case, and what drives it.
-pub(super) struct Structure {
+pub(super) struct DriftedCase {
     pub case: Case,
     measure: Measure,
     /// Natural frequency over the case's own.
@@ -24,7 +24,7 @@ pub(super) struct Structure {
 /// Steps of a simplex where one evaluation is a whole sweep or record.
 const STEPS_OF_LONG: u64 = 30;
 
-impl Structure {
+impl DriftedCase {
     /// That of a case with so many times its natural frequency; none where there is none.
     pub fn of(case: &Case, measure: Measure, factor: f64) -> Option<Self> {
         let case = if factor == 1.0 { case.clone() } else { case.with_natural_frequency(factor)? };
