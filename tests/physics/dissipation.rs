@@ -585,7 +585,9 @@ fn modulated_cycles_are_the_simulated_ones() {
         assert!(error.abs() < tolerance, "{error} {tolerance} {system:?} {cycle:?}");
         let captures = found.classification.evidence.captures;
         let apart = cycle.captured_share - captures.share;
-        assert!(apart.abs() < 0.2, "{apart} {system:?} {cycle:?} {captures:?}");
+        // The lengths of captures scatter by about half of themselves: two standard errors of their mean.
+        let scatter = captures.share / (captures.count as f64).sqrt();
+        assert!(apart.abs() < 0.2 + scatter, "{apart} {system:?} {cycle:?} {captures:?}");
         judged += 1;
         if judged == 20 {
             return;

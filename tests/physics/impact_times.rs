@@ -47,6 +47,31 @@ const NUMBERS: usize = 5;
 /// of the order of the change, and 77 digits less 40 remain.
 const CHANGE: f64 = 1e-40;
 
+/// Flights back to the wall that they begin on, as at the end of a chattering sequence: their duration to rounding of
+/// itself, where the gap that opens is far below rounding of the displacements.
+#[test]
+fn short_returns_take_as_long_as_in_multiple_precision() {
+    let mut shortest = f64::MAX;
+    for (frequency, clearance) in [(8.0, 0.3), (8.35, 2.5), (8.5, 11.5)] {
+        let system = common::table_1(frequency, clearance);
+        let reference = Reference::new(&system);
+        for k in 9..44 {
+            // All of these are doubles.
+            let opening = libm::ldexp(1.0, -k);
+            let start = State { x: -0.5, x_velocity: 0.25, y: -1.5, y_velocity: 0.25 + opening };
+            let [impact, ..] = impacts(&system, start)[..] else { panic!("none") };
+            let after = Decimal::of(impact.tau);
+            let exact = reference.next_near(&first(start), &after, 1.0).time.to_f64();
+            assert_eq!(impact.side.sign(), 1.0);
+            // The acceleration is a difference of numbers some ten times as large.
+            let error = (impact.tau - exact).abs() / exact;
+            assert!(error <= 1e-14, "{frequency} Hz, {clearance} mm, 2^-{k}: {error:e}");
+            shortest = shortest.min(exact);
+        }
+    }
+    assert!(shortest < 1e-12, "{shortest:e}");
+}
+
 /// How the numbers at an impact follow those at the one before: difference quotients of the
 /// reference, for each number there those of the numbers here.
 type Jacobian = [[f64; NUMBERS]; NUMBERS];

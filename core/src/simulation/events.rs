@@ -40,6 +40,12 @@ pub enum Side {
 }
 
 impl Side {
+    /// That on whose side a gap is.
+    #[inline(always)]
+    pub(crate) fn of(gap: f64) -> Self {
+        if gap > 0.0 { Self::Plus } else { Self::Minus }
+    }
+
     /// +1 or -1.
     pub fn sign(self) -> f64 {
         match self {

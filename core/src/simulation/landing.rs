@@ -120,7 +120,7 @@ impl Rates<f64> {
         let mut clear =
             length < self.step && hull.clear() && course.one_way(sense, &hull, [&here, &there]);
         while !clear {
-            let side = if there.gap > 0.0 { Side::Plus } else { Side::Minus };
+            let side = Side::of(there.gap);
             let one_way = course.one_way(sense, &hull, [&here, &there]);
             if one_way && hull.meets(side.sign()) {
                 let guess = Self::guess(&here, &there, length, side.sign(), true);

@@ -17,6 +17,8 @@ mod panels;
 mod path;
 mod peaks;
 mod phasor;
+mod release;
+mod returns;
 mod roots;
 mod run;
 mod shaking;

@@ -53,6 +53,8 @@ pub(super) enum FlightEnd {
     Limit,
     /// Nothing is proven about the next flight: the slow search must fly it.
     Doubt,
+    /// The next flight is a short return to its wall.
+    Return,
     /// The last impact, on this wall, may be the end of a chattering sequence.
     MayStick(Side),
     /// The absorber has ceased to slide, and friction may hold it.
@@ -69,18 +71,33 @@ impl Simulation {
     ) -> FlightEnd {
         let Some(rates) = self.rates else { return FlightEnd::Doubt };
         let (moment, end) = if self.sliding.straight {
-            dispatch!(level, simd => self.fly_by(simd, Straight, &rates, limits, observer))
+            dispatch!(level, simd => self.fly_by::<_, _, false>(simd, Straight, &rates, limits, observer))
         } else {
             let sliding = self.sliding;
-            dispatch!(level, simd => self.fly_by(simd, sliding, &rates, limits, observer))
+            dispatch!(level, simd => self.fly_by::<_, _, false>(simd, sliding, &rates, limits, observer))
         };
+        self.at = moment;
+        end
+    }
+
+    /// The same as long as flights are short returns.
+    pub(super) fn return_shortly(
+        &mut self,
+        level: Level,
+        limits: Limits,
+        observer: &mut dyn Observer,
+    ) -> FlightEnd {
+        let Some(rates) = self.rates else { return FlightEnd::Doubt };
+        // A straight line is a parabola too, with the same bits.
+        let sliding = self.sliding;
+        let (moment, end) = dispatch!(level, simd => self.fly_by::<_, _, true>(simd, sliding, &rates, limits, observer));
         self.at = moment;
         end
     }
 
     /// By the instructions that `simd` stands for.
     #[inline(always)]
-    fn fly_by<S: Simd, C: CavityFlight>(
+    fn fly_by<S: Simd, C: CavityFlight, const RETURNS: bool>(
         &self,
         simd: S,
         course: C,
@@ -96,17 +113,27 @@ impl Simulation {
         let mut leaves = false;
         loop {
             let Moment { state: State { x, x_velocity: v, y, y_velocity }, steady, sense, .. } = at;
-            if !leaves && walls::blocked(x, v, StraightLine { y, velocity: y_velocity }) {
+            let line = StraightLine { y, velocity: y_velocity };
+            let released = !leaves && v == y_velocity && walls::touches(x, v, line);
+            if !leaves && !released && walls::blocked(x, v, line) {
                 return (at, FlightEnd::Doubt);
             }
             let (x, path) = course.depart(&at);
             let (mut here, slack) = rates.begin(x, v, steady, path);
-            here.slope = course.slope(&at, here.slope);
-            if course.short(rates, &here) {
-                return (at, FlightEnd::Doubt);
+            if released {
+                // Of a gap that is rounded up nothing could be proven.
+                here.gap = here.gap.signum();
             }
             let flight = Flight { course, sense, path, left: rates.left(at.phase) };
-            let Some(landing) = rates.fly(simd, here, slack, &flight, &mut at.evaluations) else {
+            if course.short(rates, &here) != RETURNS {
+                return (at, if RETURNS { FlightEnd::Limit } else { FlightEnd::Return });
+            }
+            let landing = if RETURNS {
+                rates.back(simd, &here, path, flight.left, &mut at.evaluations)
+            } else {
+                rates.fly(simd, here, slack, &flight, &mut at.evaluations)
+            };
+            let Some(landing) = landing else {
                 return (at, FlightEnd::Doubt);
             };
             let Landing { end, time, x, v, steady } = landing;

@@ -18,8 +18,6 @@ use crate::numerics::lanes::{Mask, Real};
 
 /// Part of the clearance from which on a flight begins on a wall.
 pub(super) const ON_WALL: f64 = 1.0 - 1e-9;
-/// A flight is short if its parabola comes back within twice this part of a panel, inverted.
-const SHORT_FLIGHT: f64 = 32.0;
 /// Most panels in a period: each may turn the steady motion too far by `1e-16` of itself.
 const MOST_PANELS: f64 = 64.0;
 /// Distance from a root within which a correction to the fourth order is exact to rounding: the next
@@ -147,6 +145,12 @@ impl Rates<f64> {
         })
     }
 
+    /// The amplitude of a free motion with this displacement and velocity.
+    pub(super) fn amplitude(&self, x: f64, v: f64) -> f64 {
+        let [real, imaginary] = self.free(x, v);
+        libm::hypot(real, imaginary)
+    }
+
     /// The steady motion at a phase.
     pub(super) fn steady(&self, phase: f64) -> Steady<f64> {
         let (sin, cos) = libm::sincos(phase);
@@ -248,18 +252,10 @@ impl<R: Real> Rates<R> {
         let bend = path.bound(self.stiffness * size + self.second_steady);
         // 4 M S/14340 with S = 7200 times the coefficient.
         let slope_squared = bend * coefficient * 2.01;
-        (self.at(z, steady, path), Slack { coefficient, slope_squared })
-    }
-
-    /// Whether a flight comes back to the wall that it begins on within a small part of a panel, as in
-    /// a chattering sequence: its parabola alone, from which the step-by-step search begins, is then
-    /// nearer than any halving.
-    #[inline(always)]
-    pub(super) fn short(&self, here: &FlightState<R>) -> R::Mask {
-        let one = here.gap.like(1.0);
-        let wall = R::choose(here.gap.less(here.gap.like(0.0)), -one, one);
-        let on = here.gap.like(ON_WALL).at_most(here.gap.abs());
-        on & (here.slope.abs() * SHORT_FLIGHT).less(here.a * wall * self.step)
+        // Of nearly equal numbers the differences are exact here, and not from phasors.
+        let StraightLine { y, velocity } = path.line();
+        let here = FlightState { gap: x - y, slope: v - velocity, ..self.at(z, steady, path) };
+        (here, Slack { coefficient, slope_squared })
     }
 
     /// A whole panel after `here`, where the absorber is at the beginning of `path`.

@@ -115,8 +115,10 @@ pub struct Simulation {
     restitutions: [f64; 2],
     /// What turns its phasors, if it flies by any.
     pub(super) rates: Option<Rates<f64>>,
+    /// The same with the absorber in tow, once it was.
+    pub(super) towing: Option<Rates<f64>>,
     /// The best instructions that the processor has.
-    level: Level,
+    pub(super) level: Level,
     pub(super) tolerance: ContactTolerance,
     pub(super) mode: Mode,
     pub(super) at: Moment,
@@ -149,6 +151,7 @@ impl Simulation {
             sliding: Sliding::of(system),
             restitutions: system.restitutions(),
             rates,
+            towing: None,
             level: Level::new(),
             tolerance: ContactTolerance::default(),
             mode: Mode::Flight,
@@ -263,9 +266,23 @@ impl Simulation {
             FlightEnd::Limit => {}
             FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
             FlightEnd::Turned => self.reverse(observer),
-            FlightEnd::Doubt => self.fly_step_by_step(observer)?,
+            FlightEnd::Return if self.sliding.friction == 0.0 && self.chatter(limits, observer) => {
+            }
+            FlightEnd::Return | FlightEnd::Doubt => self.fly_step_by_step(observer)?,
         }
         Ok(())
+    }
+
+    /// Continues as long as flights are short returns to a wall, within the limits; whether there was none about which
+    /// nothing is proven.
+    pub(super) fn chatter(&mut self, limits: Limits, observer: &mut dyn Observer) -> bool {
+        while self.mode == Mode::Flight && limits.stop(self).is_none() {
+            match self.return_shortly(self.level, limits, observer) {
+                FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
+                end => return end == FlightEnd::Limit,
+            }
+        }
+        true
     }
 
     /// Where it stands, if its next flight can be beside others: straight, through panels and between walls alike.
@@ -368,6 +385,7 @@ impl Simulation {
             self.at.state.x_velocity = common;
             self.at.state.y_velocity = common;
             self.mode = Mode::Contact(side);
+            self.towing = self.towing.or_else(|| Rates::of(&self.carrying));
             observer.sticks(0.5 * eps * opening * opening / (1.0 + eps));
         }
     }

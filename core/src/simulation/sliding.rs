@@ -92,8 +92,6 @@ pub(super) trait CavityFlight: Copy {
     type Path: Path<f64>;
     /// The oscillator's displacement and the absorber's flight, seen from where the oscillator would rest.
     fn depart(&self, at: &Moment) -> (f64, Self::Path);
-    /// The gap's slope at its beginning, where phasors give it with this rounding.
-    fn slope(&self, at: &Moment, rounded: f64) -> f64;
     /// Both displacements, as seen from there.
     fn arrive(&self, sense: f64, seen: f64) -> f64;
     /// Whether `w'` is proven to keep its sign in a panel, if that matters.
@@ -115,10 +113,6 @@ impl CavityFlight for Straight {
     #[inline(always)]
     fn depart(&self, at: &Moment) -> (f64, StraightLine<f64>) {
         (at.state.x, StraightLine { y: at.state.y, velocity: at.state.y_velocity })
-    }
-    #[inline(always)]
-    fn slope(&self, _: &Moment, rounded: f64) -> f64 {
-        rounded
     }
     #[inline(always)]
     fn arrive(&self, _: f64, seen: f64) -> f64 {
@@ -148,12 +142,6 @@ impl CavityFlight for Sliding {
     fn depart(&self, at: &Moment) -> (f64, Parabola) {
         let State { x, y, y_velocity, .. } = at.state;
         (x - self.rest(at.sense), self.path(at.sense, y, y_velocity))
-    }
-    #[inline(always)]
-    fn slope(&self, at: &Moment, rounded: f64) -> f64 {
-        // Of either sign, where it is none, nothing would be proven.
-        let exact = at.state.x_velocity - at.state.y_velocity;
-        if self.friction > 0.0 { exact } else { rounded }
     }
     #[inline(always)]
     fn arrive(&self, sense: f64, seen: f64) -> f64 {

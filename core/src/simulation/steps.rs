@@ -124,8 +124,13 @@ impl Simulation {
         };
         let band = CrossingBand { lower: -held, upper, touch };
         let from = if friction > 0.0 { SHORTEST_HOLD.min(self.remaining()) } else { 0.0 };
+        let proven = match self.mode {
+            Mode::Contact(side) if friction == 0.0 => self.let_go(side, self.remaining()),
+            _ => None,
+        };
         let force = ContactForce { motion, sign, gravity };
-        let found = first_crossing(&force, from, self.remaining(), band);
+        let search = || first_crossing(&force, from, self.remaining(), band);
+        let found = proven.unwrap_or_else(search);
         if let Some(edge) = self.follow(motion, absorber, found, observer)? {
             self.mode = Mode::Flight;
             self.at.sense = if edge == Edge::Upper { sign } else { -sign };

@@ -15,6 +15,11 @@ pub(super) fn touch<R: Real>(x: R, v: R, line: StraightLine<R>) -> R {
     scale * (TOUCH_ULPS * f64::EPSILON)
 }
 
+/// Whether the absorber is at a wall.
+pub(super) fn touches(x: f64, v: f64, line: StraightLine<f64>) -> bool {
+    ((x - line.y).abs() - 1.0).abs() <= touch(x, v, line)
+}
+
 /// Where a flight does not begin between the walls, nor leaves one.
 #[inline(always)]
 pub(super) fn blocked<R: Real>(x: R, v: R, line: StraightLine<R>) -> R::Mask {

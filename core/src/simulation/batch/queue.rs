@@ -32,6 +32,7 @@ impl Trajectory<'_> {
                 self.stop = Some(stop);
                 return None;
             }
+            self.simulation.chatter(self.limits, self.observer);
         }
     }
 }
