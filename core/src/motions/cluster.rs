@@ -16,6 +16,8 @@ const DRIFT: f64 = 1.5;
 /// in which it is sampled to a few per cent, and of many in which it comes and goes.
 const STAYS: std::ops::Range<f64> = 0.9..1.1;
 const MANY_STAY: std::ops::Range<f64> = 0.5..2.0;
+/// Relative error of a largest value from which on it is hardly known.
+const VAGUE: f64 = 0.5;
 /// Relative difference below which averages are the same whatever their errors: what nobody measures.
 const NO_DIFFERENCE: f64 = 1e-3;
 
@@ -60,6 +62,14 @@ impl Cluster {
         let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
         let Facts { rms, impacts_per_period, .. } = Facts::pooled(&windows);
         rms.error <= amplitude * rms.value && impacts_per_period.error <= impacts
+    }
+
+    /// Whether a longer run may well have peaks half as large again: of a motion that is captured now and then windows of
+    /// which some have no peak at all are too short.
+    pub fn is_vague(&self) -> bool {
+        let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
+        let Facts { peak, .. } = Facts::pooled(&windows);
+        peak.error > VAGUE * peak.value
     }
 
     /// Whether its averages still go up or down: of a few windows where most do, of many where all do together.

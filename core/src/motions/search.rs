@@ -34,7 +34,8 @@ const FURTHER: [u64; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// How often starts fly on at most: one on a transient that lasts for 40 windows on average has then left it, but for one in
 /// a thousand.
 const ROUNDS: usize = 24;
-/// How often the window is doubled of starts that still settle, or that together are not one motion yet.
+/// How often the window is doubled of starts that still settle, that together are not one motion yet, or whose largest value
+/// is hardly known.
 const LONGEST: usize = 4;
 /// Excitation periods over which starts are measured together at most, where a case asks for accuracy: a minute of a fast
 /// machine.
@@ -373,6 +374,7 @@ impl Ground {
         let restless = settles && !self.creeps && self.measured <= LONGEST;
         let loose = |limits| clusters.iter().any(|one| !one.is_within(limits));
         let again = self.accuracy.is_some_and(loose) && self.window * count < MOST_PERIODS;
+        let vague = self.measured <= LONGEST && clusters.iter().any(Cluster::is_vague);
         self.impatient = missing > 0.0 || self.creeps;
         let rounds = (self.patience * ROUNDS as f64) as usize;
         let (left_out, window) = if self.rounds < rounds && (missing > 0.0 || restless) {
@@ -380,7 +382,7 @@ impl Ground {
             let each = (missing * periods / open.len() as f64).ceil() as u64;
             self.rounds += 1;
             (if restless { most } else { each.min(most) }, 0)
-        } else if measured && !again {
+        } else if measured && !again && !vague {
             return Vec::new();
         } else {
             let shared = (self.periods / count).max(RECOGNITION).min(self.periods);
