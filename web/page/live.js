@@ -359,8 +359,13 @@ function Live(place) {
   /** The clearance that the program would choose, in a worker of its own: it takes seconds. */
   async function search() {
     seeker ??= new Desk(compiled, document.getElementById("live-script").textContent);
-    [best.disabled, best.textContent] = [true, "looking …"];
+    let seconds = 0;
+    const looking = () => { best.textContent = `looking … ${seconds} s`; seconds += 1; };
+    best.disabled = true;
+    looking();
+    const clock = setInterval(looking, 1000);
     const from = text, answer = await seeker.ask({ ask: "optimize", text });
+    clearInterval(clock);
     [best.disabled, best.textContent] = [false, "Best clearance"];
     if (answer.problems) return complain(answer.problems);
     say(answer.said);
@@ -530,7 +535,7 @@ function Running(engine, say) {
       make("button", { type: "button", onclick: () => this.change(this.text, "push") }, "With a push"),
       make("button", { type: "button", onclick: () => this.change(this.text, "rest") }, "From rest")),
     make("div", { class: "live-canvases" }, scene, motion),
-    make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. Grey and dashed: the same structure without an absorber."),
+    make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. The red arrow is the push of the ball on it, the arrow in the box the way that the box goes: a push against that way brakes the structure. Grey and dashed: the same structure without an absorber."),
     make("details", {}, make("summary", {}, "Times between impacts"), map,
       make("p", { class: "live-note" }, "The time between impacts over the one before, in periods; two evenly spaced impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents.")));
   new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(scene);
@@ -628,17 +633,17 @@ function Running(engine, say) {
     tone.stop(now + 0.05);
   }
 
-  /** Displacement and gap at the clock, between the points beside it. */
+  /** Displacement and gap at the clock, between the points beside it, and which way the displacement goes. */
   function state() {
     let k = points.length - 6;
     while (k > 0 && points[k] > clock) k -= 3;
-    if (k < 0) return [0, 0];
+    if (k < 0) return [0, 0, 0];
     const part = Math.min(1, Math.max(0, (clock - points[k]) / (points[k + 3] - points[k] || 1)));
-    return [1, 2].map((i) => points[k + i] + part * (points[k + 3 + i] - points[k + i]));
+    return [...[1, 2].map((i) => points[k + i] + part * (points[k + 3 + i] - points[k + i])), Math.sign(points[k + 4] - points[k + 1])];
   }
 
   function box({ g, width, height }, { ink, soft, line, blue, red }) {
-    const [x, gap] = state(), ghost = alone(clock), rows = [50, 128], half = 24;
+    const [x, gap, way] = state(), ghost = alone(clock), rows = [50, 128], half = 24;
     // The cavity is to scale with the displacement, as far as a ball can be seen in it.
     const room = width - 70, size = Math.min(room / (2 * reach + 2.6), 90), ball = Math.max(7, Math.min(15, 0.3 * size));
     const cavity = Math.max(size, 16), middle = 60 + room / 2;
@@ -646,6 +651,10 @@ function Running(engine, say) {
       g.beginPath(); g.moveTo(from, y);
       for (let k = 0; k <= 12; k += 1) g.lineTo(from + 8 + (to - from - 16) * k / 12, y + (k % 2 ? 6 : -6));
       g.lineTo(to, y); g.stroke();
+    };
+    const arrow = (from, y, way) => {
+      g.beginPath(); g.moveTo(from, y); g.lineTo(from + 28 * way, y);
+      g.moveTo(from + 20 * way, y - 5); g.lineTo(from + 28 * way, y); g.lineTo(from + 20 * way, y + 5); g.stroke();
     };
     g.lineWidth = 3; g.strokeStyle = soft;
     g.beginPath(); g.moveTo(6, 8); g.lineTo(6, height - 8); g.stroke();
@@ -662,13 +671,21 @@ function Running(engine, say) {
       let hit = false;
       for (let k = impacts.length - 2; k >= 0 && impacts[k] > clock - FLASH * speed.value; k -= 2) hit ||= impacts[k] <= clock && impacts[k + 1] === -side;
       if (!hit) continue;
-      g.fillStyle = red;
+      g.fillStyle = g.strokeStyle = red;
       g.fillRect(at(x) + side * wide - 4, rows[0] - half, 8, 2 * half);
+      arrow(at(x) + side * (wide + 6), rows[0], side);
     }
+    g.strokeStyle = ink;
+    if (way) arrow(at(x) - way * 14, rows[0] - half + 10, way);
     g.fillStyle = blue;
     g.beginPath(); g.arc(at(x) - gap * cavity, rows[0] + half - ball - 1, ball, 0, 7); g.fill();
     g.fillStyle = soft;
     g.fillText(`with absorber, ±${number(largest * of.clearance)} ${of.unit} seen`, 16, 16);
+    // How long a round length is here.
+    const length = round(40 / size * of.clearance), end = width - 10, begin = end - length / of.clearance * size;
+    g.strokeStyle = soft; g.lineWidth = 2;
+    g.beginPath(); g.moveTo(begin, height - 7); g.lineTo(end, height - 7); g.stroke();
+    g.textAlign = "right"; g.fillText(`${number(length)} ${of.unit}`, begin - 6, height - 3); g.textAlign = "left";
     const peak = of.bare ? Math.hypot(...of.bare) : Infinity;
     const words = of.bare ? `without, ±${number(peak * of.clearance)} ${of.unit}${peak > reach ? ", off this scale" : ""}` : "without: nothing limits it";
     g.fillText(words, 16, 94);
