@@ -136,7 +136,9 @@ impl Dimension {
                 return (message, format!("write all of them in units as in \"{example}\""));
             }
             let message = format!("is {own}, but `{written}` is the unit of {other}");
-            return (message, self.accepted());
+            let is_acceleration = Self::Acceleration.unit_of(written).is_some();
+            let converted = if self == Self::Length && is_acceleration { CONVERTED } else { "" };
+            return (message, self.accepted() + converted);
         }
         let symbols: Vec<&str> = self.all_units().map(|unit| unit.symbol).collect();
         let near = nearest(&plain_spelling(written), &symbols);
@@ -155,6 +157,10 @@ impl Dimension {
         format!("{} is accepted in {}", self.words().0, symbols.join(", "))
     }
 }
+
+/// What is said where an acceleration stands for a length, as shakers are set.
+const CONVERTED: &str = "; a harmonic acceleration a at the frequency f is the amplitude a/(2 pi f)^2: \
+                         1 g at 100 Hz is 0.0248 mm";
 
 /// The unit that stands between brackets in the head of a column, a number's without; else what is wrong with it, and
 /// what to do.

@@ -52,7 +52,9 @@ fn beside(path: &Path) -> Option<String> {
     let there = store::list(folder.unwrap_or(Path::new("."))).ok()?;
     let names = there.files.iter().map(String::as_str).filter(|name| name.ends_with(".toml"));
     let names: Vec<&str> = names.collect();
-    nearest(&name, &names).map(str::to_owned)
+    let whole = format!("{name}.toml");
+    let without_ending = names.contains(&whole.as_str()).then_some(whole.as_str());
+    without_ending.or_else(|| nearest(&name, &names)).map(str::to_owned)
 }
 
 /// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.

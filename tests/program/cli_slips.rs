@@ -317,5 +317,6 @@ fn what_was_meant_is_told() {
         let text = told(&[command, "damper.tml"]);
         assert!(text.contains("did you mean damper.toml?"), "{command}: {text}");
         assert!(!told(&[command, "chimney.toml"]).contains("did you mean"), "{command}");
+        assert!(told(&[command, "damper"]).contains("did you mean damper.toml?"), "{command}");
     }
 }

@@ -227,7 +227,11 @@ fn the_expectation_and_its_optimum_are_those_of_monte_carlo() {
             // Four standard errors are exceeded by chance once in 16,000 times.
             assert!((expected - mean).abs() < 4.0 * error, "{expected}, {mean}, {error}");
         }
-        let found = optimized(&band_text(&two), None);
+        // Whether the best is within the other limits is a matter of a thousandth of a motion that does not repeat.
+        let limits = ["stable_share", "peak_displacement", "reduction_db", "impact_velocity"];
+        let text = band_text(&two);
+        let asked = text.lines().filter(|line| !limits.iter().any(|key| line.starts_with(key)));
+        let found = optimized(&asked.collect::<Vec<_>>().join("\n"), None);
         let robust = found.robust.as_ref().expect("something is uncertain");
         let (reached, error) = monte_carlo(&found.task, &robust.design.choice, 2000);
         let places = (0..13).map(|k| found.task.choice(&[0.4 + 0.04 * f64::from(k)]));

@@ -299,6 +299,9 @@ fn a_flag_is_refused_as_a_line_of_a_case_is() {
     }
     let told = refused(&["--mass", "30 kg", "--frequency", "7 Hz", "--damping", "1 %"]);
     assert!(told.contains("one of --force, --base and --release"), "{told}");
+    // As shakers are set: 9.80665/(2 pi 100)^2 m.
+    let told = refused(&["--base", "20 g"]);
+    assert!(told.contains("1 g at 100 Hz is 0.0248 mm"), "{told}");
     // No terminal, whatever is known.
     let told = refused(&["--guide"]);
     assert!(told.contains("--guide asks on a terminal") && told.contains("--mass"), "{told}");

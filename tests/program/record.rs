@@ -140,6 +140,7 @@ fn one_number_has_one_error() {
         let rows: Vec<Vec<&str>> = checked
             .lines()
             .skip(2)
+            .take_while(|line| !line.is_empty())
             .map(|line| line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect())
             .collect();
         assert_eq!(rows.len(), 5, "{checked}");
