@@ -3,8 +3,9 @@
 //! Each lane flies its own trajectory of its own system by the formulas of `phasor`, in the
 //! same order and with the same rounding as [`Simulation::run`], so that the bits agree. Panels are
 //! flown in step; a lane that has come to an event waits until enough others have, and the events are
-//! dealt with together. What is rare, a panel in doubt, sustained contact, the end of a chattering
-//! sequence, an oscillator that does not ring, a cavity that is not ideal, is left to [`Simulation`] itself.
+//! dealt with together. What is rare or short, a panel in doubt, a chattering sequence and the
+//! sustained contact after it, an oscillator that does not ring, a cavity that is not ideal, is left
+//! to [`Simulation`] itself.
 
 mod events;
 mod queue;

@@ -1,13 +1,15 @@
 //! Direct, event-driven simulation of the full system, equations (1) and (2): layer 0.
 //!
 //! Between events the motion is closed form ([`flow`]); events are found by a search that cannot
-//! step over one, in panels of two phasors (`phasor`) or step by step
-//! (`numerics/crossing.rs`); what happens at a wall is in [`contact`]; [`Simulation`]
-//! strings it together and tells observers. Nothing here knows of the asymptotic theory.
+//! step over one, in panels of two phasors (`phasor`), as the root of a series where a flight comes
+//! back to its wall at once (`returns`), or step by step (`numerics/crossing.rs`); what happens at a
+//! wall is in [`contact`]; [`Simulation`] strings it together and tells observers. Nothing here knows
+//! of the asymptotic theory.
 
 pub mod batch;
 mod certificate;
 pub mod contact;
+mod contact_end;
 mod events;
 pub mod flow;
 mod history;
@@ -17,7 +19,6 @@ mod panels;
 mod path;
 mod peaks;
 mod phasor;
-mod release;
 mod returns;
 mod roots;
 mod run;

@@ -81,7 +81,7 @@ impl Simulation {
     }
 
     /// The same as long as flights are short returns.
-    pub(super) fn return_shortly(
+    pub(super) fn fly_short_returns(
         &mut self,
         level: Level,
         limits: Limits,
@@ -129,7 +129,7 @@ impl Simulation {
                 return (at, if RETURNS { FlightEnd::Limit } else { FlightEnd::Return });
             }
             let landing = if RETURNS {
-                rates.back(simd, &here, path, flight.left, &mut at.evaluations)
+                rates.short_return(simd, &here, path, flight.left, &mut at.evaluations)
             } else {
                 rates.fly(simd, here, slack, &flight, &mut at.evaluations)
             };

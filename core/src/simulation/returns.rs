@@ -106,7 +106,7 @@ impl<R: Real> Rates<R> {
 impl Rates<f64> {
     /// Where a short return ends, or the period before it; none where nothing is proven.
     #[inline(never)]
-    pub(super) fn back<S: Simd>(
+    pub(super) fn short_return<S: Simd>(
         &self,
         simd: S,
         here: &FlightState<f64>,

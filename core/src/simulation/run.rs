@@ -277,7 +277,7 @@ impl Simulation {
     /// nothing is proven.
     pub(super) fn chatter(&mut self, limits: Limits, observer: &mut dyn Observer) -> bool {
         while self.mode == Mode::Flight && limits.stop(self).is_none() {
-            match self.return_shortly(self.level, limits, observer) {
+            match self.fly_short_returns(self.level, limits, observer) {
                 FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
                 end => return end == FlightEnd::Limit,
             }

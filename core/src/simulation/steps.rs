@@ -125,7 +125,7 @@ impl Simulation {
         let band = CrossingBand { lower: -held, upper, touch };
         let from = if friction > 0.0 { SHORTEST_HOLD.min(self.remaining()) } else { 0.0 };
         let proven = match self.mode {
-            Mode::Contact(side) if friction == 0.0 => self.let_go(side, self.remaining()),
+            Mode::Contact(side) if friction == 0.0 => self.contact_ends(side, self.remaining()),
             _ => None,
         };
         let force = ContactForce { motion, sign, gravity };

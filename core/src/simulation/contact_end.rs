@@ -19,7 +19,7 @@ const LARGEST: f64 = 0.25;
 
 impl Simulation {
     /// When the wall on `side` lets go, within a time; none where nothing is proven.
-    pub(super) fn let_go(&self, side: Side, left: f64) -> Option<Search> {
+    pub(super) fn contact_ends(&self, side: Side, left: f64) -> Option<Search> {
         let rates = self.towing.filter(|_| self.rates.is_some())?;
         let (state, steady) = (&self.at.state, rates.steady(self.at.phase));
         let (x, v) = (state.x - self.sliding.rest_in_tow() - steady.x, state.x_velocity - steady.v);
@@ -114,7 +114,7 @@ mod tests {
                 released += 1
             }
             let side = if sign > 0.0 { Side::Plus } else { Side::Minus };
-            proven += usize::from(fast.let_go(side, left).is_some());
+            proven += usize::from(fast.contact_ends(side, left).is_some());
         }
         assert!(released > 50 && kept > 50, "{released} {kept}");
         // Most of the others let go at once.
