@@ -60,7 +60,7 @@ pub fn files(
     let whole = [
         report.clone(),
         appendix("validation", &validation),
-        folded(&appendix("equations", &equations("equations-all.md")?)),
+        appendix("equations", &equations("equations-all.md")?),
     ];
     let tone = document["verdict"]["tone"].as_str().unwrap_or_default();
     let html = html::page(tone, &whole.join("\n"), &drawings)?;
@@ -137,16 +137,6 @@ fn appendix(name: &str, page: &str) -> String {
         None => format!("{line}\n"),
     };
     page.lines().map(line).collect()
-}
-
-/// An appendix whose length would hide that the page ends: everything after its heading opens by a click.
-fn folded(appendix: &str) -> String {
-    let (heading, rest) = appendix.split_once("\n## ").unwrap_or_default();
-    let (title, rest) = rest.split_once('\n').unwrap_or((rest, ""));
-    format!(
-        "{heading}\n## {title}\n\n<details>\n<summary>All {}, with their sources</summary>\n{rest}\n</details>\n",
-        title.to_lowercase()
-    )
 }
 
 /// Every figure as SVG by its name: as its file has it, and one for a phone, or nothing.

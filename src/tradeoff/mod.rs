@@ -17,7 +17,7 @@ pub mod page;
 use serde::Serialize;
 
 use crate::executor::Executor;
-use crate::motions::{Effort, Measured, Motion, Place, measured, motions};
+use crate::motions::{Effort, Measured, Motion, MotionKind, Place, Window, measured, motions};
 use crate::regimes::Regime;
 use crate::simulation::Simulation;
 use crate::study::StudyError;
@@ -242,6 +242,13 @@ impl Tradeoff {
     }
 }
 
+/// Whether a state is on a motion that repeats.
+fn repeats(system: &System, state: State, effort: &TradeoffEffort) -> Result<bool, StudyError> {
+    let window = Window { discard: 0, periods: effort.search.periods, impact_limit: u64::MAX };
+    let seen = Measured::reach(system, state, &window)?;
+    Ok(seen.classification.evidence.periodicity.is_some())
+}
+
 fn best(system: &System, main: &Motion, effort: &TradeoffEffort) -> Result<Best, StudyError> {
     let (layer, periods, orbit, decay_rate, answer) = match main.orbit() {
         Some(proven) => {
@@ -250,11 +257,21 @@ fn best(system: &System, main: &Motion, effort: &TradeoffEffort) -> Result<Best,
             (MethodGroup::ExactOrbit, None, orbit, rate, Estimate::of_motion(main))
         }
         None => {
-            let mut simulation = Simulation::new(system, main.state(), 0.0)?;
-            let answer =
-                estimate::measured(&mut simulation, effort.longest).ok_or(StudyError::NoMotion)?;
+            let mut periods = effort.longest;
+            let answer = loop {
+                let mut simulation = Simulation::new(system, main.state(), 0.0)?;
+                let answer = estimate::measured(&mut simulation, periods);
+                let answer = answer.ok_or(StudyError::NoMotion)?;
+                // What wanders may be a transient: what a run that has left it averages is of two motions.
+                let wanders = matches!(main.kind(), MotionKind::Wanders);
+                let is_shortest = periods <= effort.search.periods;
+                if !wanders || is_shortest || !repeats(system, simulation.state(), effort)? {
+                    break answer;
+                }
+                periods /= 2;
+            };
             let rate = 0.5 * system.mass_ratio() * system.damping() * system.period();
-            (MethodGroup::Simulation, Some(effort.longest), None, rate, answer)
+            (MethodGroup::Simulation, Some(periods), None, rate, answer)
         }
     };
     Ok(Best {

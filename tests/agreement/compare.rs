@@ -540,15 +540,7 @@ fn traded(judge: &mut Judge, bench: &Bench, motions: &[Value], simulated: &Value
     let listed = number(&main["rms"]["value"]);
     // Measured twice where it never repeats.
     let errors = number(&main["rms"]["error"]) + number(&best["rms_error"]) * rms;
-    // A motion that wanders beside one that repeats may be a transient, as pages say, and a trade-off runs for several times as
-    // long: then its run is partly on one that is listed beside it.
-    let repeats = |one: &&Value| one["kind"] == "repeats" && number(&one["share"]) > 0.0;
-    let beside = motions.iter().filter(repeats).map(|one| number(&one["rms"]["value"]));
-    let between = match main["kind"] == "wanders" {
-        true => beside.map(|other| (other - listed).abs()).fold(0.0, f64::max),
-        false => 0.0,
-    };
-    judge.near("trade-off, rms", rms, listed, 2.0 * errors + SOLVED * listed + between);
+    judge.near("trade-off, rms", rms, listed, 2.0 * errors + SOLVED * listed);
     judge.same("trade-off, share", &found["share"], &main["share"]);
     judge.near(
         "trade-off, others",

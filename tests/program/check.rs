@@ -202,6 +202,15 @@ fn check(path: &PathBuf, format: &str) -> (Option<i32>, String) {
     (output.status.code(), String::from_utf8(output.stdout).expect("text"))
 }
 
+/// Next to where a modulated response ends one start is captured now and then, and some windows have no peak at all: measured
+/// once, its largest value was known to 95 %, and what holds was too close to call.
+#[test]
+fn a_motion_that_is_hardly_known_is_measured_for_longer() {
+    let (code, text) = check(&PathBuf::from("cases/mast-mode-1.toml"), "text");
+    assert_eq!(code, Some(0), "{text}");
+    assert!(text.starts_with("mast-mode-1: all 2 criteria hold"), "{text}");
+}
+
 #[test]
 fn every_format_says_what_fails_and_the_exit_code_too() {
     let (_folder, fails) = written("stable_share = \">= 90 %\"\nz3_share = \">= 1 %\"");

@@ -59,17 +59,21 @@ impl Cluster {
 
     /// Whether relative error of the root mean square and error of the impacts per period are within limits.
     pub fn is_within(&self, [amplitude, impacts]: [f64; 2]) -> bool {
-        let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
-        let Facts { rms, impacts_per_period, .. } = Facts::pooled(&windows);
+        let Facts { rms, impacts_per_period, .. } = self.facts();
         rms.error <= amplitude * rms.value && impacts_per_period.error <= impacts
     }
 
     /// Whether a longer run may well have peaks half as large again: of a motion that is captured now and then windows of
     /// which some have no peak at all are too short.
     pub fn is_vague(&self) -> bool {
-        let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
-        let Facts { peak, .. } = Facts::pooled(&windows);
+        let Facts { peak, .. } = self.facts();
         peak.error > VAGUE * peak.value
+    }
+
+    /// Those of all its windows together.
+    fn facts(&self) -> Facts {
+        let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
+        Facts::pooled(&windows)
     }
 
     /// Whether its averages still go up or down: of a few windows where most do, of many where all do together.
@@ -100,10 +104,9 @@ impl Cluster {
 
     /// The motion. It has the regime of what all its windows show together.
     pub fn motion(&self, reached: Reached, settled: bool) -> Motion {
-        let facts: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
         let evidence: Vec<_> = self.samples.iter().map(|one| one.evidence).collect();
         Motion {
-            facts: Facts::pooled(&facts),
+            facts: self.facts(),
             kind: MotionKind::Wanders,
             regime: Regime::of_several(&evidence),
             state: self.samples[0].begin,

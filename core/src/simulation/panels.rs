@@ -1,7 +1,7 @@
 //! The flights of one trajectory, panel by panel: see [`super::phasor`] for the
 //! formulas and [`super::certificate`] for the proof.
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Simd, dispatch};
 
 use super::contact::rebound;
 use super::events::{Detail, Observer, Side};
@@ -62,35 +62,23 @@ pub(super) enum FlightEnd {
 }
 
 impl Simulation {
-    /// Flies from event to event by the instructions of `level`.
-    pub(super) fn fly_in_panels(
+    /// Flies from event to event: by panels, or as long as flights are short returns.
+    pub(super) fn fly(
         &mut self,
-        level: Level,
+        short_returns: bool,
         limits: Limits,
         observer: &mut dyn Observer,
     ) -> FlightEnd {
         let Some(rates) = self.rates else { return FlightEnd::Doubt };
-        let (moment, end) = if self.sliding.straight {
+        let (level, sliding) = (self.level, self.sliding);
+        let (moment, end) = if short_returns {
+            // A straight line is a parabola too, with the same bits.
+            dispatch!(level, simd => self.fly_by::<_, _, true>(simd, sliding, &rates, limits, observer))
+        } else if sliding.straight {
             dispatch!(level, simd => self.fly_by::<_, _, false>(simd, Straight, &rates, limits, observer))
         } else {
-            let sliding = self.sliding;
             dispatch!(level, simd => self.fly_by::<_, _, false>(simd, sliding, &rates, limits, observer))
         };
-        self.at = moment;
-        end
-    }
-
-    /// The same as long as flights are short returns.
-    pub(super) fn fly_short_returns(
-        &mut self,
-        level: Level,
-        limits: Limits,
-        observer: &mut dyn Observer,
-    ) -> FlightEnd {
-        let Some(rates) = self.rates else { return FlightEnd::Doubt };
-        // A straight line is a parabola too, with the same bits.
-        let sliding = self.sliding;
-        let (moment, end) = dispatch!(level, simd => self.fly_by::<_, _, true>(simd, sliding, &rates, limits, observer));
         self.at = moment;
         end
     }

@@ -262,7 +262,7 @@ impl Simulation {
         if self.rates.is_none() {
             return self.fly_step_by_step(observer);
         }
-        match self.fly_in_panels(self.level, limits, observer) {
+        match self.fly(false, limits, observer) {
             FlightEnd::Limit => {}
             FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
             FlightEnd::Turned => self.reverse(observer),
@@ -277,7 +277,7 @@ impl Simulation {
     /// nothing is proven.
     pub(super) fn chatter(&mut self, limits: Limits, observer: &mut dyn Observer) -> bool {
         while self.mode == Mode::Flight && limits.stop(self).is_none() {
-            match self.fly_short_returns(self.level, limits, observer) {
+            match self.fly(true, limits, observer) {
                 FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
                 end => return end == FlightEnd::Limit,
             }
