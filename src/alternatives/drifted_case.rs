@@ -28,9 +28,8 @@ impl DriftedCase {
     /// That of a case with so many times its natural frequency; none where there is none.
     pub fn of(case: &Case, measure: Measure, factor: f64) -> Option<Self> {
         let case = if factor == 1.0 { case.clone() } else { case.with_natural_frequency(factor)? };
-        let records = case.recording.as_ref().map(|one| one.records()).unwrap_or_default();
         let units = case.units();
-        let pieces = records.iter().map(|record| record.pieces(&units, Record::LONGEST));
+        let pieces = case.records().iter().map(|record| record.pieces(&units, Record::LONGEST));
         let pieces = pieces.collect();
         Some(Self { band: case.range(), pieces, case, measure, factor })
     }

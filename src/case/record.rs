@@ -1,5 +1,7 @@
 //! What a case that is driven by a record says of it, and the samples in its file.
 
+use std::sync::{Arc, OnceLock};
+
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -14,12 +16,20 @@ use crate::quantity::Dimension;
 use crate::quantity::unit::Unit;
 
 /// What drives the oscillator, where that is a record or noise.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Recording {
     /// What it is of.
     pub quantity: RecordQuantity,
     /// Where the values come from.
     pub source: RecordSource,
+    /// Of a spectrum, made when they are first asked for; variants of a case share them.
+    made: Arc<OnceLock<Vec<Record>>>,
+}
+
+impl PartialEq for Recording {
+    fn eq(&self, other: &Self) -> bool {
+        self.quantity == other.quantity && self.source == other.source
+    }
 }
 
 /// Where the values of a record come from.
@@ -37,6 +47,10 @@ pub enum RecordSource {
 }
 
 impl Recording {
+    fn new(quantity: RecordQuantity, source: RecordSource) -> Self {
+        Self { quantity, source, made: Arc::default() }
+    }
+
     /// The path of the file that must be read, relative to the case file.
     pub fn file(&self) -> Option<&str> {
         match &self.source {
@@ -54,17 +68,24 @@ impl Recording {
     }
 
     /// The records; none of a file that was not read.
-    pub fn records(&self) -> Vec<Record> {
+    pub fn records(&self) -> &[Record] {
         match &self.source {
             RecordSource::File { read, .. } => {
-                read.iter().map(|(_, record)| record.clone()).collect()
+                read.as_ref().map_or(&[], |(_, record)| std::slice::from_ref(record))
             }
-            RecordSource::Spectrum(spectrum) => spectrum.records(self.quantity).collect(),
+            RecordSource::Spectrum(spectrum) => {
+                self.made.get_or_init(|| spectrum.records(self.quantity).collect())
+            }
         }
     }
 }
 
 impl Case {
+    /// The records that drive it; none of another case, or of a file that was not read.
+    pub fn records(&self) -> &[Record] {
+        self.recording.as_ref().map_or(&[], Recording::records)
+    }
+
     /// The case with the samples of its record; `name`, usually the path of the file, is for messages only. A case
     /// that names no file stays as it is.
     ///
@@ -76,7 +97,7 @@ impl Case {
     /// are no numbers, times that do not ascend.
     pub fn with_record(mut self, name: &str, text: &str) -> Result<Self, CaseError> {
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if let Some(Recording { quantity, source: RecordSource::File { read, .. } }) =
+        if let Some(Recording { quantity, source: RecordSource::File { read, .. }, .. }) =
             &mut self.recording
         {
             let units = self.design.units();
@@ -269,7 +290,7 @@ pub(super) fn read(
             reader.report(table.span_of(key), message, "expected a file alone", help);
         }
         let source = RecordSource::File { path: excitation.file.clone()?, read: None };
-        return Some(Recording { quantity, source });
+        return Some(Recording::new(quantity, source));
     };
     for key in ["duration", "seed"].into_iter().filter(|key| !table.has(key)) {
         let message = format!("`{key}` is missing beside `spectrum`");
@@ -311,5 +332,5 @@ pub(super) fn read(
         reader.report(table.span_of("duration"), message, expected, help);
         return None;
     }
-    Some(Recording { quantity, source: RecordSource::Spectrum(spectrum) })
+    Some(Recording::new(quantity, RecordSource::Spectrum(spectrum)))
 }

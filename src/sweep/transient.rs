@@ -1,8 +1,6 @@
 //! What is recorded of structures that are not driven steadily: numbers of the study that a case of the point has,
 //! without what costs more and is not recorded. A motion that cannot be followed has none.
 
-use std::sync::OnceLock;
-
 use super::columns::Cell;
 use super::{GridPoint, Plan};
 use crate::case::{Case, RecordSource, Recorded, Recording};
@@ -24,7 +22,6 @@ pub(super) struct Unsteady {
     decay_level: f64,
     count_inactive: bool,
     recording: Option<Recording>,
-    records: OnceLock<Vec<Record>>,
 }
 
 impl Unsteady {
@@ -34,7 +31,6 @@ impl Unsteady {
             decay_level: case.decay_level,
             count_inactive: case.count_inactive,
             recording: case.recording.clone(),
-            records: OnceLock::new(),
         })
     }
 
@@ -47,7 +43,7 @@ impl Unsteady {
     }
 
     fn records(&self) -> &[Record] {
-        self.records.get_or_init(|| self.recording.iter().flat_map(Recording::records).collect())
+        self.recording.as_ref().map_or(&[], Recording::records)
     }
 
     /// What is recorded of a point, in the order of the settings.

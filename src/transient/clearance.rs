@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::record_study::{flown, over_records};
 use super::{DecayStudy, DecayTime, SweepStudy, WithError};
-use crate::case::{Case, Design, Recording, Rounding};
+use crate::case::{Case, Design, Rounding};
 use crate::excitation::{Record, Release, SineSweep, Transient};
 use crate::executor::{Executor, Serial, map};
 use crate::flights::{Places, inactive, with_closer};
@@ -66,7 +66,7 @@ fn screened(records: usize) -> u32 {
 /// left that promises more than the best that was judged.
 pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<ClearanceOptimum> {
     let transient = case.design.transient()?;
-    let records = case.recording.as_ref().map_or_else(Vec::new, Recording::records);
+    let records = case.records();
     let own = case.design.clearance();
     let bounds = case.optimize.clearance.unwrap_or(CLEARANCES.map(|factor| factor * own));
     let judged_by = case.absorber_places()?;
@@ -75,7 +75,7 @@ pub fn best_clearance(case: &Case, executor: &dyn Executor) -> Option<ClearanceO
         let found = match &transient {
             Transient::Release(release) => slowest(case, release, &design, places),
             Transient::Sweep(sweep) => swept(case, sweep, &design, places),
-            Transient::Record(_) => shaken(case, &records, &design, places),
+            Transient::Record(_) => shaken(case, records, &design, places),
         };
         found.unwrap_or([f64::INFINITY, 0.0])
     };

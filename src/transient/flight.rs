@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Study;
 use super::study::longest;
-use crate::case::{Case, Recording};
+use crate::case::Case;
 use crate::excitation::{Record, Transient};
 use crate::flights::{DrivenError, Passage, Ringdown, STEPS, follow_from};
 use crate::linear::bare_decay;
@@ -80,8 +80,9 @@ impl OneFlight {
                     .map_err(DrivenError::from)
             }
             Transient::Record(_) => {
-                let records = case.recording.as_ref().map_or_else(Vec::new, Recording::records);
-                let Some(record) = records.first() else { return Some(Err(DrivenError::NoRecord)) };
+                let Some(record) = case.records().first() else {
+                    return Some(Err(DrivenError::NoRecord));
+                };
                 let mut pieces = record.pieces(&units, Record::LONGEST);
                 let mut left = periods.map_or(f64::INFINITY, |periods| TAU * periods as f64);
                 pieces.retain(|piece| {

@@ -98,10 +98,10 @@ impl Study {
     /// # Errors
     /// As [`Self::of_case`].
     pub fn brief_of_case(case: &Case, places: Places<'_>) -> Option<Result<Self, DrivenError>> {
-        let records = case.recording.as_ref().map(|one| one.records()).unwrap_or_default();
+        let records = case.records();
         let of = Brief {
             transient: case.design.transient()?,
-            records: &records,
+            records,
             decay_level: case.decay_level,
             count_inactive: case.count_inactive,
             theory: false,

@@ -72,13 +72,12 @@ impl RecordStudy {
     /// # Errors
     /// [`DrivenError`] where the motion cannot be followed, or where nobody has handed in the samples.
     pub fn of_case(case: &Case, executor: &dyn Executor) -> Option<Result<Self, DrivenError>> {
-        let recording = case.recording.as_ref()?;
-        let records = recording.records();
+        let records = case.recording.as_ref()?.records();
         let places = case.absorber_places()?;
         let (closer, shaking) = (records.len() == 1, case.asks_for_shaking());
         let places = Places { even: places, closer, shaking, executor };
         let inactive = case.count_inactive;
-        Some(Self::of(&case.system(), &case.units(), &records, places, inactive))
+        Some(Self::of(&case.system(), &case.units(), records, places, inactive))
     }
 
     /// Studies a system under records, from places of the absorber; those from which it never touches a wall count if they

@@ -2,6 +2,7 @@
 //! driven as the structure with the absorber is. A step of time is a matrix exponential, so there is no error of
 //! integration.
 
+use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 use nalgebra::{SMatrix, SVector};
@@ -117,24 +118,27 @@ pub fn driven(
     let mass_ratio = damper.map_or(0.0, |_| system.mass_ratio());
     let mut meter = Meter::new(mass_ratio, system.mass_ratio() * system.damping());
     let mut state = State::AT_REST;
-    let mut of_duration = (0.0, Square::identity());
-    let mut rates = Square::zeros();
+    // Even times of a record are rounded, so that its pieces have a few durations.
+    let mut steps = HashMap::<u64, Square>::new();
+    let mut rates = matrix(system, damper);
+    rates.fixed_columns_mut::<2>(4).fill(0.0);
+    // The force acts on the structure, that of a base which shakes on both masses; and it grows.
+    rates[(1, 4)] = 1.0;
+    rates[(3, 4)] = f64::from(u8::from(pieces.first().is_some_and(|piece| piece.shakes)));
+    rates[(4, 5)] = 1.0;
     let mut shakes = shaking.then(RateSums::default);
     for piece in pieces {
         meter.jump(piece, &mut state);
-        if (of_duration.0 - piece.duration).abs() > SAME * piece.duration {
-            let free = matrix(system, damper);
-            rates.fixed_view_mut::<4, 4>(0, 0).copy_from(&free.fixed_view::<4, 4>(0, 0));
-            // The force acts on the structure, that of a base which shakes on both masses; and it grows.
-            rates[(1, 4)] = 1.0;
-            rates[(3, 4)] = f64::from(u8::from(piece.shakes));
-            rates[(4, 5)] = 1.0;
-            of_duration = (piece.duration, exponential(rates * piece.duration));
+        if steps.len() > MOST_STEPS {
+            steps.clear();
         }
+        let step = steps
+            .entry(piece.duration.to_bits())
+            .or_insert_with(|| exponential(rates * piece.duration));
         let State { x, x_velocity, y, y_velocity } = state;
         let [force, slope] = piece.force;
         let begin = LinearState::from([x, x_velocity, y, y_velocity, force, slope]);
-        let at_end = of_duration.1 * begin;
+        let at_end = *step * begin;
         if let Some(sums) = &mut shakes {
             // The base, which moves by as much as the force is its inertia.
             let base = f64::from(u8::from(piece.shakes));
@@ -165,8 +169,8 @@ fn shaken(rates: &Square, state: &LinearState) -> [f64; 3] {
     [first[0], second[0], (rates * second)[0]]
 }
 
-/// Relative difference of steps that are one: even times of a record are rounded.
-const SAME: f64 = 1e-12;
+/// Steps of a record that are kept at once.
+const MOST_STEPS: usize = 256;
 
 /// Steps in a period: cubics between two of them are off by `h^4/384`, 1.5e-8 of the motion.
 const STEPS_OF_PERIOD: u32 = 128;
