@@ -63,6 +63,9 @@ pub struct HoldsFor {
     pub range: [f64; 2],
     /// Whether the search ended there before anything failed.
     pub open: [bool; 2],
+    /// The part of it around the case in which every place that was looked at is decided: all criteria hold with their
+    /// errors. None where the case itself is not decided.
+    pub holds: Option<[f64; 2]>,
     /// Places in it at which an error could turn a criterion: from one that is decided to the next.
     pub undecided: Vec<[f64; 2]>,
     /// Places that were looked at, ascending, those beyond the ends too, and what the first criterion found there.
@@ -115,7 +118,9 @@ pub fn holds_for(
             below.reached.into_iter().chain(here).chain(above.reached).collect();
         reached.sort_by(|a, b| a[0].total_cmp(&b[0]));
         undecided.dedup_by(|next, before| {
-            let joins = next[0] <= before[1];
+            // The case itself is decided.
+            let here = own == Together::Hold && next[0] == value;
+            let joins = next[0] <= before[1] && !here;
             if joins {
                 before[1] = before[1].max(next[1]);
             }
@@ -126,6 +131,7 @@ pub fn holds_for(
             value,
             range: [below.end, above.end],
             open: [below.open, above.open],
+            holds: (own == Together::Hold).then_some([below.holds, above.holds]),
             undecided,
             reached,
         });
@@ -147,6 +153,8 @@ struct Number<'a> {
 struct Reach {
     end: f64,
     open: bool,
+    /// Where places begin that are not decided, from the case's own.
+    holds: f64,
     /// From a place that is decided, or the case's own, to the next, in the direction of the search.
     undecided: Vec<[f64; 2]>,
     /// See [`HoldsFor::reached`]; in the order in which they were looked at.
@@ -157,7 +165,7 @@ impl Reach {
     fn mirrored(&self) -> Self {
         let undecided = self.undecided.iter().map(|ends| ends.map(|end| -end)).collect();
         let reached = self.reached.iter().map(|[at, found]| [-at, *found]).collect();
-        Self { end: -self.end, open: self.open, undecided, reached }
+        Self { end: -self.end, open: self.open, holds: -self.holds, undecided, reached }
     }
 }
 
@@ -174,7 +182,7 @@ impl<'a> Number<'a> {
 
     fn search(&self, own: Together, up: bool) -> Result<Reach, DrivenError> {
         let [undecided, reached] = [Vec::new(), Vec::new()];
-        let mut reach = Reach { end: self.own, open: true, undecided, reached };
+        let mut reach = Reach { end: self.own, open: true, holds: self.own, undecided, reached };
         let mut looked = vec![(self.own, own)];
         for step in self.varied.steps(self.own, up) {
             let Some(outcome) = self.outcome(step, Looked::OnTheWay, &mut reach)? else { break };
@@ -214,6 +222,8 @@ impl<'a> Number<'a> {
             }
         }
         reach.end = looked.last().map_or(self.own, |last| last.0);
+        let decided = looked.iter().take_while(|one| one.1 == Together::Hold);
+        reach.holds = decided.last().map_or(self.own, |last| last.0);
         for pair in looked.windows(2) {
             if pair[0].1 == Together::Undecided || pair[1].1 == Together::Undecided {
                 reach.undecided.push([pair[0].0, pair[1].0]);

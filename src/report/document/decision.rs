@@ -230,6 +230,7 @@ fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
         "to": found.range[1],
         "from_open": found.open[0],
         "to_open": found.open[1],
+        "holds": found.holds,
         "undecided": found.undecided,
         "further": [],
     });
@@ -240,6 +241,8 @@ fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
         "to": quantity(found.range[1]),
         "from_open": found.open[0],
         "to_open": found.open[1],
+        "holds": found.holds.map(|ends| ends.map(quantity)),
+        "only_here": found.holds == Some([found.value; 2]),
         "undecided": found.undecided.iter().map(|ends| ends.map(quantity)).collect::<Vec<_>>(),
     });
     (row, told)
