@@ -84,3 +84,36 @@
     });
     drawing.addEventListener("blur", leave);
   });
+
+  // Sections fold. On a phone those begin folded that are the evidence for what stands above them.
+  const EVIDENCE = ["band", "which-layer-answered", "motions", "margins", "theory-and-exact-orbits", "validation", "figures", "inputs"];
+  const APPENDIX = "p:has(> a[id^='page-'])";
+  const narrow = matchMedia("(max-width: 40rem)").matches;
+  const unfold = new Map();
+  document.querySelectorAll("main > h2").forEach((heading) => {
+    const body = document.createElement("div");
+    const ends = (one) => !one || one.matches(`h1, h2, footer, ${APPENDIX}`);
+    while (!ends(heading.nextElementSibling)) body.append(heading.nextElementSibling);
+    heading.after(body);
+    const button = document.createElement("button");
+    button.append(...heading.childNodes);
+    heading.append(button);
+    const fold = (folded) => {
+      button.setAttribute("aria-expanded", String(!folded));
+      // Where a browser can, a search in the page finds what is folded.
+      body.hidden = folded ? "until-found" : false;
+    };
+    button.addEventListener("click", () => fold(!body.hidden));
+    body.addEventListener("beforematch", () => fold(false));
+    unfold.set(heading, () => fold(false)).set(body, () => fold(false));
+    fold(narrow && (EVIDENCE.includes(heading.id) || heading.matches(`${APPENDIX} ~ h2`)));
+  });
+  const arrive = () => {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    const section = [...unfold.keys()].find((one) => target && one.contains(target));
+    if (!section) return;
+    unfold.get(section)();
+    target.scrollIntoView();
+  };
+  addEventListener("hashchange", arrive);
+  arrive();

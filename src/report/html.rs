@@ -251,14 +251,16 @@ fn slug(heading: &str) -> String {
     kept.flat_map(char::to_lowercase).map(|c| if c == ' ' { '-' } else { c }).collect()
 }
 
-/// Text in which a number stays on the line of its unit.
+/// Text in which a number stays on the line of its unit and of its relation.
 fn unbroken(text: &str) -> String {
     let mut before = ' ';
     let mut letters = text.chars().peekable();
     let mut result = String::with_capacity(text.len());
     while let Some(letter) = letters.next() {
         let unit = letters.peek().is_some_and(|next| next.is_alphabetic() || *next == '%');
-        let space = letter == ' ' && before.is_ascii_digit() && unit;
+        // Nor does a limit leave its relation.
+        let asked = "≤≥".contains(before);
+        let space = letter == ' ' && (before.is_ascii_digit() && unit || asked);
         result.push(if space { '\u{a0}' } else { letter });
         before = letter;
     }

@@ -8,8 +8,9 @@ use super::Units;
 /// Smallest and largest number that is shown in a page's own unit of length before another prefix is taken.
 const PAGE_RANGE: [f64; 2] = [0.1, 1000.0];
 
-/// Below 1 Hz a frequency stays in Hz down to this: of a tower people say 0.79 Hz, not 790 mHz.
-const LEAST_HERTZ: f64 = 0.1;
+/// Units that stay below 1, down to [`LEAST_PLAIN`]: of a tower people say 0.79 Hz, not 790 mHz.
+const PLAIN: [&str; 2] = ["Hz", "N s/m"];
+const LEAST_PLAIN: f64 = 0.1;
 
 impl Units {
     /// The units of a dimension on a page, from the largest to the smallest.
@@ -58,7 +59,7 @@ impl Units {
         }
         let units = self.of_page(dimension);
         let plain = units.iter().find(|one| one.size == 1.0).or(units.first());
-        let least = |one: &Unit| if one.symbol == "Hz" { LEAST_HERTZ } else { one.size };
+        let least = |one: &Unit| if PLAIN.contains(&one.symbol) { LEAST_PLAIN } else { one.size };
         let fitting = units.iter().find(|one| size >= least(one)).or(units.last());
         let found = if size == 0.0 || !size.is_finite() { plain } else { fitting };
         found.copied().unwrap_or(unit("", 0))

@@ -107,6 +107,9 @@ fn errors(scene: &DrawnCase, data: &BoundaryMap) -> Option<Panel> {
     Some(panel)
 }
 
+/// Frequency ratios that are one: some roundings.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// In the reduced parameters `(sigma, gamma)`.
 pub(super) fn plane(scene: &DrawnCase, borders: &Borders) -> Figure {
     let system = scene.system();
@@ -120,8 +123,10 @@ pub(super) fn plane(scene: &DrawnCase, borders: &Borders) -> Figure {
     let chart = scene.chart(kinds, [borders.window(), y]).with_log([false, log]);
     let mut panel = chart.panel();
     panel.layers = borders.layers(&|detuning, gamma| [detuning, gamma], y);
+    // A frequency ratio of 1 but for rounding.
+    let resonates = (case[0] * system.mass_ratio()).abs() < ROUNDING;
     let facts = json!({
-        "here": case,
+        "here": [if resonates { 0.0 } else { case[0] }, case[1]],
         "boundaries": scene.study.analysis.boundaries,
         "meeting": borders.meeting,
     });
