@@ -165,7 +165,9 @@ impl Reach {
     fn mirrored(&self) -> Self {
         let undecided = self.undecided.iter().map(|ends| ends.map(|end| -end)).collect();
         let reached = self.reached.iter().map(|[at, found]| [-at, *found]).collect();
-        Self { end: -self.end, open: self.open, holds: -self.holds, undecided, reached }
+        // Not the negative zero.
+        let holds = 0.0 - self.holds;
+        Self { end: -self.end, open: self.open, holds, undecided, reached }
     }
 }
 
@@ -222,8 +224,21 @@ impl<'a> Number<'a> {
             }
         }
         reach.end = looked.last().map_or(self.own, |last| last.0);
-        let decided = looked.iter().take_while(|one| one.1 == Together::Hold);
-        reach.holds = decided.last().map_or(self.own, |last| last.0);
+        // So does it where all criteria hold up to; the end of the stretch is known in full.
+        let mut decided = looked.iter().take_while(|one| one.1 == Together::Hold).count();
+        while decided > 1 && decided < looked.len() {
+            let (at, known) = &mut looked[decided - 1];
+            *known = self.outcome(*at, Looked::AsCheck, &mut reach)?.unwrap_or(Together::Fail);
+            if *known == Together::Hold {
+                break;
+            }
+            // What would fail in full within the stretch is told as not decided: further out nothing fails again.
+            *known = Together::Undecided;
+            decided -= 1;
+        }
+        if let Some(last) = decided.checked_sub(1) {
+            reach.holds = looked[last].0;
+        }
         for pair in looked.windows(2) {
             if pair[0].1 == Together::Undecided || pair[1].1 == Together::Undecided {
                 reach.undecided.push([pair[0].0, pair[1].0]);
@@ -262,6 +277,8 @@ enum Looked {
     Longer,
     /// With those of `check`.
     InFull,
+    /// With its windows as well.
+    AsCheck,
 }
 
 /// The criteria of a case.
@@ -273,6 +290,7 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
         let short = effort.short();
         let effort = match how {
             Looked::InFull => short,
+            Looked::AsCheck => *effort,
             Looked::OnTheWay => Effort { starts: effort.starts.min(STARTS), band: BAND, ..short },
             Looked::Longer => Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort },
         };
@@ -281,13 +299,14 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
         return Ok(criteria::judge(case, &survey));
     };
     let even = case.absorber_places().unwrap_or_default();
+    let in_full = matches!(how, Looked::InFull | Looked::AsCheck);
     let most = match transient {
-        _ if how == Looked::InFull => even,
+        _ if in_full => even,
         Transient::Release(_) => even,
         Transient::Sweep(_) => PLACES_OF_SWEEP,
         Transient::Record(_) => PLACES_OF_RECORD,
     };
-    let closer = case.design.release().is_some() || how == Looked::InFull;
+    let closer = case.design.release().is_some() || in_full;
     let shaking = case.asks_for_shaking();
     let places = Places { even: even.min(most), closer, shaking, executor: on };
     let Some(study) = Study::brief_of_case(case, places) else { return Ok(Vec::new()) };

@@ -303,6 +303,35 @@ fn a_marked_point_is_told_by_the_arrow_keys_and_under_a_finger() {
     }
 }
 
+/// On a phone the evidence begins folded; a link to it, a search or its heading shows it, and paper has it all.
+#[test]
+fn the_evidence_is_folded_on_a_phone() {
+    let Some(mut browser) = browser() else { return };
+    let report = REPORTS.join("further").join(FURTHER).join("report.html");
+    const FOLDED: &str = "[...document.querySelectorAll('h2 + [hidden]')].map((one) => one.previousElementSibling.id)";
+    let mut page = browser.page(DESKTOP);
+    page.open(&report);
+    assert_eq!(page.evaluate(FOLDED), json!([]));
+    page.evaluate("document.querySelector('#band button').click()");
+    assert_eq!(page.evaluate(FOLDED), json!(["band"]));
+    drop(page);
+    let mut page = browser.page(PHONE);
+    page.open(&report);
+    let folded = page.evaluate(FOLDED).to_string();
+    assert!(folded.contains("motions") && folded.contains("validation"), "{folded}");
+    assert!(!folded.contains("criteria") && !folded.contains("alternatives"), "{folded}");
+    // The tile leads to the list of motions.
+    let shown = "(async () => { location.hash = '#motions'; await new Promise((done) => setTimeout(done, 200));
+        return [...document.querySelectorAll('#motions + div table')].every((one) => one.checkVisibility({ contentVisibilityAuto: true })); })()";
+    assert_eq!(page.evaluate(shown), json!(true));
+    assert!(!page.evaluate(FOLDED).to_string().contains("motions"));
+    let short = page.print().len();
+    checks::unfold(&mut page);
+    assert_eq!(page.evaluate(FOLDED), json!([]));
+    let whole = page.print().len();
+    assert!(short.abs_diff(whole) < whole / 50, "{short} of {whole} bytes are printed");
+}
+
 /// A number is one of its unit, whatever its prefix; a list of different quantities has no order.
 #[test]
 fn tables_sort_by_a_column() {

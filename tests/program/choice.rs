@@ -32,7 +32,7 @@ fn with(text: &str, keys: &[&str], value: f64, unit: &str) -> String {
 #[test]
 fn ranges_end_where_check_says_so() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut ends = 0;
+    let [mut ends, mut held] = [0; 2];
     for name in [
         "tests/designs/floor",
         "tests/designs/footbridge",
@@ -88,9 +88,17 @@ fn ranges_end_where_check_says_so() {
                     ends += 1;
                 }
             }
+            // Where all criteria are said to hold `check` says so.
+            for at in range["holds"].as_array().into_iter().flatten() {
+                let at = at.as_f64().expect("an end");
+                std::fs::write(path, with(&text, keys, at, unit)).expect("written");
+                let there = checked(path, &["--criteria-only"]);
+                assert_eq!(there["holds"], true, "{name} {keys:?}: not at {at}, {range}");
+                held += 1;
+            }
         }
     }
-    assert!(ends >= 12, "{ends} ends");
+    assert!(ends >= 12 && held >= 12, "{ends} ends, {held} of what holds");
 }
 
 /// What is said of an amplitude and a natural frequency that change at once is what `check` says of that case, on designs that

@@ -218,7 +218,7 @@ fn sliders_move_everything() {
     let native = Native::of(&after).document;
     confront(&study(&mut page, &after)["document"], &native, "moved");
     // What stands on the page is that study.
-    let verdict = page.evaluate("document.querySelector('[data-live] .verdict').textContent");
+    let verdict = page.evaluate("document.querySelector('.live-headline').textContent");
     let peak = native["motions"][0]["peak"]["value"].as_f64().expect("a peak") * 1e3;
     assert!(
         verdict.as_str().expect("words").contains(&format!("{peak:.2}")),
@@ -391,6 +391,38 @@ fn the_best_clearance_is_the_programs() {
     assert_eq!(text(&mut page), best);
 }
 
+/// What takes long can be stopped, and the case is as it was.
+#[test]
+fn the_search_can_be_stopped() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let begin = text(&mut page);
+    let stopped = "(async () => {
+        const best = [...document.querySelectorAll('button')].find((one) => one.textContent === 'Best clearance');
+        best.click();
+        const looks = best.textContent;
+        best.click();
+        await new Promise((done) => setTimeout(done, 50));
+        return [looks, best.textContent, document.querySelector('.live-status').textContent];
+    })()";
+    assert_eq!(
+        page.evaluate(stopped),
+        json!(["Stop looking (0 s)", "Best clearance", "Stopped: the clearance is as it was."])
+    );
+    assert_eq!(text(&mut page), begin);
+}
+
+/// A frame of the book begins with the case that its page is about.
+#[test]
+fn a_frame_begins_with_its_case() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = browser.page(DESKTOP);
+    let asks = "show=map&sliders=restitution&begin=two%20symmetric";
+    page.open_address(&format!("file://{}?{asks}", file.display()));
+    settle(&mut page);
+    assert_eq!(text(&mut page), shipped("li2016-8p5hz-fig4c"));
+}
+
 /// The criteria, over the band: what `vinesink check` says.
 #[test]
 fn criteria_are_judged_as_check_judges_them() {
@@ -420,8 +452,9 @@ fn criteria_are_judged_as_check_judges_them() {
         let lines = said.lines().map(|line| line.trim_matches(['|', ' ']).to_owned());
         let lines: Vec<String> =
             lines.filter(|line| !line.is_empty() && !line.starts_with("---")).collect();
-        let shown: Vec<&str> =
-            shown.as_array().expect("lines").iter().filter_map(|one| one.as_str()).collect();
+        let shown = shown.as_array().expect("lines").iter().filter_map(|one| one.as_str());
+        // Numbers stay beside their units on the page.
+        let shown: Vec<String> = shown.map(|line| line.replace('\u{a0}', " ")).collect();
         let request = json!({ "ask": "judge", "text": text(&mut page) });
         assert!(shown.len() > 2, "{shown:?} {}", page.evaluate(&format!("{LIVE}.ask({request})")));
         assert_eq!(shown, lines);

@@ -65,6 +65,7 @@ function Desk(module, source) {
     done(data.answer);
   };
   worker.postMessage({ module });
+  this.end = () => worker.terminate();
   this.ask = (request) => new Promise((done) => {
     const one = { request, done };
     if (busy) next = one; else send(one);
@@ -92,15 +93,17 @@ const FIRST = ["amplitude", "map"];
 
 function Live(place) {
   // The case as text, its sliders, and what was before and after it.
-  // A page that has this one in a frame may ask for some figures and sliders alone: ?show=sim&sliders=restitution.
+  // A page that has this one in a frame may ask for some figures and sliders alone, and for a preset by a word of its name:
+  // ?show=sim&sliders=restitution&begin=symmetric.
   const asks = new URLSearchParams(location.search), list = (key) => asks.get(key)?.split(",");
   const shown = list("show"), chosen = list("sliders");
   const wanted = (name) => !shown || shown.includes(name);
   let text = "", controls = [], notes = [], past = [], future = [], asked = 0, waiting = null;
   const values = new Map(), sliders = new Map(), figures = new Map();
-  let here, desks, compiled, seeker = null, judge = null, keeps = false, judges = false, written, choose;
+  let here, desks, compiled, stop = null, judge = null, keeps = false, judges = false, written, choose;
   const status = make("p", { class: "live-status", role: "status" });
   const problem = make("p", { class: "live-problem", role: "alert", hidden: true });
+  const headline = make("p", { class: "live-headline", role: "status" });
   const verdict = make("div", { class: "live-verdict", "aria-live": "polite" });
   const decision = make("div", { class: "live-decision", "aria-live": "polite" });
   const panel = make("form", { class: "live-sliders", "aria-label": "Sliders", onsubmit: (e) => e.preventDefault() });
@@ -134,13 +137,13 @@ function Live(place) {
     }
     const presets = here.ask({ ask: "presets" });
     document.body.classList.toggle("live-small", Boolean(shown));
-    const parts = [["running", running.figure], ["verdict", verdict], ["decision", decision]].filter(([name]) => wanted(name)).map(([, part]) => part);
+    const parts = [["verdict", headline], ["running", running.figure], ["verdict", verdict], ["decision", decision]].filter(([name]) => wanted(name)).map(([, part]) => part);
     place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
       make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board, shown ? "" : fold)));
     const own = document.getElementById("live-case")?.textContent;
-    const link = await linked();
-    open(link || (own ?? presets[0][1]));
-    if (!link && own === undefined) choose.value = "0";
+    const link = await linked(), first = Math.max(0, presets.findIndex(([name]) => name.includes(asks.get("begin") ?? "")));
+    open(link || (own ?? presets[first][1]));
+    if (!link && own === undefined) choose.value = String(first);
     if (link === "") complain([{ message: DAMAGED }]);
     // A link that is pasted into an open page, and the browser's way back.
     addEventListener("hashchange", async ({ newURL }) => {
@@ -222,6 +225,7 @@ function Live(place) {
     if (answer.problems) {
       // No verdict stands there for a case that was refused.
       decided([]);
+      headline.replaceChildren();
       verdict.replaceChildren(make("p", {}, "The case was refused. Sliders and figures are those of the case before."));
       return;
     }
@@ -324,7 +328,7 @@ function Live(place) {
   /** What workers make. The areas do not depend on the case's own frequency and clearance. */
   async function follow(keepMap = false) {
     const version = ++asked;
-    if (!shown) old(verdict);
+    if (!shown) [verdict, headline].forEach(old);
     for (const [name, one] of figures) if (name !== "sim" && !(name === "map" && keepMap)) old(one);
     const done = (act) => (answer) => { if (version === asked) act(answer); };
     // While the case moves over it the map itself stays true; what its caption says of the case does not.
@@ -347,26 +351,28 @@ function Live(place) {
     if (!judges) return decided([]);
     judge ??= new Desk(compiled, document.getElementById("live-script").textContent);
     const version = asked;
-    decision.classList.add("live-older");
+    old(decision);
     const { markdown } = await judge.ask({ ask: "judge", text });
     if (version === asked) decided(markdown ? blocks(markdown) : []);
   }
   function decided(parts) {
-    decision.classList.remove("live-older");
+    fresh(decision);
     decision.replaceChildren(...parts);
   }
 
-  /** The clearance that the program would choose, in a worker of its own: it takes seconds. */
+  /** The clearance that the program would choose, in a worker of its own: it takes seconds, and the button ends it. */
   async function search() {
-    seeker ??= new Desk(compiled, document.getElementById("live-script").textContent);
+    if (stop) return stop();
+    const seeker = new Desk(compiled, document.getElementById("live-script").textContent), ended = new Promise((done) => { stop = done; });
     let seconds = 0;
-    const looking = () => { best.textContent = `looking … ${seconds} s`; seconds += 1; };
-    best.disabled = true;
+    const looking = () => { best.textContent = `Stop looking (${seconds} s)`; seconds += 1; };
     looking();
     const clock = setInterval(looking, 1000);
-    const from = text, answer = await seeker.ask({ ask: "optimize", text });
+    const from = text, answer = await Promise.race([seeker.ask({ ask: "optimize", text }), ended]);
     clearInterval(clock);
-    [best.disabled, best.textContent] = [false, "Best clearance"];
+    seeker.end();
+    [stop, best.textContent] = [null, "Best clearance"];
+    if (!answer) return say("Stopped: the clearance is as it was.");
     if (answer.problems) return complain(answer.problems);
     say(answer.said);
     if (!answer.text || from !== text) return;
@@ -390,7 +396,7 @@ function Live(place) {
 
   /** Until everything on the page belongs to the sliders. */
   async function settled() {
-    while (waiting !== null || place.querySelector("[aria-busy=true], .live-older")) await new Promise((done) => setTimeout(done, 5));
+    while (waiting !== null || place.querySelector("[aria-busy=true]")) await new Promise((done) => setTimeout(done, 5));
     await written;
   }
 
@@ -419,7 +425,11 @@ function Live(place) {
 
   function showStudy(answer) {
     if (answer.problems) return complain(answer.problems);
-    verdict.replaceChildren(...firstScreen(answer), ...notes.map((note) => make("p", { class: "live-note" }, note)));
+    const [first, ...screen] = firstScreen(answer);
+    headline.className = `live-headline ${answer.document.verdict.tone ?? ""}`;
+    headline.replaceChildren(...first);
+    fresh(headline);
+    verdict.replaceChildren(...screen, ...notes.map((note) => make("p", { class: "live-note" }, note)));
     const version = asked;
     if (keeps) written = link().then((address) => { if (version === asked) history.replaceState(null, "", address); });
     fresh(verdict);
@@ -430,8 +440,9 @@ function Live(place) {
     answer.figures.forEach(draw);
   }
 
-  // The Markdown of the program: a line, a sentence of it, and a row of a table.
-  const plain = (line) => line.replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code));
+  // The Markdown of the program: a line, in which a number stays beside its unit, a sentence of it, and a row of a table.
+  const plain = (line) => line.replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code))
+    .replace(/(\d) (?=(?:(?!of|to|at|in|and)[\p{L}°]{1,3}|[a-zµ]+\/s²?)(?![\p{L}\d]))|(?<=[≤≥]) /gu, "$1\u00a0");
   const sentence = (line) => make("p", {}, ...plain(line).split("**").map((part, k) => k % 2 ? make("strong", {}, part) : part));
   const cells = (line) => line.split("|").slice(1, -1).map((cell) => plain(cell.trim()));
   /** Sentences, and a table. */
@@ -445,12 +456,16 @@ function Live(place) {
     return [first, table, ...others].filter(Boolean);
   }
 
-  /** The verdict and the first numbers, from the Markdown of the report. */
+  /** The verdict's first words, the rest of it and the first numbers, from the Markdown of the report. */
   function firstScreen({ first_screen, document: { verdict: { tone } } }) {
     const lines = first_screen.split("\n");
-    const some = (begin) => lines.filter((line) => line.startsWith(begin)).map((line) => sentence(line.slice(2)));
+    const quoted = (begin) => lines.filter((line) => line.startsWith(begin)).map((line) => line.slice(2));
+    const some = (begin) => quoted(begin).map(sentence), [first = "", ...others] = quoted("> ");
+    // "Works. 1.6 mm instead of 4 mm; ..."
+    const [begin, rest] = [first.split("; ", 1)[0], first.split("; ").slice(1).join("; ")];
+    const said = [rest && rest[0].toUpperCase() + rest.slice(1), ...others].filter(Boolean).map(sentence);
     const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map(cells);
-    return [make("section", { class: `verdict ${tone ?? ""}` }, ...some("> ")), ...some("- "),
+    return [sentence(begin).childNodes, make("section", { class: `verdict ${tone ?? ""}`, hidden: !said.length }, ...said), ...some("- "),
       make("dl", { class: "live-numbers" }, ...names.map((name, k) => make("div", {}, make("dt", {}, name), make("dd", {}, numbers[k], make("small", {}, layers[k])))))];
   }
 
@@ -535,7 +550,7 @@ function Running(engine, say) {
       make("button", { type: "button", onclick: () => this.change(this.text, "push") }, "With a push"),
       make("button", { type: "button", onclick: () => this.change(this.text, "rest") }, "From rest")),
     make("div", { class: "live-canvases" }, scene, motion),
-    make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. The red arrow is the push of the ball on it, the arrow in the box the way that the box goes: a push against that way brakes the structure. Grey and dashed: the same structure without an absorber."),
+    make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. The red arrow is the push of the ball on it, the arrow above the box the way that it moves: a push against that way brakes the structure. Grey and dashed: the same structure without an absorber."),
     make("details", {}, make("summary", {}, "Times between impacts"), map,
       make("p", { class: "live-note" }, "The time between impacts over the one before, in periods; two evenly spaced impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents.")));
   new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(scene);
@@ -606,7 +621,7 @@ function Running(engine, say) {
     g.font = "13px system-ui, sans-serif";
     return { g, width, height };
   }
-  const HEIGHT = 250, SCENE = 170;
+  const HEIGHT = 250, SCENE = 186;
 
   function drawn() {
     ahead();
@@ -643,7 +658,7 @@ function Running(engine, say) {
   }
 
   function box({ g, width, height }, { ink, soft, line, blue, red }) {
-    const [x, gap, way] = state(), ghost = alone(clock), rows = [50, 128], half = 24;
+    const [x, gap, way] = state(), ghost = alone(clock), rows = [66, 144], half = 24;
     // The cavity is to scale with the displacement, as far as a ball can be seen in it.
     const room = width - 70, size = Math.min(room / (2 * reach + 2.6), 90), ball = Math.max(7, Math.min(15, 0.3 * size));
     const cavity = Math.max(size, 16), middle = 60 + room / 2;
@@ -656,6 +671,8 @@ function Running(engine, say) {
       g.beginPath(); g.moveTo(from, y); g.lineTo(from + 28 * way, y);
       g.moveTo(from + 20 * way, y - 5); g.lineTo(from + 28 * way, y); g.lineTo(from + 20 * way, y + 5); g.stroke();
     };
+    /** A word that goes on from a place one way. */
+    const word = (words, from, y, way) => { g.fillStyle = g.strokeStyle; g.textAlign = way > 0 ? "left" : "right"; g.fillText(words, from, y); g.textAlign = "left"; };
     g.lineWidth = 3; g.strokeStyle = soft;
     g.beginPath(); g.moveTo(6, 8); g.lineTo(6, height - 8); g.stroke();
     g.setLineDash([2, 4]); g.lineWidth = 1; g.strokeStyle = line;
@@ -673,14 +690,18 @@ function Running(engine, say) {
       if (!hit) continue;
       g.fillStyle = g.strokeStyle = red;
       g.fillRect(at(x) + side * wide - 4, rows[0] - half, 8, 2 * half);
-      arrow(at(x) + side * (wide + 6), rows[0], side);
+      arrow(at(x) + side * (wide + 10), rows[0], side);
+      word("push", at(x) + side * (wide + 10), rows[0] - 9, side);
     }
     g.strokeStyle = ink;
-    if (way) arrow(at(x) - way * 14, rows[0] - half + 10, way);
+    if (way) {
+      arrow(at(x) + 4 * way, rows[0] - half - 9, way);
+      word("moves", at(x), rows[0] - half - 5, -way);
+    }
     g.fillStyle = blue;
     g.beginPath(); g.arc(at(x) - gap * cavity, rows[0] + half - ball - 1, ball, 0, 7); g.fill();
     g.fillStyle = soft;
-    g.fillText(`with absorber, ±${number(largest * of.clearance)} ${of.unit} seen`, 16, 16);
+    g.fillText(`with absorber, up to ${number(largest * of.clearance)} ${of.unit} so far`, 16, 16);
     // How long a round length is here.
     const length = round(40 / size * of.clearance), end = width - 10, begin = end - length / of.clearance * size;
     g.strokeStyle = soft; g.lineWidth = 2;
@@ -688,7 +709,7 @@ function Running(engine, say) {
     g.textAlign = "right"; g.fillText(`${number(length)} ${of.unit}`, begin - 6, height - 3); g.textAlign = "left";
     const peak = of.bare ? Math.hypot(...of.bare) : Infinity;
     const words = of.bare ? `without, ±${number(peak * of.clearance)} ${of.unit}${peak > reach ? ", off this scale" : ""}` : "without: nothing limits it";
-    g.fillText(words, 16, 94);
+    g.fillText(words, 16, 110);
     if (!of.bare) return;
     g.setLineDash([6, 4]); g.strokeStyle = soft; g.lineWidth = 1.5;
     spring(6, at(ghost) - wide, rows[1]);

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use vinesink::answer::{Answer, Asked};
+use vinesink::band::Worst;
 use vinesink::case::{Case, CaseError, Objective, Problem, RewriteError, Rounding};
 use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
-use vinesink::optimize::{Optimization, Task};
+use vinesink::optimize::{JudgedDesign, Optimization, Task};
 use vinesink::quantity::Dimension;
 use vinesink::quantity::catalogue::{CLEARANCE, LARGEST_PEAK};
 use vinesink::report::criteria;
@@ -129,10 +130,23 @@ fn best(case: &Case, text: &str) -> Result<Value, Value> {
     let [best, own] = [&found.best, &found.own].map(|one| units.text(&LARGEST_PEAK, one.value));
     let bare = case.system().linear_response().map(|alone| units.length(alone.amplitude()));
     let helps = case.band.is_some() || bare.is_none_or(|bare| found.best.value < bare);
+    // Where it is a resting absorber that was worst, a motion with impacts may pay for waking it.
+    let active = |one: &JudgedDesign| {
+        let worst = Worst::of(&one.survey.motions, false)?;
+        let length = one.written.case.units().length(worst.peak.value);
+        Some((length, units.text(&LARGEST_PEAK, length)))
+    };
+    let rested = found.own.worst.as_ref().is_some_and(|worst| worst.motion.rest().is_some());
+    let price = match (active(&found.best), active(&found.own)) {
+        (Some((best, now)), Some((own, before))) if rested && best > own => format!(
+            " That was an absorber that stays inactive. Where it acts, the peak grows from {before} to {now}: the price."
+        ),
+        _ => String::new(),
+    };
     let said = match task.objective {
         Objective::WorstAmplitude if helps => format!(
             "The best clearance is {clearance}: the largest peak of any motion that can happen {place}, an absorber that \
-             stays at rest included, is {best}; before it was {own}."
+             stays at rest included, is {best}; before it was {own}.{price}"
         ),
         Objective::WorstAmplitude => format!(
             "No clearance helps at this excitation; the least bad is {clearance}, with {best} instead of {own}."

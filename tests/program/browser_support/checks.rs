@@ -12,6 +12,7 @@ pub const DESKTOP: View = View { width: 1280, height: 900, phone: false, dark: f
 /// Opens what is folded, and loads images that would wait until they come into view.
 const UNFOLD: &str = "
     document.querySelectorAll('details').forEach((part) => { part.open = true; });
+    document.querySelectorAll('h2 button[aria-expanded=false]').forEach((part) => part.click());
     Promise.all([...document.images].map((image) => {
         image.loading = 'eager';
         return image.complete ? 0 : new Promise((done) => { image.onload = image.onerror = done; });
