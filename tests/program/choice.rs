@@ -37,6 +37,8 @@ fn ranges_end_where_check_says_so() {
         "tests/designs/floor",
         "tests/designs/footbridge",
         "cases/arm-empty",
+        // Beside it few starts miss a motion that many find.
+        "cases/mast-mode-3",
         "tests/decisions/board",
         "tests/designs/pipe",
     ] {
