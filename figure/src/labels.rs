@@ -12,6 +12,8 @@ use super::text::{Anchor, LARGE, SMALL, Words};
 
 /// White around every label, pixels.
 const AIR: f64 = 2.0;
+/// Between the words of two labels on one height, beside it, pixels.
+const SPACE: f64 = 8.0;
 /// Other data this near to a label make it ambiguous, pixels.
 const AMBIGUOUS: f64 = 10.0;
 /// Within this distance of a line's label, other lines must be less than half of its own, pixels.
@@ -57,7 +59,10 @@ pub(super) fn place(panel: &Panel, frame: &Frame, shapes: &[ShapeOfLayer]) -> La
     open.sort_by_key(|(request, found)| (request.movable, found.len(), request.layer));
     for (request, found) in open {
         let clear = |place: &&Candidate| {
-            !raster.any(&place.room.grown(AIR), WORDS)
+            // Words on a line would read as one phrase.
+            let Rect { left, right, .. } = place.room.grown(AIR);
+            let beside = Rect { left: left - SPACE, right: right + SPACE, ..place.room.grown(AIR) };
+            !raster.any(&beside, WORDS)
                 && !place.leader.is_some_and(|leader| raster.words_on(&leader))
         };
         let free = found.iter().find(clear);

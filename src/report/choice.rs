@@ -66,6 +66,11 @@ pub fn over_amplitude(
     let panel = panel
         .with(Layer::horizontal(asked.limit, LIMIT).labelled("limit"))
         .with(Layer::points(Role::Simulation, along.reached.clone()).labelled("absorber"));
+    let here = along.reached.iter().find(|one| one[0] == along.value);
+    let panel = match here {
+        Some(here) => panel.with(Layer::this_case(*here, None)),
+        None => panel,
+    };
     Some(
         Figure::new(AMPLITUDE, "")
             .with_panel(panel)

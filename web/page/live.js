@@ -98,6 +98,7 @@ function Live(place) {
   const asks = new URLSearchParams(location.search), list = (key) => asks.get(key)?.split(",");
   const shown = list("show"), chosen = list("sliders");
   const wanted = (name) => !shown || shown.includes(name);
+  document.body.classList.toggle("live-small", Boolean(shown));
   let text = "", controls = [], notes = [], past = [], future = [], asked = 0, waiting = null;
   const values = new Map(), sliders = new Map(), figures = new Map();
   let here, desks, compiled, stop = null, judge = null, keeps = false, judges = false, written, choose;
@@ -136,7 +137,6 @@ function Live(place) {
       return;
     }
     const presets = here.ask({ ask: "presets" });
-    document.body.classList.toggle("live-small", Boolean(shown));
     const parts = [["verdict", headline], ["running", running.figure], ["verdict", verdict], ["decision", decision]].filter(([name]) => wanted(name)).map(([, part]) => part);
     place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
       make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board, shown ? "" : fold)));
@@ -219,7 +219,7 @@ function Live(place) {
   }
 
   /** Shows another case: its sliders, then everything else. */
-  function open(wanted) {
+  function open(wanted, goesOn = false) {
     const answer = here.ask({ ask: "open", text: wanted });
     complain(answer.problems);
     if (answer.problems) {
@@ -229,7 +229,13 @@ function Live(place) {
       verdict.replaceChildren(make("p", {}, "The case was refused. Sliders and figures are those of the case before."));
       return;
     }
+    const before = new Map(controls.map((one) => [one.key, one]));
     ({ text, controls } = answer);
+    // A slider stays as it is where the case only goes on.
+    for (const one of goesOn ? controls : []) {
+      const { range, log, unit } = before.get(one.key) ?? one;
+      if (range[0] <= one.value && one.value <= range[1]) Object.assign(one, { range, log, unit });
+    }
     choose.value = "";
     place.dataset.title = answer.title;
     sliders.clear();
@@ -248,7 +254,7 @@ function Live(place) {
     const range = make("input", { id, type: "range", min: 0, max: 1000, step: 1, oninput: () => move(of, at(of, range.value / 1000)), onchange: pause });
     const field = make("input", { type: "number", step: "any", "aria-label": `${of.name} in ${of.unit.symbol || "1"}`,
       onchange: () => { settle(); typed(of, field.value.trim() === "" ? NaN : field.value * of.unit.size); } });
-    const good = make("span", { class: "live-good", hidden: true });
+    const good = make("span", { class: "live-good", hidden: true }, make("span"), make("small"));
     sliders.set(of.key, { range, field, good });
     return make("div", { class: "live-slider" }, make("label", { for: id }, `${of.name} ${of.symbol}`),
       make("span", { class: "live-field" }, field, make("span", {}, of.unit.symbol)), range, good);
@@ -377,7 +383,7 @@ function Live(place) {
     say(answer.said);
     if (!answer.text || from !== text) return;
     remember();
-    open(answer.text);
+    open(answer.text, true);
     panel.firstChild.textContent = `${place.dataset.title}, changed`;
   }
 
@@ -389,9 +395,10 @@ function Live(place) {
     const [first, last] = ends.sort((a, b) => (b[1] - b[0]) - (a[1] - a[0]))[0] ?? [];
     good.hidden = !(last > first);
     if (good.hidden) return;
-    good.style.marginLeft = `${100 * first}%`;
-    good.style.width = `${100 * (last - first)}%`;
-    good.title = "clearances with a stable 1:1 motion";
+    good.firstChild.style.marginLeft = `${100 * first}%`;
+    good.firstChild.style.width = `${100 * (last - first)}%`;
+    const end = (part) => Number((at(of, part) / of.unit.size).toPrecision(3));
+    good.lastChild.textContent = `two even impacts per period: ${end(first)} to ${end(last)} ${of.unit.symbol}`;
   }
 
   /** Until everything on the page belongs to the sliders. */
@@ -441,7 +448,7 @@ function Live(place) {
   }
 
   // The Markdown of the program: a line, in which a number stays beside its unit, a sentence of it, and a row of a table.
-  const plain = (line) => line.replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code))
+  const plain = (line) => line.replaceAll("`", "").replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code))
     .replace(/(\d) (?=(?:(?!of|to|at|in|and)[\p{L}°]{1,3}|[a-zµ]+\/s²?)(?![\p{L}\d]))|(?<=[≤≥]) /gu, "$1\u00a0");
   const sentence = (line) => make("p", {}, ...plain(line).split("**").map((part, k) => k % 2 ? make("strong", {}, part) : part));
   const cells = (line) => line.split("|").slice(1, -1).map((cell) => plain(cell.trim()));
@@ -461,8 +468,9 @@ function Live(place) {
     const lines = first_screen.split("\n");
     const quoted = (begin) => lines.filter((line) => line.startsWith(begin)).map((line) => line.slice(2));
     const some = (begin) => quoted(begin).map(sentence), [first = "", ...others] = quoted("> ");
-    // "Works. 1.6 mm instead of 4 mm; ..."
-    const [begin, rest] = [first.split("; ", 1)[0], first.split("; ").slice(1).join("; ")];
+    // "Works. 1.6 mm instead of 4 mm; ...", and why it is mixed.
+    const why = /, not the steady [^;]*/.exec(first)?.[0].replace(/\.$/, "") ?? "", [amounts, ...parts] = first.split("; ");
+    const [begin, rest] = [amounts + why, parts.join("; ").replace(why, "")];
     const said = [rest && rest[0].toUpperCase() + rest.slice(1), ...others].filter(Boolean).map(sentence);
     const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map(cells);
     return [sentence(begin).childNodes, make("section", { class: `verdict ${tone ?? ""}`, hidden: !said.length }, ...said), ...some("- "),
@@ -611,7 +619,7 @@ function Running(engine, say) {
   /** A canvas as large as on the screen, empty, and its size in pixels of the page. */
   function sheet(canvas, height) {
     const dots = devicePixelRatio || 1, width = canvas.clientWidth;
-    if (canvas.width !== Math.round(width * dots)) {
+    if (canvas.width !== Math.round(width * dots) || canvas.height !== Math.round(height * dots)) {
       canvas.style.height = `${height}px`;
       [canvas.width, canvas.height] = [width, height].map((side) => Math.round(side * dots));
     }
@@ -646,6 +654,13 @@ function Running(engine, say) {
     tone.connect(gain).connect(audio.destination);
     tone.start(now);
     tone.stop(now + 0.05);
+  }
+
+  /** The largest displacement of the last ten periods. */
+  function lately() {
+    let most = 0;
+    for (let k = 0; k < points.length && points[k] <= clock; k += 3) most = Math.max(most, Math.abs(points[k + 1]));
+    return most;
   }
 
   /** Displacement and gap at the clock, between the points beside it, and which way the displacement goes. */
@@ -686,7 +701,7 @@ function Running(engine, say) {
     g.strokeRect(at(x) - wide, rows[0] - half, 2 * wide, 2 * half);
     for (const side of [-1, 1]) {
       let hit = false;
-      for (let k = impacts.length - 2; k >= 0 && impacts[k] > clock - FLASH * speed.value; k -= 2) hit ||= impacts[k] <= clock && impacts[k + 1] === -side;
+      for (let k = impacts.length - 2; k >= 0 && impacts[k] > clock - Math.min(FLASH * speed.value, 0.24); k -= 2) hit ||= impacts[k] <= clock && impacts[k + 1] === -side;
       if (!hit) continue;
       g.fillStyle = g.strokeStyle = red;
       g.fillRect(at(x) + side * wide - 4, rows[0] - half, 8, 2 * half);
@@ -701,7 +716,7 @@ function Running(engine, say) {
     g.fillStyle = blue;
     g.beginPath(); g.arc(at(x) - gap * cavity, rows[0] + half - ball - 1, ball, 0, 7); g.fill();
     g.fillStyle = soft;
-    g.fillText(`with absorber, up to ${number(largest * of.clearance)} ${of.unit} so far`, 16, 16);
+    g.fillText(`with absorber, ±${number(lately() * of.clearance)} ${of.unit} in these ten periods`, 16, 16);
     // How long a round length is here.
     const length = round(40 / size * of.clearance), end = width - 10, begin = end - length / of.clearance * size;
     g.strokeStyle = soft; g.lineWidth = 2;

@@ -22,9 +22,9 @@ struct Running {
 pub enum From {
     /// With the displacements and velocities of the one before.
     Here,
-    /// At rest, half the way from the middle of the cavity to a wall.
+    /// At rest, the absorber in the middle of its cavity.
     Rest,
-    /// The same with a velocity of the absorber of one clearance per `1/omega0`.
+    /// Half the way to a wall, with a velocity of the absorber of one clearance per `1/omega0`.
     Push,
 }
 
@@ -34,8 +34,10 @@ const BESIDE_THE_WALL: f64 = 0.999;
 /// Runs another system.
 pub fn change(system: &System, clearance: f64, from: From) -> Result<(), String> {
     RUNNING.with_borrow_mut(|running| {
-        let y_velocity = if from == From::Push { 1.0 } else { 0.0 };
-        let start = State { y: 0.5, y_velocity, ..State::AT_REST };
+        let start = match from {
+            From::Push => State { y: 0.5, y_velocity: 1.0, ..State::AT_REST },
+            From::Rest | From::Here => State::AT_REST,
+        };
         let (start, phase) = match running {
             Some(running) if from == From::Here => {
                 let state = running.simulation.state();

@@ -7,7 +7,7 @@ use crate::analysis::Strip;
 use crate::band::{Band, Rivals, Survey, Worst};
 use crate::case::BandOver;
 use crate::criteria::{method, of_stability};
-use crate::linear::level_error;
+use crate::linear::{bare_amplitude, level_error};
 use crate::method::Method::{self, ClosedForm, ExactOrbit, Theory};
 use crate::motions::{Motion, Motions, RestKind};
 use crate::quantity::Quantity;
@@ -136,6 +136,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
         // Ends of the stretches in which a 1:1 motion attracts.
         "stable": stable.collect::<Vec<_>>(),
         "several": several(scale, survey),
+        "worse": worse(scale, survey),
     })
 }
 
@@ -151,6 +152,31 @@ fn peak(scale: &Scale, worst: &Worst) -> Quantity {
 }
 
 /// Places at which several motions with impacts coexist; none where nothing was simulated.
+/// Where a motion that counts has a larger peak than the structure alone would have there.
+fn worse(scale: &Scale, survey: &Survey) -> Option<Value> {
+    let (band, motions) = (survey.band(), &survey.motions);
+    let mut most: Option<(f64, f64)> = None;
+    let mut count = 0;
+    for (at, here) in motions.places() {
+        let system = band.system(*at).ok()?;
+        let peaks = here.counting(survey.count_rest).map(|(_, motion)| motion.facts().peak.value);
+        let ratio = peaks.fold(0.0, f64::max) / bare_amplitude(&system);
+        if ratio > LARGER {
+            count += 1;
+            most = most.filter(|most| most.1 >= ratio).or(Some((*at, ratio)));
+        }
+    }
+    motions.simulated().then(|| {
+        json!({
+            "count": count, "of": motions.places().len(),
+            "most": most.map(|(_, ratio)| ratio), "at": most.map(|(at, _)| scale.place(band.over, at)),
+        })
+    })
+}
+
+/// Peaks over that of the structure alone that count as larger: an absorber at rest leaves it as it is.
+const LARGER: f64 = 1.01;
+
 fn several(scale: &Scale, survey: &Survey) -> Option<Value> {
     let moving = |motions: &Motions| motions.iter().filter(|one| one.rest().is_none()).count();
     let places = survey.motions.places();

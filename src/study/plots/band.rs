@@ -16,8 +16,8 @@ pub struct BandCurves {
     pub bare: Line,
     /// With the best tuned mass damper of the same mass.
     pub damper: Line,
-    /// Of the admissible symmetric orbits: those that attract, and those that do not; and where no symmetric one attracts the
-    /// asymmetric one that does, among the first.
+    /// Of the admissible symmetric orbits: those that attract, and those that do not; the asymmetric ones that attract are
+    /// among the first.
     pub orbits: [Line; 2],
 }
 
@@ -58,8 +58,8 @@ impl BandCurves {
         if band.base.cavity().is_ideal() {
             lines[0].extend(band.places(Self::PLACES).map(|at| {
                 let found = band.system(at).map(|system| one_to_one(&system)).unwrap_or_default();
-                let symmetric = found.iter().any(|one| one.regime() == Regime::TwoSymmetric);
-                let peaks = found.iter().filter(|_| !symmetric).map(|one| one.facts().peak.value);
+                let others = found.iter().filter(|one| one.regime() != Regime::TwoSymmetric);
+                let peaks = others.map(|one| one.facts().peak.value);
                 peaks.max_by(f64::total_cmp).map_or([f64::NAN; 2], |peak| [at, peak])
             }));
         }
