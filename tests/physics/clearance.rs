@@ -63,7 +63,7 @@ fn peaks_of_record(case: &Case, clearance: f64) -> [f64; 2] {
     let (system, units) = (design.system().expect("a system"), design.units());
     let records = case.recording.as_ref().expect("recorded").records();
     let places = Places { even: 41, closer: records.len() == 1, shaking: false, executor: &Serial };
-    let study = RecordStudy::of(&system, &units, &records, places, true).expect("studied");
+    let study = RecordStudy::of(&system, &units, records, places, true).expect("studied");
     let study = Study::Record(Box::new(study));
     [Device::Absorber, Device::Without]
         .map(|by| study.quantity(&units, Measure::Peak, by).expect("flown").value)
