@@ -60,8 +60,8 @@ pub(super) fn place(panel: &Panel, frame: &Frame, shapes: &[ShapeOfLayer]) -> La
     for (request, found) in open {
         let clear = |place: &&Candidate| {
             // Words on a line would read as one phrase.
-            let Rect { left, right, .. } = place.room.grown(AIR);
-            let beside = Rect { left: left - SPACE, right: right + SPACE, ..place.room.grown(AIR) };
+            let room = place.room.grown(AIR);
+            let beside = Rect { left: room.left - SPACE, right: room.right + SPACE, ..room };
             !raster.any(&beside, WORDS)
                 && !place.leader.is_some_and(|leader| raster.words_on(&leader))
         };

@@ -26,9 +26,20 @@ const APART: [&str; 10] = [
     "verdict",
 ];
 
-/// Keys of counts that say how a result was found, follow from where a run happened to end, or are an index.
-const NOT_JUDGED: [&str; 8] =
-    ["attracting", "captures", "found", "lost", "numerics", "operations", "several", "starts"];
+/// Keys of counts that say how a result was found, follow from where a run happened to end or from other values, or are an
+/// index.
+const NOT_JUDGED: [&str; 10] = [
+    "attracting",
+    "captures",
+    "found",
+    "lost",
+    "numerics",
+    "only_here",
+    "operations",
+    "several",
+    "starts",
+    "wider",
+];
 
 /// Whether this says what a claim is about, and why it is judged so: its numbers and verdict are told.
 fn explains(path: &str, key: &str) -> bool {

@@ -252,7 +252,7 @@ fn slug(heading: &str) -> String {
 }
 
 /// Text in which a number stays on the line of its unit and of its relation.
-fn unbroken(text: &str) -> String {
+pub fn unbroken(text: &str) -> String {
     let mut before = ' ';
     let mut letters = text.chars().peekable();
     let mut result = String::with_capacity(text.len());

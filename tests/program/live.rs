@@ -616,3 +616,42 @@ fn the_page_beside_the_program_is_taken() {
     let (done, said) = run("footbridge-jump.toml");
     assert!(!done && said.contains("shows steady vibration"), "{said}");
 }
+
+/// Why it works or not, in a line: the energy of a period beside that of an absorber at rest, which the search finds as well; a
+/// verdict that is mixed says why at once; and what begins at rest begins in the middle.
+#[test]
+fn the_first_lines_say_why() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let preset = |page: &mut Page, k: u32| {
+        page.evaluate(&format!("((choose) => {{ choose.value = '{k}'; choose.dispatchEvent(new Event('change')); }})(document.querySelector('.live-bar select'))"));
+        settle(page);
+    };
+    let said = |page: &mut Page, of: &str| {
+        let text = format!("document.querySelector('{of}').textContent");
+        page.evaluate(&text).as_str().expect("words").replace('\u{a0}', " ")
+    };
+    preset(&mut page, 1);
+    let headline = said(&mut page, ".live-headline");
+    assert!(
+        headline.ends_with("not the steady 1:1 resonance that an absorber is designed for"),
+        "{headline}"
+    );
+    preset(&mut page, 6);
+    let document = Native::of(&shipped("li2016-8p5hz-fig4c")).document;
+    let motions = document["motions"].as_array().expect("motions");
+    let work = |regime: &str| {
+        let motion = motions.iter().find(|one| one["regime"] == regime).expect(regime);
+        motion["energy"]["work"]["value"].as_f64().expect("a work")
+    };
+    let ratio = work("two-symmetric") / work("at-rest");
+    let verdict = said(&mut page, ".live-verdict");
+    assert!(verdict.contains(&format!(" {ratio:.1} times the energy")), "{ratio}: {verdict}");
+    assert!(verdict.contains("impacts take 72 %, the structure's damping the rest."), "{verdict}");
+    // Before a frame moves it.
+    let begins = page.evaluate(&format!(
+        "[...document.querySelectorAll('.live-bar button')].find((one) => one.textContent === 'From rest').click(),
+        [...{LIVE}.engine().goOn(1, 1).points].slice(0, 3)"
+    ));
+    assert_eq!(begins, json!([0, 0, 0]), "time, displacement and gap");
+}

@@ -436,8 +436,8 @@ function Live(place) {
     headline.className = `live-headline ${answer.document.verdict.tone ?? ""}`;
     headline.replaceChildren(...first);
     fresh(headline);
-    const [section, ...others] = screen;
-    verdict.replaceChildren(section, ...balance(answer.document), ...others, ...notes.map((note) => make("p", { class: "live-note" }, note)));
+    const [section, ...others] = screen, balance = answer.balance ? [make("p", {}, answer.balance)] : [];
+    verdict.replaceChildren(section, ...balance, ...others, ...notes.map((note) => make("p", { class: "live-note" }, note)));
     const version = asked;
     if (keeps) written = link().then((address) => { if (version === asked) history.replaceState(null, "", address); });
     fresh(verdict);
@@ -448,9 +448,8 @@ function Live(place) {
     answer.figures.forEach(draw);
   }
 
-  // The Markdown of the program: a line, in which a number stays beside its unit, a sentence of it, and a row of a table.
-  const plain = (line) => line.replaceAll("`", "").replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code))
-    .replace(/(\d) (?=(?:(?!of|to|at|in|and)[\p{L}°]{1,3}|[a-zµ]+\/s²?)(?![\p{L}\d]))|(?<=[≤≥]) /gu, "$1\u00a0");
+  // The Markdown of the program: a line, a sentence of it, and a row of a table.
+  const plain = (line) => line.replaceAll("`", "").replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code));
   const sentence = (line) => make("p", {}, ...plain(line).split("**").map((part, k) => k % 2 ? make("strong", {}, part) : part));
   const cells = (line) => line.split("|").slice(1, -1).map((cell) => plain(cell.trim()));
   /** Sentences, and a table. */
@@ -476,16 +475,6 @@ function Live(place) {
     const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map(cells);
     return [sentence(begin).childNodes, make("section", { class: `verdict ${tone ?? ""}`, hidden: !said.length }, ...said), ...some("- "),
       make("dl", { class: "live-numbers" }, ...names.map((name, k) => make("div", {}, make("dt", {}, name), make("dd", {}, numbers[k], make("small", {}, layers[k])))))];
-  }
-
-  /** Where the energy of a period comes from and goes: why an absorber works, or makes things worse. */
-  function balance({ motions, main }) {
-    const { energy, efficiency, rms_change } = motions[main] ?? {}, work = energy?.work.value, two = (value) => Number(value.toPrecision(2));
-    if (!(work > 0 && efficiency)) return [];
-    // Damping takes in proportion to the mean square of the motion, and all of it where there is no absorber.
-    const times = work / (energy.damper.value * 10 ** (-rms_change?.value / 10));
-    const more = Number.isFinite(times) ? `In a period the excitation puts in ${two(times)} times the energy that it puts into the structure alone: of that` : "Of the energy that the excitation puts in";
-    return [make("p", {}, `${more} impacts take ${two(100 * efficiency.value)} %, and the structure's damping the rest.`)];
   }
 
   // The map's mark: an axis value is `at`, and one in SI `values`.

@@ -9,12 +9,16 @@ use vinesink::band::Worst;
 use vinesink::case::{Case, CaseError, Objective, Problem, RewriteError, Rounding};
 use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
+use vinesink::linear::bare_amplitude;
+use vinesink::method::Method;
 use vinesink::optimize::{JudgedDesign, Optimization, Task};
 use vinesink::quantity::Dimension;
-use vinesink::quantity::catalogue::{CLEARANCE, LARGEST_PEAK};
+use vinesink::quantity::catalogue::{CLEARANCE, LARGEST_PEAK, WORK};
+use vinesink::quantity::numbers::significant;
 use vinesink::report::criteria;
 use vinesink::report::document::{self, Source};
 use vinesink::report::figure::{self, Figure, PlacedPanel};
+use vinesink::report::html::unbroken;
 use vinesink::report::{figures, template};
 use vinesink::study::CaseStudy;
 use vinesink::study::plots::{BoundaryMap, Plot};
@@ -112,7 +116,7 @@ fn judged(case: &Case) -> Result<Value, Value> {
     let answer = Answer::steady(case, Asked::Criteria, None, case.effort(), &Serial);
     let answer = answer.map_err(words)?;
     let table = criteria::table("Criteria", case, &answer.judged).map_err(words)?;
-    Ok(json!({ "markdown": table }))
+    Ok(json!({ "markdown": unbroken(&table) }))
 }
 
 /// The case with the best absorber, where that is better than its own and meets what it asks for, and what is said of it.
@@ -301,5 +305,30 @@ fn study(case: &Case, narrow: bool) -> Result<Value, Value> {
     // The map is the page's own.
     let others = figures.into_iter().filter(|figure| figure.name != "map");
     let figures: Result<Vec<Value>, Value> = others.map(|figure| Ok(shown(figure)?.0)).collect();
-    Ok(json!({ "document": document, "first_screen": first_screen, "figures": figures? }))
+    Ok(json!({
+        "document": document, "first_screen": unbroken(first_screen), "balance": balance(case, &document),
+        "figures": figures?,
+    }))
+}
+
+/// Where the energy of a period comes from and goes in the main motion: why an absorber works, or makes things worse.
+fn balance(case: &Case, document: &Value) -> Option<String> {
+    let motion = &document["motions"][document["main"].as_u64()? as usize];
+    let taken = 100.0 * motion["efficiency"]["value"].as_f64()?;
+    let work = motion["energy"]["work"]["value"].as_f64()?;
+    // What the excitation puts into the structure alone its damping takes, eps lambda x'^2.
+    let system = case.system();
+    let velocity = system.frequency_ratio() * bare_amplitude(&system);
+    let loss = 0.5 * system.mass_ratio() * system.damping() * velocity * velocity * system.period();
+    let ratio = work / case.units().quantity(&WORK, loss, Method::ClosedForm).value;
+    let begins = match ratio > 0.0 && ratio.is_finite() {
+        true => format!(
+            "In a period the excitation puts in {} times the energy that it puts into the structure alone: of that",
+            significant(ratio, 2)
+        ),
+        false => "Of the energy that the excitation puts in".to_owned(),
+    };
+    let friction = motion["energy"]["friction"].is_object();
+    let rest = if friction { "damping and friction" } else { "the structure's damping" };
+    Some(format!("{begins} impacts take {} %, {rest} the rest.", significant(taken, 2)))
 }

@@ -152,7 +152,24 @@ fn peak(scale: &Scale, worst: &Worst) -> Quantity {
 }
 
 /// Places at which several motions with impacts coexist; none where nothing was simulated.
-/// Where a motion that counts has a larger peak than the structure alone would have there.
+fn several(scale: &Scale, survey: &Survey) -> Option<Value> {
+    let moving = |motions: &Motions| motions.iter().filter(|one| one.rest().is_none()).count();
+    let places = survey.motions.places();
+    let held: Vec<f64> =
+        places.iter().filter(|(_, here)| moving(here) > 1).map(|(at, _)| *at).collect();
+    let at = |place: Option<&f64>| place.map(|at| scale.place(survey.band().over, *at));
+    survey.motions.simulated().then(|| {
+        json!({
+            "count": held.len(), "of": places.len(), "first": at(held.first()), "last": at(held.last()),
+        })
+    })
+}
+
+/// Peaks over that of the structure alone that count as larger: an absorber at rest leaves it as it is.
+const LARGER: f64 = 1.01;
+
+/// Places at which a motion that counts has a larger peak than the structure alone, and the largest ratio of the two; none where
+/// nothing was simulated.
 fn worse(scale: &Scale, survey: &Survey) -> Option<Value> {
     let (band, motions) = (survey.band(), &survey.motions);
     let mut most: Option<(f64, f64)> = None;
@@ -170,22 +187,6 @@ fn worse(scale: &Scale, survey: &Survey) -> Option<Value> {
         json!({
             "count": count, "of": motions.places().len(),
             "most": most.map(|(_, ratio)| ratio), "at": most.map(|(at, _)| scale.place(band.over, at)),
-        })
-    })
-}
-
-/// Peaks over that of the structure alone that count as larger: an absorber at rest leaves it as it is.
-const LARGER: f64 = 1.01;
-
-fn several(scale: &Scale, survey: &Survey) -> Option<Value> {
-    let moving = |motions: &Motions| motions.iter().filter(|one| one.rest().is_none()).count();
-    let places = survey.motions.places();
-    let held: Vec<f64> =
-        places.iter().filter(|(_, here)| moving(here) > 1).map(|(at, _)| *at).collect();
-    let at = |place: Option<&f64>| place.map(|at| scale.place(survey.band().over, *at));
-    survey.motions.simulated().then(|| {
-        json!({
-            "count": held.len(), "of": places.len(), "first": at(held.first()), "last": at(held.last()),
         })
     })
 }
