@@ -258,9 +258,10 @@ fn a_band_says_where_the_absorber_is_worse_than_none() {
     let worse = &report["band"]["worse"];
     // By the closed form of the structure alone.
     let bare = |hertz: f64| {
-        let stiffness = 30.0 * (std::f64::consts::TAU * NATURAL).powi(2);
+        let natural = std::f64::consts::TAU * NATURAL;
+        let stiffness = 30.0 * natural * natural;
         let ratio = hertz / NATURAL;
-        14.07 / stiffness / (1.0 - ratio * ratio).hypot(2.0 * 0.005 * ratio)
+        14.07 / stiffness / libm::hypot(1.0 - ratio * ratio, 2.0 * 0.005 * ratio)
     };
     let ratios = report["places"].as_array().expect("places").iter().map(|place| {
         let counts = place["motions"].as_array().expect("motions").iter();
