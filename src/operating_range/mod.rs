@@ -187,7 +187,13 @@ impl<'a> Number<'a> {
         let mut reach = Reach { end: self.own, open: true, holds: self.own, undecided, reached };
         let mut looked = vec![(self.own, own)];
         for step in self.varied.steps(self.own, up) {
-            let Some(outcome) = self.outcome(step, Looked::OnTheWay, &mut reach)? else { break };
+            let Some(mut outcome) = self.outcome(step, Looked::OnTheWay, &mut reach)? else {
+                break;
+            };
+            // Short windows alone do not end the stretch in which all criteria hold.
+            if outcome == Together::Undecided && looked.iter().all(|one| one.1 == Together::Hold) {
+                outcome = self.outcome(step, Looked::Longer, &mut reach)?.unwrap_or(outcome);
+            }
             if outcome == Together::Fail {
                 reach.open = false;
                 let (mut inside, mut outside) = (reach.end, step);
