@@ -119,6 +119,19 @@ pub fn judge(case: &Case, survey: &Survey) -> Vec<Judged> {
     case.criteria.iter().map(|criterion| scope.judge(criterion)).collect()
 }
 
+/// Places of a survey at which a more thorough search may judge otherwise, the worst first; none where a criterion fails by
+/// what was solved for.
+pub fn open(case: &Case, survey: &Survey, judged: &[Judged]) -> Vec<f64> {
+    let scope = Scope { survey, units: case.units() };
+    if judged.iter().any(|one| scope.fails_for_good(one)) {
+        return Vec::new();
+    }
+    let of_motions = case.criteria.iter().filter(|one| one.measure.is_of_motions());
+    let mut open: Vec<(f64, f64)> = of_motions.flat_map(|one| scope.open(one)).collect();
+    open.sort_by(|a, b| a.1.total_cmp(&b.1));
+    open.into_iter().map(|one| one.0).collect()
+}
+
 impl Criterion {
     /// Room that a value leaves: positive where it holds.
     fn room(&self, value: f64) -> f64 {

@@ -1,11 +1,11 @@
 //! What a survey says of each criterion.
 
-use super::{Judged, ROUNDING, method, of_stability};
+use super::{Judged, Outcome, ROUNDING, method, of_stability};
 use crate::band::{Survey, theory};
 use crate::case::Criterion;
 use crate::measure::{Device, Measure};
 use crate::method::Method;
-use crate::motions::Motion;
+use crate::motions::{Motion, MotionKind};
 use crate::quantity::Units;
 use crate::validation::tolerance::asymptotic_error;
 
@@ -111,6 +111,27 @@ impl Scope<'_> {
         Judged { at, motion, inactive, ..judged }.or_undecided(undecided)
     }
 
+    /// Places with a motion that only a window shows and which does not hold with its error or still settles, and the room
+    /// that it leaves.
+    pub(super) fn open(&self, criterion: &Criterion) -> Vec<(f64, f64)> {
+        let counting = self.survey.motions.counting(self.survey.count_rest);
+        let open = counting.filter(|one| is_open(one.2)).filter_map(|one| {
+            let judged = self.of(criterion, one).map(|of| of.0);
+            let room = judged.as_ref().and_then(|of| of.margin);
+            let open = !one.2.settled() || judged.is_some_and(|of| of.holds == Some(false));
+            open.then_some((one.0, room.unwrap_or(f64::NEG_INFINITY)))
+        });
+        open.collect()
+    }
+
+    /// Whether a criterion fails by what no longer window judges otherwise.
+    pub(super) fn fails_for_good(&self, judged: &Judged) -> bool {
+        let at = judged.at.unwrap_or_else(|| self.survey.band().own());
+        let motions = self.survey.motions.at(at);
+        let motion = motions.zip(judged.motion).and_then(|(here, number)| here.iter().nth(number));
+        judged.outcome() == Outcome::Fails && !motion.is_some_and(is_open)
+    }
+
     fn of<'m>(
         &self,
         criterion: &Criterion,
@@ -127,6 +148,11 @@ impl Scope<'_> {
         let inactive = motion.rest().map(|rest| rest.share);
         Some((Judged { at: self.place(at), motion: Some(index), inactive, ..judged }, motion))
     }
+}
+
+/// Whether a motion is known by a window alone.
+fn is_open(motion: &Motion) -> bool {
+    !motion.settled() || matches!(motion.kind(), MotionKind::Wanders)
 }
 
 impl Judged {

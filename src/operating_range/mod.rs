@@ -18,6 +18,7 @@ use crate::criteria::{self, Judged, Outcome};
 use crate::excitation::Transient;
 use crate::executor::{Executor, map};
 use crate::flights::{DrivenError, Places};
+use crate::method::Method;
 use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
 use crate::transient::Study;
@@ -27,16 +28,16 @@ pub use edges::{Edge, edges};
 pub use reliability::Reliability;
 pub use varied::Varied;
 
-/// What all criteria together come to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+/// What all criteria together come to, the worst first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Together {
-    /// Every criterion holds with its error.
-    Hold,
-    /// None fails, and an error or a motion that still settles could turn one.
-    Undecided,
     /// One fails by what was found, or nothing was.
     Fail,
+    /// None fails, and an error or a motion that still settles could turn one.
+    Undecided,
+    /// Every criterion holds with its error.
+    Hold,
 }
 
 impl Together {
@@ -72,12 +73,14 @@ pub struct HoldsFor {
     pub reached: Vec<[f64; 2]>,
 }
 
-/// How often an end is halved: to an eighth of its step.
+/// How often an end is halved at most: to an eighth of its step.
 const HALVINGS: u32 = 3;
 /// How thoroughly a band is looked at on the way, and starts of a place.
 const BAND: BandEffort =
     BandEffort { even: 9, starts: 3, starts_between: 2, most: 24, tolerance: 0.1 };
 const STARTS: u32 = 8;
+/// Places that are searched again at a time, the worst first.
+const AT_A_TIME: usize = 8;
 /// Places of the absorber in a sweep, and under a record, each of which is long.
 const PLACES_OF_SWEEP: u64 = 16;
 const PLACES_OF_RECORD: u64 = 4;
@@ -187,25 +190,26 @@ impl<'a> Number<'a> {
         let mut reach = Reach { end: self.own, open: true, holds: self.own, undecided, reached };
         let mut looked = vec![(self.own, own)];
         for step in self.varied.steps(self.own, up) {
-            let Some(mut outcome) = self.outcome(step, Looked::OnTheWay, &mut reach)? else {
-                break;
-            };
-            // Short windows alone do not end the stretch in which all criteria hold.
-            if outcome == Together::Undecided && looked.iter().all(|one| one.1 == Together::Hold) {
-                outcome = self.outcome(step, Looked::Longer, &mut reach)?.unwrap_or(outcome);
-            }
+            let Some(judged) = self.judged_at(step, Looked::OnTheWay, &mut reach)? else { break };
+            let outcome = Together::of(&judged);
             if outcome == Together::Fail {
                 reach.open = false;
                 let (mut inside, mut outside) = (reach.end, step);
+                let mut blurred = is_blurred(&judged);
                 for _ in 0..HALVINGS {
+                    if blurred {
+                        break;
+                    }
                     let middle = 0.5 * (inside + outside);
-                    match self.outcome(middle, Looked::OnTheWay, &mut reach)? {
+                    let judged = self.judged_at(middle, Looked::OnTheWay, &mut reach)?;
+                    match judged.as_ref().map(|judged| Together::of(judged)) {
                         Some(Together::Fail) | None => outside = middle,
                         Some(found) => {
                             looked.push((middle, found));
                             inside = middle;
                         }
                     }
+                    blurred = judged.is_some_and(|judged| is_blurred(&judged));
                 }
                 reach.end = inside;
                 break;
@@ -216,14 +220,14 @@ impl<'a> Number<'a> {
         // What `check` says of the end decides: with fewer starts something may have been missed. The case itself is known.
         while let [.., before, last] = looked[..] {
             looked.pop();
-            let there = self.outcome(last.0, Looked::InFull, &mut reach)?;
+            let there = self.outcome(last.0, Looked::AsCheck(Together::Undecided), &mut reach)?;
             if let Some(found) = there.filter(|found| *found != Together::Fail) {
                 looked.push((last.0, found));
                 break;
             }
             reach.open = false;
             let middle = 0.5 * (before.0 + last.0);
-            let between = self.outcome(middle, Looked::InFull, &mut reach)?;
+            let between = self.outcome(middle, Looked::AsCheck(Together::Undecided), &mut reach)?;
             if let Some(found) = between.filter(|found| *found != Together::Fail) {
                 looked.push((middle, found));
                 break;
@@ -234,7 +238,9 @@ impl<'a> Number<'a> {
         let mut decided = looked.iter().take_while(|one| one.1 == Together::Hold).count();
         while decided > 1 && decided < looked.len() {
             let (at, known) = &mut looked[decided - 1];
-            *known = self.outcome(*at, Looked::AsCheck, &mut reach)?.unwrap_or(Together::Fail);
+            *known = self
+                .outcome(*at, Looked::AsCheck(Together::Hold), &mut reach)?
+                .unwrap_or(Together::Fail);
             if *known == Together::Hold {
                 break;
             }
@@ -253,18 +259,28 @@ impl<'a> Number<'a> {
         Ok(reach)
     }
 
-    /// What the criteria come to at a value, which is reached then; none where there is no such case.
+    /// What the criteria come to at a value, as [`Self::judged_at`].
     fn outcome(
         &self,
         value: f64,
         how: Looked,
         reach: &mut Reach,
     ) -> Result<Option<Together>, DrivenError> {
+        Ok(self.judged_at(value, how, reach)?.map(|judged| Together::of(&judged)))
+    }
+
+    /// The criteria at a value, which is reached then; none where there is no such case.
+    fn judged_at(
+        &self,
+        value: f64,
+        how: Looked,
+        reach: &mut Reach,
+    ) -> Result<Option<Vec<Judged>>, DrivenError> {
         let Some(judged) = self.judged(value, how)? else { return Ok(None) };
         // A place that is looked at again is known better then.
         reach.reached.retain(|[at, _]| *at != value);
         reach.reached.extend(judged.first().and_then(|first| Some([value, first.found?])));
-        Ok(Some(Together::of(&judged)))
+        Ok(Some(judged))
     }
 
     /// The criteria at a value.
@@ -274,38 +290,68 @@ impl<'a> Number<'a> {
     }
 }
 
+/// Whether all that fails does so in simulation by less than its error: where exactly it begins to is not known better.
+fn is_blurred(judged: &[Judged]) -> bool {
+    let mut fails = judged.iter().filter(|one| one.outcome() == Outcome::Fails).peekable();
+    let is_close = |one: &Judged| {
+        let within = one.margin.is_some_and(|room| room.abs() <= one.error);
+        within && one.decided_by == Method::Simulation
+    };
+    fails.peek().is_some() && fails.all(is_close)
+}
+
 /// How thoroughly a case is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Looked {
-    /// With fewer starts and places.
+    /// With fewer starts and places, and short windows.
     OnTheWay,
-    /// The same with windows as long as those of `check`: in short ones what has not settled may fail.
-    Longer,
-    /// With those of `check`.
-    InFull,
-    /// With its windows as well.
-    AsCheck,
+    /// As `check` does, unless a first search comes to less than this: what is captured now and then comes up late.
+    AsCheck(Together),
 }
 
-/// The criteria of a case.
+/// The criteria of a case. Most of a search goes into telling a long transient from a motion: first it counts as one, and
+/// then places that do not hold by what only a window shows are searched as thoroughly as `check` does.
 fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, DrivenError> {
     let on = &crate::executor::Serial;
     let Some(transient) = case.design.transient() else {
         let mut settings = criteria::settings(case);
-        // Long windows make the errors of irregular peaks smaller, not what is found.
-        let short = effort.short();
-        let effort = match how {
-            Looked::InFull => short,
-            Looked::AsCheck => *effort,
-            Looked::OnTheWay => Effort { starts: effort.starts.min(STARTS), band: BAND, ..short },
-            Looked::Longer => Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort },
+        let (first, then) = match how {
+            Looked::OnTheWay => {
+                let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
+                (few.short(), few)
+            }
+            Looked::AsCheck(_) => (Effort { patience: 0.0, ..*effort }, *effort),
         };
-        settings.effort = settings.effort.map(|_| effort);
+        settings.effort = settings.effort.map(|_| first);
+        let mut survey = Survey::of(&case.range(), &settings, None, on)?;
+        let mut known: Vec<f64> = Vec::new();
+        let judged = loop {
+            let judged = criteria::judge(case, &survey);
+            let mut open = criteria::open(case, &survey, &judged);
+            let done = match Together::of(&judged) {
+                Together::Hold => true,
+                // What was searched in full and is open is so whatever other places come to.
+                Together::Undecided => open.iter().any(|at| known.contains(at)),
+                Together::Fail => open.first().is_none_or(|worst| known.contains(worst)),
+            };
+            open.retain(|at| !known.contains(at));
+            if done || open.is_empty() {
+                break judged;
+            }
+            open.dedup();
+            open.truncate(AT_A_TIME);
+            survey.motions.look_again(&open, &then, on)?;
+            known.extend(open);
+        };
+        if !matches!(how, Looked::AsCheck(least) if Together::of(&judged) >= least) {
+            return Ok(judged);
+        }
+        settings.effort = settings.effort.map(|_| then);
         let survey = Survey::of(&case.range(), &settings, None, on)?;
         return Ok(criteria::judge(case, &survey));
     };
     let even = case.absorber_places().unwrap_or_default();
-    let in_full = matches!(how, Looked::InFull | Looked::AsCheck);
+    let in_full = how != Looked::OnTheWay;
     let most = match transient {
         _ if in_full => even,
         Transient::Release(_) => even,

@@ -51,9 +51,7 @@ impl Reliability {
         let come_to = |errors: &[(Parameter, f64)]| {
             // What leaves no system meets nothing.
             let Some(case) = case.deviating(errors) else { return Ok(Together::Fail) };
-            let of = |how| judge(&case, effort, how).map(|judged| Together::of(&judged));
-            let found = of(Looked::OnTheWay)?;
-            if found == Together::Hold { Ok(found) } else { of(Looked::Longer) }
+            judge(&case, effort, Looked::OnTheWay).map(|judged| Together::of(&judged))
         };
         let found = map(on, "designs", drawn.len(), |k| come_to(&drawn[k]));
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;

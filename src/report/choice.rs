@@ -30,6 +30,8 @@ const OUTCOMES: [(Together, Marker, Color, &str); 3] = [
     (Together::Undecided, Marker::hollow(Shape::Circle).sized(11.0), Color::Black, "not decided"),
     (Together::Fail, Marker::filled(Shape::Cross).sized(11.0), Color::Vermillion, "one fails"),
 ];
+/// What holds while one number alone changes.
+const ALONE: Style = Style::new(Color::BluishGreen, 1.4, Dash::Solid);
 /// Room beyond the outermost marks, over their distance.
 const ROOM: f64 = 0.12;
 
@@ -63,6 +65,15 @@ pub fn over_amplitude(
         line(DAMPER, Which::Damper, "tuned mass damper"),
     ];
     let panel = lines.into_iter().flatten().fold(Panel::new(x, y), Panel::with);
+    // A reduction asks for a share of what the structure does without absorber.
+    let steady = case.design.transient().is_none() && found.measure == Measure::Peak;
+    let reduction = case.criteria.iter().find(|one| steady && one.measure == Measure::ReductionDb);
+    let share = reduction.map(|one| libm::exp10(-one.limit / 20.0));
+    let reduced = share.zip(linear(Which::NoAbsorber)).map(|(share, bare)| {
+        let points = bare.into_iter().map(|[at, value]| [at, share * value]).collect();
+        Layer::curve(LIMIT, points).labelled("limit of the reduction")
+    });
+    let panel = reduced.into_iter().fold(panel, Panel::with);
     let panel = panel
         .with(Layer::horizontal(asked.limit, LIMIT).labelled("limit"))
         .with(Layer::points(Role::Simulation, along.reached.clone()).labelled("absorber"));
@@ -78,8 +89,14 @@ pub fn over_amplitude(
     )
 }
 
-/// Where criteria hold with another amplitude and another natural frequency at once; none where that was not looked for.
-pub fn combined(case: &Case, found: &[Combined], facts: &Value) -> Option<Figure> {
+/// Where criteria hold with another amplitude and another natural frequency at once, and lines along which all hold one at
+/// a time; none where that was not looked for.
+pub fn combined(
+    case: &Case,
+    found: &[Combined],
+    ranges: &[HoldsFor],
+    facts: &Value,
+) -> Option<Figure> {
     let (first, last) = (found.first()?, found.last()?);
     let [x, y] = [0, 1].map(|k| {
         let parameter = Varied::FIRST[k].parameter(case)?;
@@ -94,7 +111,17 @@ pub fn combined(case: &Case, found: &[Combined], facts: &Value) -> Option<Figure
         let there = found.iter().filter(|one| one.outcome == outcome).map(|one| one.at);
         Layer::marked(marker, color, there).labelled(name)
     });
-    let panel = marks.fold(Panel::new(x, y), Panel::with);
+    let hold = Varied::FIRST.map(|one| ranges.iter().find(|range| range.parameter == one)?.holds);
+    let panel = match hold {
+        [Some(amplitudes), Some(frequencies)] => Panel::new(x, y)
+            .with(
+                Layer::curve(ALONE, amplitudes.map(|end| [end, frequency]).to_vec())
+                    .labelled("all hold, one alone"),
+            )
+            .with(Layer::curve(ALONE, frequencies.map(|end| [amplitude, end]).to_vec())),
+        _ => Panel::new(x, y),
+    };
+    let panel = marks.fold(panel, Panel::with);
     let panel = panel.with(Layer::this_case([amplitude, frequency], None));
     Some(
         Figure::new(COMBINED, "")

@@ -54,6 +54,7 @@ impl Checked {
         let page = json!({
             "path": path, "case": name, "warnings": warnings, "criteria": criteria(case, judged),
             "outside": outside, "choice": choice, "alternatives": document["alternatives"], "ranges": ranges,
+            "combined": document["combined"],
             "reliability": document["reliability"],
         });
         Self { document, page, units }

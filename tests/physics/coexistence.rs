@@ -5,11 +5,13 @@ use crate::common::table_1;
 use std::f64::consts::PI;
 
 use vinesink::executor::Serial;
-use vinesink::motions::{Effort, Measured, Motion, Motions, Place, Window, motions};
+use vinesink::motions::{
+    BandEffort, Effort, Measured, Motion, Motions, Place, Window, along, motions,
+};
 use vinesink::orbits::{Closure, Orbit, two_impact_orbits};
 use vinesink::regimes::Regime;
 use vinesink::simulation::{Impact, Simulation};
-use vinesink::system::{Cavity, Excitation, Parameters, State, System};
+use vinesink::system::{Band, BandOver, Cavity, Excitation, Parameters, State, System};
 
 /// The transients of both motions here are over after some hundred periods.
 const WINDOW: Window = Window { discard: 2000, periods: 200, impact_limit: u64::MAX };
@@ -143,4 +145,32 @@ fn a_motion_whose_slip_reverses_is_not_the_unstable_orbit_beside_it() {
     let state = simulation.state();
     simulation.run(1, u64::MAX, &mut ());
     assert!(simulation.state().distance(&state) < 1e-12);
+}
+
+/// A place of a band that is looked at again over eight windows has the same irregular motion, whose rms is known to a third,
+/// as errors of independent windows shrink with their root; all other places stay.
+#[test]
+fn a_place_that_is_looked_at_again_is_known_better() {
+    let base = table_1(8.5, 28.0);
+    let omega = base.frequency_ratio();
+    let range = [0.995 * omega, 1.005 * omega];
+    let band = Band { over: BandOver::Frequency, range, spectrum: Vec::new(), base };
+    let few = BandEffort { even: 3, starts: 3, starts_between: 2, most: 8, tolerance: 0.1 };
+    let short = Effort { starts: 4, patience: 0.0, band: few, ..Effort::over(300) };
+    let mut found = along(&band, &[], None, Some(&short), &Serial).expect("finite");
+    let before = found.clone();
+    let rms = |of: &Motions| of.main().expect("one").facts().rms;
+    let own = rms(before.at(omega).expect("a place"));
+    assert!(own.error > 0.0, "it repeats");
+    let long = Effort { patience: 0.0, ..Effort { periods: 2400, ..short } };
+    found.look_again(&[omega], &long, &Serial).expect("finite");
+    for ((at, then), (_, now)) in before.places().iter().zip(found.places()) {
+        if *at == omega {
+            let (then, now) = (rms(then), rms(now));
+            assert!((now.value - then.value).abs() <= then.error + now.error, "{then:?} {now:?}");
+            assert!(now.error < 0.6 * then.error, "{then:?} {now:?}");
+        } else {
+            assert_eq!(then, now, "at {at}");
+        }
+    }
 }

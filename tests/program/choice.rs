@@ -110,7 +110,7 @@ fn combinations_are_what_check_says_of_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("case.toml");
     let path = path.to_str().expect("UTF-8");
-    let mut seen = [0; 2];
+    let (mut seen, mut corners) = ([0; 2], 0);
     for name in ["tests/designs/floor", "cases/arm-empty"] {
         let text = std::fs::read_to_string(format!("{name}.toml")).expect("a case");
         std::fs::write(path, &text).expect("written");
@@ -136,7 +136,13 @@ fn combinations_are_what_check_says_of_them() {
             let there = with(&there, &["frequency"], frequency, hertz);
             let there = with(&there, &["damping_ratio"], ratio, "%");
             std::fs::write(path, there).expect("written");
-            let fails = fails(&checked(path, &["--criteria-only"]));
+            let there = checked(path, &["--criteria-only"]);
+            let fails = fails(&there);
+            // The verdict tells what holds at a corner: there errors count too.
+            if one["corner"] == true {
+                assert_eq!(one["outcome"] == "hold", there["holds"] == true, "{name}: {one}");
+                corners += 1;
+            }
             match one["outcome"].as_str() {
                 Some("fail") => {
                     assert!(fails, "{name} holds at {one}");
@@ -151,6 +157,7 @@ fn combinations_are_what_check_says_of_them() {
         }
     }
     assert!(seen[0] >= 5 && seen[1] >= 5, "{seen:?} fail and hold");
+    assert!(corners >= 4, "{corners} corners");
 }
 
 /// Criteria alone: no device beside the absorber, no range.

@@ -82,6 +82,33 @@ impl Along {
         &self.places
     }
 
+    /// Looks at some places again with another effort: what was found there are starts, beside the usual ones.
+    ///
+    /// # Errors
+    /// [`StartError`] where a start is not finite.
+    pub fn look_again(
+        &mut self,
+        places: &[f64],
+        effort: &Effort,
+        on: &dyn Executor,
+    ) -> Result<(), StartError> {
+        let again: Vec<usize> =
+            (0..self.places.len()).filter(|k| places.contains(&self.places[*k].0)).collect();
+        let place = |k: &usize| {
+            let (at, known) = &self.places[*k];
+            let further = known.iter().filter(|one| one.rest().is_none()).map(Motion::state);
+            let system = self.band.system(*at).ok()?;
+            let further = further.collect();
+            let starts = if *at == self.band.own() { effort.starts } else { effort.band.starts };
+            Some((*k, Place { further, ..Place::new(&system, starts) }))
+        };
+        let (again, places): (Vec<usize>, Vec<Place>) = again.iter().filter_map(place).unzip();
+        for (k, found) in again.into_iter().zip(motions(&places, effort, on)?) {
+            self.places[k].1 = found;
+        }
+        Ok(())
+    }
+
     /// The motions at one of them.
     pub fn at(&self, at: f64) -> Option<&Motions> {
         self.places.iter().find(|place| place.0 == at).map(|place| &place.1)

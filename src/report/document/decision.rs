@@ -215,7 +215,12 @@ fn together(case: &Case, found: &Combined) -> Value {
         let kind = kind_of(case, Varied::FIRST[k]);
         Quantity::new(kind, found.at[k], Method::Given)
     });
-    json!({ "amplitude": amplitude, "natural_frequency": frequency, "outcome": found.outcome })
+    json!({
+        "amplitude": amplitude,
+        "natural_frequency": frequency,
+        "corner": found.corner,
+        "outcome": found.outcome,
+    })
 }
 
 /// How far the promise holds for a number: its row as CONTRACT.md has it, and quantities for a page.
