@@ -185,6 +185,12 @@ impl Judged {
         }
     }
 
+    /// Whether it fails by a simulated value that misses the limit by less than its error.
+    pub fn fails_within_its_error(&self) -> bool {
+        let within = self.margin.is_some_and(|room| room.abs() <= self.error);
+        self.outcome() == Outcome::Fails && within && self.decided_by == Method::Simulation
+    }
+
     /// The same of a value under so many records, whose error may mean something else.
     fn under(self, records: usize) -> Self {
         let open = |room| self.criterion.is_open(room, self.error, records);

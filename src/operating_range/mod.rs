@@ -18,7 +18,6 @@ use crate::criteria::{self, Judged, Outcome};
 use crate::excitation::Transient;
 use crate::executor::{Executor, map};
 use crate::flights::{DrivenError, Places};
-use crate::method::Method;
 use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
 use crate::transient::Study;
@@ -290,14 +289,10 @@ impl<'a> Number<'a> {
     }
 }
 
-/// Whether all that fails does so in simulation by less than its error: where exactly it begins to is not known better.
+/// Whether all that fails does so by less than its error: where exactly it begins to is not known better.
 fn is_blurred(judged: &[Judged]) -> bool {
     let mut fails = judged.iter().filter(|one| one.outcome() == Outcome::Fails).peekable();
-    let is_close = |one: &Judged| {
-        let within = one.margin.is_some_and(|room| room.abs() <= one.error);
-        within && one.decided_by == Method::Simulation
-    };
-    fails.peek().is_some() && fails.all(is_close)
+    fails.peek().is_some() && fails.all(Judged::fails_within_its_error)
 }
 
 /// How thoroughly a case is looked at.
