@@ -119,17 +119,29 @@ pub fn judge(case: &Case, survey: &Survey) -> Vec<Judged> {
     case.criteria.iter().map(|criterion| scope.judge(criterion)).collect()
 }
 
-/// Places of a survey at which a more thorough search may judge otherwise, the worst first; none where a criterion fails by
-/// what was solved for.
-pub fn open(case: &Case, survey: &Survey, judged: &[Judged]) -> Vec<f64> {
+/// Places of a survey that are worth another search, the worst of each criterion first; `known` were searched in full. None
+/// where that cannot change what all criteria together come to.
+pub fn open(case: &Case, survey: &Survey, judged: &[Judged], known: &[f64]) -> Vec<f64> {
     let scope = Scope { survey, units: case.units() };
-    if judged.iter().any(|one| scope.fails_for_good(one)) {
+    if judged.iter().any(|one| scope.fails_for_good(one, known)) {
         return Vec::new();
     }
     let of_motions = case.criteria.iter().filter(|one| one.measure.is_of_motions());
-    let mut open: Vec<(f64, f64)> = of_motions.flat_map(|one| scope.open(one)).collect();
-    open.sort_by(|a, b| a.1.total_cmp(&b.1));
-    open.into_iter().map(|one| one.0).collect()
+    let each: Vec<Vec<f64>> = of_motions.map(|one| scope.open(one)).collect();
+    let fails = judged.iter().any(|one| one.outcome() == Outcome::Fails);
+    // What was searched in full and is open is so whatever other places come to.
+    if !fails && each.iter().flatten().any(|at| known.contains(at)) {
+        return Vec::new();
+    }
+    let mut open = Vec::new();
+    for rank in 0..each.iter().map(Vec::len).max().unwrap_or_default() {
+        for at in each.iter().filter_map(|places| places.get(rank)) {
+            if !open.contains(at) && !known.contains(at) {
+                open.push(*at);
+            }
+        }
+    }
+    open
 }
 
 impl Criterion {
@@ -144,7 +156,7 @@ impl Criterion {
 
     /// Whether the error could turn what holds or not. The worst value seen may be worse, and not better.
     fn is_open(&self, room: f64, error: f64, records: usize) -> bool {
-        let within = error > 0.0 && room.abs() <= error;
+        let within = is_within(room, error);
         let worst = self.measure.is_worst(records);
         let against =
             if self.measure.against().is_some() { Relation::AtLeast } else { Relation::AtMost };
@@ -187,7 +199,7 @@ impl Judged {
 
     /// Whether it fails by a simulated value that misses the limit by less than its error.
     pub fn fails_within_its_error(&self) -> bool {
-        let within = self.margin.is_some_and(|room| room.abs() <= self.error);
+        let within = self.margin.is_some_and(|room| is_within(room, self.error));
         self.outcome() == Outcome::Fails && within && self.decided_by == Method::Simulation
     }
 
@@ -196,6 +208,11 @@ impl Judged {
         let open = |room| self.criterion.is_open(room, self.error, records);
         Self { records, near_limit: self.margin.is_some_and(open), ..self }
     }
+}
+
+/// Whether the error could turn a sign of the room.
+fn is_within(room: f64, error: f64) -> bool {
+    error > 0.0 && room.abs() <= error
 }
 
 /// Whether every criterion holds; what could not be measured does not.

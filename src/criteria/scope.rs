@@ -111,9 +111,9 @@ impl Scope<'_> {
         Judged { at, motion, inactive, ..judged }.or_undecided(undecided)
     }
 
-    /// Places with a motion that only a window shows and which does not hold with its error or still settles, and the room
+    /// Places with a motion that only a window shows and which does not hold with its error or still settles, by the room
     /// that it leaves.
-    pub(super) fn open(&self, criterion: &Criterion) -> Vec<(f64, f64)> {
+    pub(super) fn open(&self, criterion: &Criterion) -> Vec<f64> {
         let counting = self.survey.motions.counting(self.survey.count_rest);
         let open = counting.filter(|one| is_open(one.2)).filter_map(|one| {
             let judged = self.of(criterion, one).map(|of| of.0);
@@ -121,15 +121,18 @@ impl Scope<'_> {
             let open = !one.2.settled() || judged.is_some_and(|of| of.holds == Some(false));
             open.then_some((one.0, room.unwrap_or(f64::NEG_INFINITY)))
         });
-        open.collect()
+        let mut open: Vec<(f64, f64)> = open.collect();
+        open.sort_by(|a, b| a.1.total_cmp(&b.1));
+        open.into_iter().map(|one| one.0).collect()
     }
 
-    /// Whether a criterion fails by what no longer window judges otherwise.
-    pub(super) fn fails_for_good(&self, judged: &Judged) -> bool {
+    /// Whether a criterion fails for good: by what was solved for, or at one of these places, which were searched in full.
+    pub(super) fn fails_for_good(&self, judged: &Judged, known: &[f64]) -> bool {
         let at = judged.at.unwrap_or_else(|| self.survey.band().own());
         let motions = self.survey.motions.at(at);
         let motion = motions.zip(judged.motion).and_then(|(here, number)| here.iter().nth(number));
-        judged.outcome() == Outcome::Fails && !motion.is_some_and(is_open)
+        let open = motion.is_some_and(is_open) && !known.contains(&at);
+        judged.outcome() == Outcome::Fails && !open
     }
 
     fn of<'m>(

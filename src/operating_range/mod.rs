@@ -12,11 +12,11 @@ mod varied;
 
 use serde::Serialize;
 
-use crate::band::Survey;
+use crate::band::{Survey, SurveySettings};
 use crate::case::Case;
 use crate::criteria::{self, Judged, Outcome};
 use crate::excitation::Transient;
-use crate::executor::{Executor, map};
+use crate::executor::{Executor, Serial, map};
 use crate::flights::{DrivenError, Places};
 use crate::motions::{BandEffort, Effort};
 use crate::system::Parameter;
@@ -216,29 +216,53 @@ impl<'a> Number<'a> {
             looked.push((step, outcome));
             reach.end = step;
         }
-        // What `check` says of the end decides: with fewer starts something may have been missed. The case itself is known.
+        self.end_as_check(&mut looked, &mut reach)?;
+        self.hold_as_check(&mut looked, &mut reach)?;
+        for pair in looked.windows(2) {
+            if pair[0].1 == Together::Undecided || pair[1].1 == Together::Undecided {
+                reach.undecided.push([pair[0].0, pair[1].0]);
+            }
+        }
+        Ok(reach)
+    }
+
+    /// Takes the end back until `check` says that nothing fails there: with fewer starts something may have been missed. The
+    /// case itself is known.
+    fn end_as_check(
+        &self,
+        looked: &mut Vec<(f64, Together)>,
+        reach: &mut Reach,
+    ) -> Result<(), DrivenError> {
         while let [.., before, last] = looked[..] {
             looked.pop();
-            let there = self.outcome(last.0, Looked::AsCheck(Together::Undecided), &mut reach)?;
+            let there = self.outcome(last.0, Looked::AsCheck(Together::Undecided), reach)?;
             if let Some(found) = there.filter(|found| *found != Together::Fail) {
                 looked.push((last.0, found));
                 break;
             }
             reach.open = false;
             let middle = 0.5 * (before.0 + last.0);
-            let between = self.outcome(middle, Looked::AsCheck(Together::Undecided), &mut reach)?;
+            let between = self.outcome(middle, Looked::AsCheck(Together::Undecided), reach)?;
             if let Some(found) = between.filter(|found| *found != Together::Fail) {
                 looked.push((middle, found));
                 break;
             }
         }
         reach.end = looked.last().map_or(self.own, |last| last.0);
-        // So does it where all criteria hold up to; the end of the stretch is known in full.
+        Ok(())
+    }
+
+    /// The same for where all criteria hold up to; the end of the stretch is known in full.
+    fn hold_as_check(
+        &self,
+        looked: &mut [(f64, Together)],
+        reach: &mut Reach,
+    ) -> Result<(), DrivenError> {
         let mut decided = looked.iter().take_while(|one| one.1 == Together::Hold).count();
         while decided > 1 && decided < looked.len() {
             let (at, known) = &mut looked[decided - 1];
             *known = self
-                .outcome(*at, Looked::AsCheck(Together::Hold), &mut reach)?
+                .outcome(*at, Looked::AsCheck(Together::Hold), reach)?
                 .unwrap_or(Together::Fail);
             if *known == Together::Hold {
                 break;
@@ -250,12 +274,7 @@ impl<'a> Number<'a> {
         if let Some(last) = decided.checked_sub(1) {
             reach.holds = looked[last].0;
         }
-        for pair in looked.windows(2) {
-            if pair[0].1 == Together::Undecided || pair[1].1 == Together::Undecided {
-                reach.undecided.push([pair[0].0, pair[1].0]);
-            }
-        }
-        Ok(reach)
+        Ok(())
     }
 
     /// What the criteria come to at a value, as [`Self::judged_at`].
@@ -304,46 +323,10 @@ enum Looked {
     AsCheck(Together),
 }
 
-/// The criteria of a case. Most of a search goes into telling a long transient from a motion: first it counts as one, and
-/// then places that do not hold by what only a window shows are searched as thoroughly as `check` does.
+/// The criteria of a case.
 fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, DrivenError> {
-    let on = &crate::executor::Serial;
     let Some(transient) = case.design.transient() else {
-        let mut settings = criteria::settings(case);
-        let (first, then) = match how {
-            Looked::OnTheWay => {
-                let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
-                (few.short(), few)
-            }
-            Looked::AsCheck(_) => (Effort { patience: 0.0, ..*effort }, *effort),
-        };
-        settings.effort = settings.effort.map(|_| first);
-        let mut survey = Survey::of(&case.range(), &settings, None, on)?;
-        let mut known: Vec<f64> = Vec::new();
-        let judged = loop {
-            let judged = criteria::judge(case, &survey);
-            let mut open = criteria::open(case, &survey, &judged);
-            let done = match Together::of(&judged) {
-                Together::Hold => true,
-                // What was searched in full and is open is so whatever other places come to.
-                Together::Undecided => open.iter().any(|at| known.contains(at)),
-                Together::Fail => open.first().is_none_or(|worst| known.contains(worst)),
-            };
-            open.retain(|at| !known.contains(at));
-            if done || open.is_empty() {
-                break judged;
-            }
-            open.dedup();
-            open.truncate(AT_A_TIME);
-            survey.motions.look_again(&open, &then, on)?;
-            known.extend(open);
-        };
-        if !matches!(how, Looked::AsCheck(least) if Together::of(&judged) >= least) {
-            return Ok(judged);
-        }
-        settings.effort = settings.effort.map(|_| then);
-        let survey = Survey::of(&case.range(), &settings, None, on)?;
-        return Ok(criteria::judge(case, &survey));
+        return judge_band(case, effort, how);
     };
     let even = case.absorber_places().unwrap_or_default();
     let in_full = how != Looked::OnTheWay;
@@ -355,8 +338,44 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
     };
     let closer = case.design.release().is_some() || in_full;
     let shaking = case.asks_for_shaking();
-    let places = Places { even: even.min(most), closer, shaking, executor: on };
+    let places = Places { even: even.min(most), closer, shaking, executor: &Serial };
     let Some(study) = Study::brief_of_case(case, places) else { return Ok(Vec::new()) };
     let study = study?;
     Ok(criteria::judge_transient(case, &study))
+}
+
+/// Those of a case that is driven steadily. Most of a search goes into telling a long transient from a motion: first it counts
+/// as one, and then places that do not hold by what only a window shows are searched as thoroughly as `check` does.
+fn judge_band(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, DrivenError> {
+    let settings = criteria::settings(case);
+    let survey = |effort: Effort| {
+        let settings =
+            SurveySettings { effort: settings.effort.map(|_| effort), ..settings.clone() };
+        Survey::of(&case.range(), &settings, None, &Serial)
+    };
+    let (first, then) = match how {
+        Looked::OnTheWay => {
+            let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
+            (few.short(), few)
+        }
+        Looked::AsCheck(_) => (Effort { patience: 0.0, ..*effort }, *effort),
+    };
+    let mut found = survey(first)?;
+    let mut known: Vec<f64> = Vec::new();
+    let judged = loop {
+        let judged = criteria::judge(case, &found);
+        let mut open = criteria::open(case, &found, &judged, &known);
+        if open.is_empty() {
+            break judged;
+        }
+        open.truncate(AT_A_TIME);
+        found.motions.look_again(&open, &then, &Serial)?;
+        known.extend(open);
+    };
+    match how {
+        Looked::AsCheck(least) if Together::of(&judged) >= least => {
+            Ok(criteria::judge(case, &survey(then)?))
+        }
+        _ => Ok(judged),
+    }
 }

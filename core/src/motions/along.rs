@@ -34,6 +34,13 @@ impl BandEffort {
         Self { even: 13, starts: 3, starts_between: 2, most: 40, tolerance: 0.1 };
 }
 
+impl Effort {
+    /// That at places other than the case's own.
+    fn between(&self) -> Self {
+        Self { accuracy: None, ..*self }
+    }
+}
+
 /// The motions that can happen along a band.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Along {
@@ -82,7 +89,8 @@ impl Along {
         &self.places
     }
 
-    /// Looks at some places again with another effort: what was found there are starts, beside the usual ones.
+    /// Searches some places again with another effort, as between the places of a band: what was found there are starts,
+    /// beside the usual ones.
     ///
     /// # Errors
     /// [`StartError`] where a start is not finite.
@@ -92,18 +100,16 @@ impl Along {
         effort: &Effort,
         on: &dyn Executor,
     ) -> Result<(), StartError> {
-        let again: Vec<usize> =
-            (0..self.places.len()).filter(|k| places.contains(&self.places[*k].0)).collect();
-        let place = |k: &usize| {
-            let (at, known) = &self.places[*k];
+        let again = |(k, (at, known)): (usize, &(f64, Motions))| {
+            let system = self.band.system(*at).ok().filter(|_| places.contains(at))?;
             let further = known.iter().filter(|one| one.rest().is_none()).map(Motion::state);
-            let system = self.band.system(*at).ok()?;
             let further = further.collect();
             let starts = if *at == self.band.own() { effort.starts } else { effort.band.starts };
-            Some((*k, Place { further, ..Place::new(&system, starts) }))
+            Some((k, Place { further, ..Place::new(&system, starts) }))
         };
-        let (again, places): (Vec<usize>, Vec<Place>) = again.iter().filter_map(place).unzip();
-        for (k, found) in again.into_iter().zip(motions(&places, effort, on)?) {
+        let again = self.places.iter().enumerate().filter_map(again);
+        let (again, places): (Vec<usize>, Vec<Place>) = again.unzip();
+        for (k, found) in again.into_iter().zip(motions(&places, &effort.between(), on)?) {
             self.places[k].1 = found;
         }
         Ok(())
@@ -334,11 +340,6 @@ impl Sampler<'_> {
         Ok((spots.into_iter().map(Spot::place).collect(), highest - largest))
     }
 
-    /// The effort at places other than the case's own.
-    fn between(&self) -> Effort {
-        Effort { accuracy: None, ..*self.effort }
-    }
-
     /// The motions at new places, from the usual starts and from what `known` places beside them have.
     fn at(&self, mut places: Vec<f64>, known: &[Spot]) -> Result<Vec<Spot>, StartError> {
         places.sort_by(f64::total_cmp);
@@ -354,7 +355,7 @@ impl Sampler<'_> {
             Some((at, Place { further, ..Place::new(&system, starts) }))
         };
         let (at, places): (Vec<f64>, Vec<Place>) = places.into_iter().filter_map(place).unzip();
-        let found = motions(&places, &self.between(), self.on)?;
+        let found = motions(&places, &self.effort.between(), self.on)?;
         let spot = |(at, motions)| Spot { at, motions, followed: 0.0 };
         Ok(at.into_iter().zip(found).map(spot).collect())
     }
@@ -374,7 +375,7 @@ impl Sampler<'_> {
                 places.push(Place { further, known, ..Place::with(&system, Vec::new()) });
             }
         }
-        let found = motions(&places, &self.between(), self.on)?;
+        let found = motions(&places, &self.effort.between(), self.on)?;
         for ((k, peak), found) in chosen.iter().zip(found) {
             spots[*k].followed = *peak;
             spots[*k].motions.join(&found);
