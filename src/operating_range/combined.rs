@@ -1,7 +1,7 @@
 //! The excitation's amplitude and the natural frequency changed at once: what holds for each alone may fail for both.
 
 use super::{HoldsFor, Looked, Together, Varied, judge};
-use crate::case::Case;
+use crate::case::{Case, Relation};
 use crate::executor::{Executor, map};
 use crate::flights::DrivenError;
 use crate::motions::Effort;
@@ -11,17 +11,16 @@ use crate::motions::Effort;
 pub struct Combined {
     /// Both, in SI or the units of a reduced case.
     pub at: [f64; 2],
-    /// Whether both are ends of the stretches in which all criteria hold while the other number stays.
-    pub corner: bool,
+    /// Whether the verdict counts it, which is judged as `check` does: an end of the amplitudes at which all criteria hold while
+    /// the frequency stays, and an end of such frequencies or the worst of them.
+    pub promised: bool,
     /// What its criteria come to.
     pub outcome: Together,
 }
 
 /// Every combination of two amplitudes and two natural frequencies on either side of the case, by amplitude, then frequency:
-/// the ends of their ranges, and the ends of the part in which all criteria hold, or half way where that is none of its own;
-/// none where one of the ranges is not known.
-///
-/// Those along one range are known from it. A corner of what holds is judged as `check` judges it.
+/// where all criteria hold with one changed alone the end of that stretch and the worst place in it, as two designs that each
+/// keep a limit well may miss it together; else the end of the range and half way. None where one of the ranges is not known.
 ///
 /// # Errors
 /// [`DrivenError`] where a motion cannot be followed.
@@ -33,24 +32,24 @@ pub fn combined(
 ) -> Result<Vec<Combined>, DrivenError> {
     let [amplitude, frequency] = Varied::FIRST.map(|varied| {
         let range = ranges.iter().find(|one| one.parameter == varied)?;
-        Some((varied.parameter(case)?, values(range)))
+        Some((varied.parameter(case)?, values(case, range)))
     });
     let (Some(amplitude), Some(frequency)) = (amplitude, frequency) else { return Ok(Vec::new()) };
     let both = amplitude.1.iter().flat_map(|a| frequency.1.iter().map(|f| (*a, *f)));
     let both: Vec<(Value, Value)> = both.collect();
     let outcome = |k: usize| {
         let (a, f) = both[k];
-        let corner = a.end_of_hold && f.end_of_hold;
+        let promised = a.held && a.is_end && f.held;
         let there = case.varied(amplitude.0, a.value);
         let outcome = match there.and_then(|case| case.varied(frequency.0, f.value)) {
             Some(there) => {
-                let how =
-                    if corner { Looked::AsCheck(Together::Undecided) } else { Looked::OnTheWay };
+                let as_check = Looked::AsCheck(Together::Undecided);
+                let how = if promised { as_check } else { Looked::OnTheWay };
                 Together::of(&judge(&there, effort, how)?)
             }
             None => Together::Fail,
         };
-        Ok(Combined { at: [a.value, f.value], corner, outcome })
+        Ok(Combined { at: [a.value, f.value], promised, outcome })
     };
     map(on, "combinations", both.len(), outcome).into_iter().collect()
 }
@@ -59,27 +58,30 @@ pub fn combined(
 #[derive(Clone, Copy)]
 struct Value {
     value: f64,
-    /// Whether the stretch in which all criteria hold ends there.
-    end_of_hold: bool,
+    /// Whether all criteria hold there while the other number stays.
+    held: bool,
+    /// Whether the stretch ends there.
+    is_end: bool,
 }
 
-/// Part of the way to the end of a range from which on the end of what holds stands for both.
-const NEAR: f64 = 0.8;
-
 /// Two on either side, ascending; none in a direction in which the range ends at the case.
-fn values(of: &HoldsFor) -> Vec<Value> {
-    let mut all = Vec::new();
-    for k in [0, 1] {
-        let end = of.range[k];
+fn values(case: &Case, of: &HoldsFor) -> Vec<Value> {
+    let larger_is_worse =
+        case.criteria.first().is_none_or(|first| first.relation == Relation::AtMost);
+    let badness = |found: f64| if larger_is_worse { found } else { -found };
+    let side = |k: usize| {
         let hold = of.holds.map(|holds| holds[k]).filter(|hold| *hold != of.value);
-        let half_way = 0.5 * (of.value + end);
-        let two = match hold {
-            Some(hold) if (hold - of.value) / (end - of.value) > NEAR => [half_way, hold],
-            Some(hold) => [hold, end],
-            None => [half_way, end],
-        };
-        all.extend(two.map(|value| Value { value, end_of_hold: hold == Some(value) }));
-    }
+        let end = hold.unwrap_or(of.range[k]);
+        let within = of.reached.iter().filter(|[at, _]| (at - of.value) * (at - end) < 0.0);
+        let worst = within.max_by(|a, b| badness(a[1]).total_cmp(&badness(b[1])));
+        let inner = worst.filter(|_| hold.is_some()).map_or(0.5 * (of.value + end), |[at, _]| *at);
+        [(inner, false), (end, true)].map(|(value, is_end)| Value {
+            value,
+            held: hold.is_some(),
+            is_end,
+        })
+    };
+    let mut all: Vec<Value> = [0, 1].into_iter().flat_map(side).collect();
     all.retain(|one| one.value != of.value);
     all.sort_by(|a, b| a.value.total_cmp(&b.value));
     all

@@ -218,7 +218,7 @@ fn together(case: &Case, found: &Combined) -> Value {
     json!({
         "amplitude": amplitude,
         "natural_frequency": frequency,
-        "corner": found.corner,
+        "promised": found.promised,
         "outcome": found.outcome,
     })
 }
