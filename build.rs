@@ -23,7 +23,7 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 23] = [
+const NOT_IN_A_BROWSER: [&str; 28] = [
     "analyze",
     "captions/record",
     "captions/release",
@@ -39,12 +39,17 @@ const NOT_IN_A_BROWSER: [&str; 23] = [
     "flight",
     "index",
     "jobs",
+    "live",
     "optimize",
+    "page",
     "paper",
     "record",
     "release",
+    "report.css",
+    "report.js",
     "simulate",
     "sine-sweep",
+    "sort",
     "sweep",
     "tradeoff",
 ];

@@ -31,16 +31,22 @@ def bare(module):
     return bytes(kept)
 
 
+def lean(text):
+    """Without indentation and lines of comments: no text of them goes over several lines."""
+    lines = (line.strip() for line in text.splitlines())
+    return "\n".join(line for line in lines if line and not re.match(r"//|/\*\*? .*\*/$", line)) + "\n"
+
+
 folder = pathlib.Path(sys.argv[1])
 module, out = folder / "bare.wasm", folder / "live.html"
 module.write_bytes(bare((folder / "vinesink.wasm").read_bytes()))
 packed = subprocess.run(["zopfli", "--i5", "-c", module], check=True, capture_output=True).stdout
 here = pathlib.Path(__file__).parent
 parts = {
-    "REPORT_CSS": (here / "../templates/report.css").read_text(),
-    "LIVE_CSS": (here / "page/live.css").read_text(),
+    "REPORT_CSS": lean((here / "../templates/report.css").read_text()),
+    "LIVE_CSS": lean((here / "page/live.css").read_text()),
     "LIVE_MODULE": base64.b64encode(packed).decode(),
-    "LIVE_JS": (here / "page/live.js").read_text(),
+    "LIVE_JS": lean((here / "page/live.js").read_text()),
 }
 page = (here / "page/live.html").read_text()
 for name, text in parts.items():

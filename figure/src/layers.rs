@@ -121,8 +121,19 @@ impl Layer {
     }
 
     /// Whether it is [`Layer::this_case`].
-    pub(super) fn marks_case(&self) -> bool {
+    pub fn marks_case(&self) -> bool {
         matches!(self, Self::Points { marker, .. } if *marker == Marker::THIS_CASE)
+    }
+
+    /// What it is called, to be changed.
+    pub const fn label_mut(&mut self) -> Option<&mut Label> {
+        match self {
+            Self::Curve { label, .. }
+            | Self::Points { label, .. }
+            | Self::Band { label, .. }
+            | Self::Rule { label, .. } => label.as_mut(),
+            Self::Image(_) => None,
+        }
     }
 
     /// What it is called.

@@ -28,9 +28,11 @@
 //! | `property` | text | a property of a message of a GitHub workflow |
 //! | `tex` | a number; `digits=4` | the number inside a formula; without digits all that it has |
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::LazyLock;
 
 use base64::Engine as _;
@@ -87,20 +89,45 @@ pub fn render(name: &str, units: &Units, context: &impl Serialize) -> Result<Str
     })
 }
 
+thread_local! {
+    /// Templates that were read: to read one takes longer than to fill it in.
+    static READ: RefCell<BTreeMap<String, Rc<Tera>>> = const { RefCell::new(BTreeMap::new()) };
+    /// Those of the text that is being written.
+    static UNITS: Cell<Option<Units>> = const { Cell::new(None) };
+}
+
 fn filled_in(name: &str, units: &Units, context: &impl Serialize) -> TeraResult<String> {
-    let mut tera = Tera::new();
-    register(&mut tera, *units);
-    tera.autoescape_on(escape::suffixes());
-    if let Some(escape) = escape::of_page(name) {
-        tera.set_escape_fn(escape);
-    }
-    tera.add_raw_templates(needed(name)?)?;
+    let known = READ.with_borrow(|read| read.get(name).cloned());
+    let tera = match known {
+        Some(tera) => tera,
+        None => {
+            let tera = Rc::new(read(name)?);
+            READ.with_borrow_mut(|all| all.insert(name.to_owned(), Rc::clone(&tera)));
+            tera
+        }
+    };
+    UNITS.set(Some(*units));
     let text = tera.render(name, &Context::from_serialize(context)?)?;
     Ok(match Path::new(name).extension().and_then(OsStr::to_str) {
         Some("md") => without_repeated_blank_lines(&text),
         Some("txt") => aligned(&without_repeated_blank_lines(&text)),
         _ => text,
     })
+}
+
+fn read(name: &str) -> TeraResult<Tera> {
+    let mut tera = Tera::new();
+    register(&mut tera);
+    tera.autoescape_on(escape::suffixes());
+    if let Some(escape) = escape::of_page(name) {
+        tera.set_escape_fn(escape);
+    }
+    tera.add_raw_templates(needed(name)?)?;
+    Ok(tera)
+}
+
+fn units() -> TeraResult<Units> {
+    UNITS.get().ok_or_else(|| tera::Error::message("no units"))
 }
 
 /// A template with what it includes, between quotation marks, and the components that it uses, as in `<name `. To read
@@ -136,16 +163,16 @@ pub fn worded(mut figures: Vec<Figure>, units: &Units) -> Result<Vec<Figure>, Re
     Ok(figures)
 }
 
-fn register(tera: &mut Tera, units: Units) {
-    tera.register_filter("q", move |value: &Value, options: Kwargs, _: &State| {
-        quantity_text(&units, value, &options)
+fn register(tera: &mut Tera) {
+    tera.register_filter("q", |value: &Value, options: Kwargs, _: &State| {
+        quantity_text(&units()?, value, &options)
     });
-    tera.register_filter("apart", move |value: &Value, options: Kwargs, _: &State| {
+    tera.register_filter("apart", |value: &Value, options: Kwargs, _: &State| {
         let number = |one: &Value| field(one.as_map()?, "value")?.as_f64();
         let other = options.get::<Value>("from")?.as_ref().and_then(number);
         Ok::<_, tera::Error>(match number(value) {
-            Some(number) => units.apart(kind_of(value)?, number, other.unwrap_or(number)),
-            None => quantity_text(&units, value, &options)?,
+            Some(number) => units()?.apart(kind_of(value)?, number, other.unwrap_or(number)),
+            None => quantity_text(&units()?, value, &options)?,
         })
     });
     tera.register_filter("label", |value: &Value, _: Kwargs, _: &State| {

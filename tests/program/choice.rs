@@ -1,6 +1,10 @@
 //! How far a promise holds, against `check` at its ends; and what a case is held against, in words and in numbers.
 
 use serde_json::Value;
+use vinesink::answer::{Answer, Asked};
+use vinesink::case::Case;
+use vinesink::executor::Serial;
+use vinesink::operating_range::{Varied, holds_for};
 
 use super::run::vinesink;
 
@@ -66,36 +70,38 @@ fn ranges_end_where_check_says_so() {
         let path = folder.path().join("case.toml");
         let path = path.to_str().expect("UTF-8");
         std::fs::write(path, &text).expect("written");
-        let found = checked(path, &[]);
-        let ranges = found["holds_for"].as_array().expect("ranges");
-        assert!(ranges.len() >= 6, "{name}: {found}");
+        let case = Case::parse(path, &text).unwrap_or_else(|error| panic!("{name}: {error:?}"));
+        let effort = case.effort();
+        let own = Answer::of(&case, Asked::Criteria, None, &Serial).expect("judged");
+        // Those that a line of the case says; of all eight a report tells.
+        let numbers = [Varied::Amplitude, Varied::Clearance];
+        let ranges = holds_for(&case, &own.judged, &numbers, &effort, &Serial).expect("ranges");
+        assert_eq!(ranges.len(), 2, "{name}");
         for range in ranges {
-            let keys: &[&str] = match range["parameter"].as_str() {
-                Some("amplitude") => &["amplitude", "velocity"],
-                Some("clearance") => &["clearance"],
-                _ => continue,
+            let keys: &[&str] = match range.parameter {
+                Varied::Amplitude => &["amplitude", "velocity"],
+                _ => &["clearance"],
             };
-            let number = |key: &str| range[key].as_f64().expect(key);
-            let unit = range["unit"].as_str().expect("a unit");
-            for (end, open) in [("from", "from_open"), ("to", "to_open")] {
-                let (at, own) = (number(end), number("value"));
+            let parameter = range.parameter.parameter(&case).expect("it has it");
+            let unit = case.design.kind(parameter).dimension.symbol(true);
+            for (end, at) in range.range.into_iter().enumerate() {
+                let own = range.value;
                 let there = |value: f64| {
                     std::fs::write(path, with(&text, keys, value, unit)).expect("written");
                     fails(&checked(path, &["--criteria-only"]))
                 };
-                assert!(!there(at), "{name} {keys:?}: fails at {at}, {range}");
-                if range[open] == false {
+                assert!(!there(at), "{name} {keys:?}: fails at {at}, {range:?}");
+                if !range.open[end] {
                     let beyond = at + 0.2 * (at - own) + 0.02 * (at - own).signum() * own;
-                    assert!(there(beyond), "{name} {keys:?}: holds at {beyond}, {range}");
+                    assert!(there(beyond), "{name} {keys:?}: holds at {beyond}, {range:?}");
                     ends += 1;
                 }
             }
             // Where all criteria are said to hold `check` says so.
-            for at in range["holds"].as_array().into_iter().flatten() {
-                let at = at.as_f64().expect("an end");
+            for at in range.holds.into_iter().flatten() {
                 std::fs::write(path, with(&text, keys, at, unit)).expect("written");
                 let there = checked(path, &["--criteria-only"]);
-                assert_eq!(there["holds"], true, "{name} {keys:?}: not at {at}, {range}");
+                assert_eq!(there["holds"], true, "{name} {keys:?}: not at {at}, {range:?}");
                 held += 1;
             }
         }

@@ -242,7 +242,7 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
     page.evaluate("document.querySelector('.live-mark').scrollIntoView({ block: 'center', behavior: 'instant' })");
     let from = place(&mut page);
     // Where the map has the case, on linear axes.
-    let request = json!({ "ask": "map", "text": begin });
+    let request = json!({ "ask": "map", "text": begin, "plain": true });
     let map = page.evaluate(&format!("{LIVE}.engine().ask({request})"))["panel"].clone();
     let sheet = page.evaluate(
         "(() => { const at = document.querySelector('.live-sheet svg').getBoundingClientRect();
@@ -287,7 +287,7 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
     assert!(case(&text(&mut page)).units().clearance > case(&pushed).units().clearance);
     // One step back for a movement, however many events it had.
     let press = |page: &mut Page, words: &str| {
-        page.evaluate(&format!("[...document.querySelectorAll('button')].find((one) => one.textContent === '{words}').click()"));
+        page.evaluate(&format!("[...document.querySelectorAll('button')].find((one) => one.title === '{words}').click()"));
         settle(page);
         text(page)
     };
@@ -410,6 +410,61 @@ fn the_search_can_be_stopped() {
         json!(["Stop looking (0 s)", "Best clearance", "Stopped: the clearance is as it was."])
     );
     assert_eq!(text(&mut page), begin);
+}
+
+/// The first figures name what the ball does; who asks for the theory's limits gets them.
+#[test]
+fn the_first_figures_need_no_theory() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let theirs = ["Z3", "Hopf", "saddle-node", "1:1", "exact"];
+    for detailed in [false, true] {
+        for name in ["map", "amplitude"] {
+            let words = format!(
+                "[...document.querySelectorAll('[data-name={name}] svg text, [data-name={name}] figcaption')].map((one) => one.textContent).join('; ')"
+            );
+            let said = page.evaluate(&words).to_string();
+            let theory = theirs.iter().any(|one| said.contains(one));
+            assert_eq!(theory, detailed, "{name}: {said}");
+            assert_eq!(said.contains("two even impacts"), !detailed, "{name}: {said}");
+        }
+        page.evaluate("document.querySelector('.live-detail input').click()");
+        settle(&mut page);
+    }
+}
+
+/// A frame of the book is as high as what it shows: nothing in it scrolls, and no room is left.
+#[test]
+fn a_frame_is_as_high_as_its_content() {
+    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let script = fs::read_to_string("docs/book.js").expect("the book's script");
+    let address = format!("file://{}?show=sim&sliders=restitution", file.display());
+    let book = folder.path().join("page.html");
+    let frame =
+        format!("<iframe class=live src='{address}' style='width:{}px;border:0'>", DESKTOP.width);
+    let html =
+        format!("<!DOCTYPE html><body style='margin:0'><script>{script}</script>{frame}</iframe>");
+    fs::write(&book, html).expect("written");
+    let mut page = browser.page(DESKTOP);
+    page.open(&book);
+    let height = "(async () => {
+        const frame = document.querySelector('iframe');
+        for (let left = 400; left > 0 && !frame.style.height; left -= 1)
+            await new Promise((done) => setTimeout(done, 50));
+        // Until it stays.
+        for (let before = ''; before !== frame.style.height; await new Promise((done) => setTimeout(done, 1500)))
+            before = frame.style.height;
+        return parseFloat(frame.style.height);
+    })()";
+    let told = page.evaluate(height).as_f64().expect("a height");
+    drop(page);
+    let mut alone = browser.page(DESKTOP);
+    alone.open_address(&address);
+    settle(&mut alone);
+    let needed = alone.evaluate("document.querySelector('main').getBoundingClientRect().height");
+    let needed = needed.as_f64().expect("a height");
+    assert!(needed > 300.0 && (told - needed).abs() < 20.0, "{told} px for {needed} px");
 }
 
 /// A frame of the book begins with the case that its page is about.

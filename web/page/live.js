@@ -115,8 +115,11 @@ function Live(place) {
   const file = make("textarea", { rows: 16, spellcheck: "false", "aria-label": "Case file" });
   const button = (words, act, more = {}) => make("button", { type: "button", onclick: act, ...more }, words);
   const best = button("Best clearance", search);
-  const undo = button("Undo", () => step(past, future), { disabled: true });
-  const redo = button("Redo", () => step(future, past), { disabled: true });
+  const undo = button("↶", () => step(past, future), { disabled: true, "aria-label": "Undo", title: "Undo" });
+  const redo = button("↷", () => step(future, past), { disabled: true, "aria-label": "Redo", title: "Redo" });
+  // The first figures use words that need no theory; pages that explain it show theirs.
+  const detail = make("input", { type: "checkbox", onchange: () => follow() });
+  const look = () => ({ narrow: narrow(), plain: !shown && !detail.checked });
   const running = new Running(() => here, say);
   const frames = [];
 
@@ -139,7 +142,7 @@ function Live(place) {
     const presets = here.ask({ ask: "presets" });
     const parts = [["verdict", headline], ["running", running.figure], ["verdict", verdict], ["decision", decision]].filter(([name]) => wanted(name)).map(([, part]) => part);
     place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
-      make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board, shown ? "" : fold)));
+      make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board, ...(shown ? [] : [make("label", { class: "live-detail" }, detail, " Name the theory's limits, with exact orbits beside them"), fold]))));
     const own = document.getElementById("live-case")?.textContent;
     const link = await linked(), first = Math.max(0, presets.findIndex(([name]) => name.includes(asks.get("begin") ?? "")));
     open(link || (own ?? presets[first][1]));
@@ -154,6 +157,9 @@ function Live(place) {
       remember();
       open(other);
     });
+    // A frame is as high as what is in it.
+    const page = document.querySelector("main");
+    if (shown && parent !== self) new ResizeObserver(() => parent.postMessage({ height: Math.ceil(page.getBoundingClientRect().height) }, "*")).observe(page);
     // A page of its own keeps its state in its address, so that a reload finds it again.
     keeps = own === undefined && !shown;
     settled().then(warm);
@@ -169,9 +175,8 @@ function Live(place) {
       make("option", { value: "" }, "choose a case"), ...presets.map(([name], k) => make("option", { value: k }, name)));
     const use = button("Use this case file", () => { remember(); open(file.value); });
     const paste = make("details", { class: "live-file", ontoggle: () => { file.value = text; } },
-      make("summary", {}, "Case file"), file, use);
+      make("summary", {}, "Case file: copy or paste"), file, use, " ", button("Copy as case file", () => copy(text, "The case file is in the clipboard.")));
     return make("div", { class: "live-bar" }, make("label", {}, "Begin with ", choose), best, undo, redo,
-      button("Copy as case file", () => copy(text, "The case file is in the clipboard.")),
       button("Copy link", async () => copy(await link(), "The link is in the clipboard; it holds the whole case.")),
       paste);
   }
@@ -180,7 +185,7 @@ function Live(place) {
 
   async function copy(words, done) {
     try { await navigator.clipboard.writeText(words); say(done); }
-    catch { say("The browser does not let this page copy. Open “Case file” and copy from there."); }
+    catch { say("The browser does not let this page copy. Open “Case file: copy or paste” and copy from there."); }
   }
 
   // The state as a part of the address: the text of the case, deflated.
@@ -291,7 +296,7 @@ function Live(place) {
   /** The case with other values: at once what is cheap, the rest when it comes. */
   function change(some) {
     const begin = performance.now();
-    const answer = here.ask({ ask: "change", text, values: Object.fromEntries(some), narrow: narrow() });
+    const answer = here.ask({ ask: "change", text, values: Object.fromEntries(some), ...look() });
     complain(answer.problems);
     if (answer.problems) return show(controls, true);
     const other = answer.text !== text;
@@ -343,12 +348,12 @@ function Live(place) {
     const needsStudy = !shown || shown.some((name) => !["map", "sim", "running"].includes(name));
     await Promise.all([
       wanted("map") && !skipped && drawMap(),
-      needsStudy && desks[1].ask({ ask: "study", text, narrow: narrow() }).then(done(showStudy)),
+      needsStudy && desks[1].ask({ ask: "study", text, ...look() }).then(done(showStudy)),
     ]);
   }
   async function drawMap() {
     skipped = false;
-    const version = asked, answer = await desks[0].ask({ ask: "map", text, narrow: narrow() });
+    const version = asked, answer = await desks[0].ask({ ask: "map", text, ...look() });
     if (version === asked) showMap(answer);
   }
 
@@ -554,7 +559,7 @@ function Running(engine, say) {
     make("option", { value, selected: value === 2 }, words)));
   label();
   this.figure = make("figure", { class: "live-running", "data-name": "running" },
-    make("div", { class: "live-bar" }, pause, make("label", {}, "Speed ", speed), sound,
+    make("div", { class: "live-bar" }, pause, make("label", {}, make("span", {}, "Speed "), speed), sound,
       make("button", { type: "button", onclick: () => this.change(this.text, "push") }, "With a push"),
       make("button", { type: "button", onclick: () => this.change(this.text, "rest") }, "From rest")),
     make("div", { class: "live-canvases" }, scene, motion),

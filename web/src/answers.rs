@@ -25,6 +25,7 @@ use vinesink::study::plots::{BoundaryMap, Plot};
 use vinesink::system::Parameter;
 
 use crate::controls;
+use crate::plain;
 use crate::running::{self, From};
 
 /// A request. Every one but [`Request::Presets`] is about the case that `text` describes.
@@ -39,20 +40,20 @@ enum Request {
     Change {
         text: String,
         values: BTreeMap<String, f64>,
-        #[serde(default)]
-        narrow: bool,
+        #[serde(flatten)]
+        look: Look,
     },
     /// The map of the areas, without the mark of the case.
     Map {
         text: String,
-        #[serde(default)]
-        narrow: bool,
+        #[serde(flatten)]
+        look: Look,
     },
     /// The report as data, its first screen, and its figures.
     Study {
         text: String,
-        #[serde(default)]
-        narrow: bool,
+        #[serde(flatten)]
+        look: Look,
     },
     /// The running simulation is of this case now: what its lengths are over, and the structure without an absorber.
     Run { text: String, from: From },
@@ -60,6 +61,16 @@ enum Request {
     Judge { text: String },
     /// The absorber that serves a case best, as the program chooses it.
     Optimize { text: String },
+}
+
+/// How figures are drawn: as in a report, where nothing is said.
+#[derive(Deserialize, Default, Clone, Copy)]
+#[serde(default)]
+struct Look {
+    /// For a phone.
+    narrow: bool,
+    /// In words that need no theory.
+    plain: bool,
 }
 
 /// Cases by the question that they answer, then the paper's five regimes (Fig. 4).
@@ -94,9 +105,9 @@ fn answer(request: Request) -> Result<Value, Value> {
     match request {
         Request::Presets => Ok(PRESETS.iter().map(|(name, text)| json!([name, text])).collect()),
         Request::Open { text } => Ok(opened(&parsed(&text)?, &text)),
-        Request::Change { text, values, narrow } => change(&text, &values, narrow),
-        Request::Map { text, narrow } => map(&read(&text)?, narrow),
-        Request::Study { text, narrow } => study(&read(&text)?, narrow),
+        Request::Change { text, values, look } => change(&text, &values, look),
+        Request::Map { text, look } => map(&read(&text)?, look),
+        Request::Study { text, look } => study(&read(&text)?, look),
         Request::Run { text, from } => {
             let case = read(&text)?;
             let (system, clearance) = (case.system(), case.units().clearance);
@@ -216,7 +227,7 @@ fn opened(case: &Case, text: &str) -> Value {
     json!({ "text": text, "title": case.title, "controls": controls, "notes": notes, "judges": judges })
 }
 
-fn change(text: &str, values: &BTreeMap<String, f64>, narrow: bool) -> Result<Value, Value> {
+fn change(text: &str, values: &BTreeMap<String, f64>, look: Look) -> Result<Value, Value> {
     let case = parsed(text)?;
     let mut design = case.design;
     for (key, value) in values {
@@ -231,25 +242,21 @@ fn change(text: &str, values: &BTreeMap<String, f64>, narrow: bool) -> Result<Va
     let mut answer = opened(&changed.case, &changed.text);
     let case = alone(changed.case);
     let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
-    let manifold = drawn(&case, &sketch, &[Plot::Manifold], narrow)?;
+    let manifold = drawn(&case, &sketch, &[Plot::Manifold], look)?;
     answer["figures"] =
         manifold.into_iter().map(|figure| Ok(shown(figure)?.0)).collect::<Result<_, Value>>()?;
     Ok(answer)
 }
 
-/// Figures, for a phone where they are to be.
-fn drawn(
-    case: &Case,
-    study: &CaseStudy,
-    plots: &[Plot],
-    narrow: bool,
-) -> Result<Vec<Figure>, Value> {
-    let all = template::worded(figures::all(case, study, plots), &case.units()).map_err(words)?;
-    let fitted = |figure: Figure| match narrow {
+fn drawn(case: &Case, study: &CaseStudy, plots: &[Plot], look: Look) -> Result<Vec<Figure>, Value> {
+    let all = figures::all(case, study, plots).into_iter();
+    let all = all.map(|one| if look.plain { plain::of(one) } else { one }).collect();
+    let worded = template::worded(all, &case.units()).map_err(words)?;
+    let fitted = |figure: Figure| match look.narrow {
         true => figure.narrow().unwrap_or(figure),
         false => figure,
     };
-    Ok(all.into_iter().map(fitted).collect())
+    Ok(worded.into_iter().map(fitted).collect())
 }
 
 /// A figure for the page, and where its panels are.
@@ -262,14 +269,14 @@ fn shown(figure: Figure) -> Result<(Value, Vec<PlacedPanel>), Value> {
 
 /// The map, the rectangle of its data in shares of the drawing, its axes, and where the case is on them: the
 /// page draws the mark, which a reader may drag.
-fn map(case: &Case, narrow: bool) -> Result<Value, Value> {
+fn map(case: &Case, look: Look) -> Result<Value, Value> {
     let sketch = CaseStudy::sketch(&case.system()).map_err(words)?;
     if case.system().forcing_per_clearance() == 0.0 {
         return Err(words("nothing drives this case: there is no map"));
     }
     let plot = Plot::Map(BoundaryMap::of(&sketch));
     let mut figure =
-        drawn(case, &sketch, &[plot], narrow)?.pop().ok_or_else(|| words("there is no map"))?;
+        drawn(case, &sketch, &[plot], look)?.pop().ok_or_else(|| words("there is no map"))?;
     let at = figure.take_case();
     let (width, height) = figure.size;
     let (mut answer, panels) = shown(figure)?;
@@ -288,10 +295,10 @@ fn map(case: &Case, narrow: bool) -> Result<Value, Value> {
 
 /// A study at the case's own excitation, without what would spoil it: its document, the first screen of the report,
 /// and the figures.
-fn study(case: &Case, narrow: bool) -> Result<Value, Value> {
+fn study(case: &Case, look: Look) -> Result<Value, Value> {
     let answer = Answer::steady(case, Asked::Study, None, case.effort(), &Serial).map_err(words)?;
     let study = answer.studied().map_err(words)?;
-    let figures = drawn(case, study, &Plot::usual(study).map_err(words)?, narrow)?;
+    let figures = drawn(case, study, &Plot::usual(study).map_err(words)?, look)?;
     let document = document::document(&Source {
         name: "live",
         case,

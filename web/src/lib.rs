@@ -6,6 +6,7 @@
 
 mod answers;
 mod controls;
+mod plain;
 mod running;
 
 use std::cell::RefCell;

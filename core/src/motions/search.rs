@@ -34,6 +34,9 @@ const FURTHER: [u64; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// How often starts fly on at most: one on a transient that lasts for 40 windows on average has then left it, but for one in
 /// a thousand.
 const ROUNDS: usize = 24;
+/// Impacts per period above which starts fly on for fewer periods and less often: a bounce that hardly loses anything comes
+/// to rest with ever more of them.
+const BUSY: f64 = 16.0;
 /// How often the window is doubled of starts that still settle, that together are not one motion yet, or whose largest value
 /// is hardly known.
 const LONGEST: usize = 4;
@@ -195,6 +198,8 @@ struct Ground {
     /// Of this round: whether a start has settled that wandered before, and periods that the others have flown.
     settled: bool,
     flown: u64,
+    /// Of this round: the most impacts per period of a start.
+    busiest: f64,
     /// Windows without a start that settled.
     quiet: f64,
     /// How often starts were flown on, and measured, and over how many periods they were the last time.
@@ -204,8 +209,9 @@ struct Ground {
     accuracy: Option<[f64; 2]>,
     /// Whether more was asked for when the last round was over.
     impatient: bool,
-    /// Excitation periods that each start was flown.
+    /// Excitation periods that each start was flown, and its impacts.
     followed: Vec<u64>,
+    impacts: Vec<u64>,
 }
 
 impl Ground {
@@ -243,6 +249,7 @@ impl Ground {
             alone: ALONE * place.starts.len().min(MOST) as f64,
             settled: false,
             flown: 0,
+            busiest: 0.0,
             quiet: 0.0,
             rounds: 0,
             measured: 0,
@@ -250,6 +257,7 @@ impl Ground {
             accuracy: effort.accuracy,
             impatient: false,
             followed: vec![0; count],
+            impacts: vec![0; count],
         }
     }
 
@@ -258,6 +266,9 @@ impl Ground {
         let start = flight.index - self.first;
         let flown = flight.before + flight.simulation.periods() - self.followed[start];
         self.followed[start] += flown;
+        let impacts = flight.simulation.impacts().saturating_sub(self.impacts[start]);
+        self.impacts[start] += impacts;
+        self.busiest = self.busiest.max(impacts as f64 / flown.max(1) as f64);
         self.open[start] = None;
         let first = self.rounds + self.measured == 0;
         let motion = match end {
@@ -354,6 +365,7 @@ impl Ground {
         let periods = self.periods as f64;
         self.quiet = if self.settled { 0.0 } else { self.quiet + self.flown as f64 / periods };
         (self.settled, self.flown) = (false, 0);
+        let busy = (std::mem::take(&mut self.busiest) / BUSY).max(1.0);
         if open.is_empty() {
             self.impatient = false;
             return open;
@@ -379,8 +391,9 @@ impl Ground {
         let rounds = (self.patience * ROUNDS as f64) as usize;
         let (left_out, window) = if self.rounds < rounds && (missing > 0.0 || restless) {
             let most = FURTHER[self.rounds.min(FURTHER.len() - 1)] * self.periods / 4;
+            let most = (most as f64 / busy) as u64;
             let each = (missing * periods / open.len() as f64).ceil() as u64;
-            self.rounds += 1;
+            self.rounds += busy as usize;
             (if restless { most } else { each.min(most) }, 0)
         } else if measured && !again && !vague {
             return Vec::new();
@@ -389,7 +402,7 @@ impl Ground {
             let wanted = if self.window == 0 { shared } else { 2 * self.window };
             // What a case asks for takes what it takes.
             self.window = if again { wanted } else { settling::window(&self.system, wanted) };
-            self.measured += 1;
+            self.measured += busy as usize;
             (0, self.window)
         };
         for flight in &mut open {

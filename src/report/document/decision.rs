@@ -8,7 +8,7 @@ use super::criteria::criterion;
 use super::scale::Scale;
 use crate::alternatives::{Alternatives, DESIGN, Row, Which};
 use crate::answer::Answer;
-use crate::case::Case;
+use crate::case::{Case, Relation};
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method::{self, ClosedForm};
@@ -66,7 +66,7 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     let found = answer.alternatives.as_ref();
     let rows = |of: &Alternatives| of.rows.iter().map(|row| told(case, of, row)).collect();
     document["alternatives"] = found.map_or(Value::Null, rows);
-    document["choice"] = found.map_or(Value::Null, choice);
+    document["choice"] = found.map_or(Value::Null, |found| choice(case, found));
     let ranges = answer.holds_for.iter().map(|one| range(case, one));
     let (rows, ranges): (Vec<Value>, Vec<Value>) = ranges.unzip();
     document["holds_for"] = json!(rows);
@@ -76,7 +76,7 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
 }
 
 /// Which device wins where.
-fn choice(found: &Alternatives) -> Value {
+fn choice(case: &Case, found: &Alternatives) -> Value {
     let mut devices = Vec::new();
     for which in found.rows.iter().map(Row::which) {
         if !devices.contains(&which) {
@@ -95,8 +95,13 @@ fn choice(found: &Alternatives) -> Value {
     let harmful: Vec<f64> = drifts.iter().skip(1).copied().filter(harms).collect();
     // To be better than a damper is nothing where no device is better still.
     let wins_from = drifts.get(lost.map_or(0, |last| last + 1)).filter(|one| !harms(one));
+    let mut limits = case.criteria.iter();
+    let limit = limits.find(|one| one.measure == found.measure && one.relation == Relation::AtMost);
+    let kind = found.kind(Device::Absorber);
     json!({
         "of_time": found.measure == Measure::DecayTime,
+        "limit": limit.map(|one| Quantity::new(kind, one.limit, Method::Given)),
+        "strokes": devices.iter().map(|which| largest_stroke(case, found, *which)).collect::<Vec<_>>(),
         "inactive": found.inactive,
         "devices": devices,
         "drifts": drifts.iter().skip(1).map(|one| drift(*one)).collect::<Vec<_>>(),
@@ -157,6 +162,12 @@ fn stroke(case: &Case, row: &Row) -> Option<Quantity> {
             row.stroke.map(|stroke| designed(Quantity::new(&of::DAMPER_STROKE, stroke, ClosedForm)))
         }
     }
+}
+
+/// The stroke of a device where the structure is off by as much as makes it largest.
+fn largest_stroke(case: &Case, found: &Alternatives, which: Which) -> Option<Quantity> {
+    let rows = found.rows.iter().filter(|row| row.which() == which);
+    rows.filter_map(|row| stroke(case, row)).max_by(|a, b| a.value.total_cmp(&b.value))
 }
 
 /// With which probability all criteria hold, and what makes most designs fail.
