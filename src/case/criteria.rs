@@ -1,5 +1,7 @@
 //! The optional table `[criteria]`: what a design must achieve.
 
+use std::f64::consts::FRAC_PI_4;
+
 use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -13,6 +15,7 @@ use super::value::ValuePlace;
 use crate::excitation::Scene;
 use crate::measure::{Device, Measure};
 use crate::quantity::Dimension;
+use crate::quantity::numbers::rounded_to;
 use vinesink_core::names;
 
 names! { key:
@@ -126,6 +129,11 @@ pub(super) struct CriteriaTable {
     /// Share of its first amplitude at which a released structure has come to rest, below 1; a tenth unless given.
     #[schemars(extend("x-measurand" = "a share", "exclusiveMinimum" = 0, "maximum" = 0.99), example = 0.1, example = "10 %")]
     decay_level: Option<f64>,
+    /// f_c, up to which a sensor reads `acceleration`, above 0: it then includes impacts, each of which an ideal low-pass filter
+    /// shows with a peak of 2 f_c times the jump of the velocity, as `contact_time` = pi/(4 f_c) does. Impacts are left out
+    /// unless one of the two is given.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = r"f_\mathrm{c}"), example = "1 kHz")]
+    acceleration_upto: Option<f64>,
 }
 
 /// The table as it was read.
@@ -133,6 +141,8 @@ pub(super) struct Criteria {
     pub all: Vec<Criterion>,
     pub count_inactive: bool,
     pub decay_level: f64,
+    /// How long an impact takes in s as a sensor sees it, where the table says up to which frequency that reads.
+    pub contact_time: Option<f64>,
 }
 
 /// Where the table does not say when a released structure has come to rest.
@@ -164,13 +174,60 @@ fn with_subjects(schema: &mut Schema) {
 /// Reads the table. No criteria where there is none, or no design whose units they could be in.
 pub(super) fn read(reader: &mut Reader, root: &Table) -> Criteria {
     let read = reader.optional::<CriteriaTable>(root, "criteria");
-    let mut found = Criteria { all: Vec::new(), count_inactive: true, decay_level: DECAY_LEVEL };
+    let mut found = Criteria {
+        all: Vec::new(),
+        count_inactive: true,
+        decay_level: DECAY_LEVEL,
+        contact_time: None,
+    };
     let (Some((table, read)), Some(design)) = (read, reader.design) else { return found };
     let read_one = |subject| criterion(reader, &table, subject, &design);
     found.all = Subject::ALL.into_iter().filter_map(read_one).collect();
     found.count_inactive = read.count_inactive.unwrap_or(true);
     found.decay_level = read.decay_level.unwrap_or(DECAY_LEVEL);
+    let upto = read.acceleration_upto;
+    found.contact_time = upto.and_then(|upto| seen_for(reader, &table, upto, &found.all, &design));
     found
+}
+
+/// How long an impact takes for a sensor that reads up to a frequency; reported where nothing is read of it.
+fn seen_for(
+    reader: &mut Reader,
+    table: &Table,
+    upto: f64,
+    asked: &[Criterion],
+    design: &Design,
+) -> Option<f64> {
+    const KEY: &str = "acceleration_upto";
+    let mut refused = |message: &str, help: &str| {
+        let expected = "expected a frequency beside `acceleration`, of a case in physical units";
+        reader.report(table.span_of(KEY), message, expected, help);
+        None
+    };
+    let Design::Physical(of) = design else {
+        return refused("`acceleration_upto` has no meaning beside [reduced]", "remove the line");
+    };
+    if !asked.iter().any(|one| one.measure == Measure::PeakAcceleration) {
+        let help = "ask for one, such as acceleration = \"<= 2 g\", or remove the line";
+        return refused(
+            "`acceleration_upto` is about an `acceleration` that nothing asks for",
+            help,
+        );
+    }
+    if of.contact_time_s.is_some() {
+        let help = "remove one of them: both say how an impact is read";
+        return refused("`acceleration_upto` stands beside a `contact_time`", help);
+    }
+    let contact_time = FRAC_PI_4 / upto;
+    if contact_time > of.most_contact_time_s() {
+        let least = rounded_to(FRAC_PI_4 / of.most_contact_time_s(), 3);
+        let help = format!("a sensor that reads impacts reads up to {least} Hz or more here");
+        return refused(
+            "`acceleration_upto` is below what a sensor needs to tell an impact from the vibration",
+            &help,
+        );
+    }
+    Some(contact_time)
 }
 
 /// What there is to say of shares in area Z3 where the cavity is inclined, rubs or has unequal walls, and what is

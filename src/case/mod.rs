@@ -289,7 +289,7 @@ impl Case {
         }
     }
 
-    /// How long an impact takes in s, where its pulse is asked for.
+    /// How long an impact takes in s, or a sensor sees it, where its pulse is asked for.
     pub fn contact_time(&self) -> Option<f64> {
         let Design::Physical(of) = &self.design else { return None };
         of.contact_time_s
@@ -340,7 +340,10 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let uncertainty = uncertainty::read(reader, &root);
     let starts = simulation.as_ref().and_then(|settings| settings.starts);
     let sweep = sweep::read(reader, &root, starts);
-    let (heading, design) = (heading?, design?);
+    let (heading, mut design) = (heading?, design?);
+    if let (Design::Physical(of), Some(time)) = (&mut design, criteria.contact_time) {
+        of.contact_time_s = Some(time);
+    }
     let system = system_of(reader, &root, &design)?;
     Some(Case {
         title: heading.title,

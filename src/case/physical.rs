@@ -162,6 +162,11 @@ impl Physical {
     pub fn critical_damping_n_s_per_m(&self) -> f64 {
         self.structure().critical_damping_n_s_per_m()
     }
+
+    /// The longest impact whose pulse is no part of the vibration, in s: a fiftieth of the natural period.
+    pub(super) fn most_contact_time_s(&self) -> f64 {
+        MOST_CONTACT * TAU / self.natural_frequency_rad_per_s()
+    }
 }
 
 /// Longest impact over the natural period: its pulse would be a part of the motion, which the model has not.
@@ -209,10 +214,10 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         None => excitation.frequency?,
         _ => physical.natural_frequency_rad_per_s() / TAU,
     };
-    let period = TAU / physical.natural_frequency_rad_per_s();
-    if physical.contact_time_s.is_some_and(|time| time > MOST_CONTACT * period) {
+    let most = physical.most_contact_time_s();
+    if physical.contact_time_s.is_some_and(|time| time > most) {
         let message = "an impact takes more than a fiftieth of the structure's natural period";
-        let expected = format!("expected at most {} s", rounded_to(MOST_CONTACT * period, 3));
+        let expected = format!("expected at most {} s", rounded_to(most, 3));
         let help = "between steel or hard rubber it takes 0.1 to 5 ms; without the line impacts take no time";
         reader.report(cavity.span_of_value("contact_time"), message, expected, help);
         return None;

@@ -97,3 +97,38 @@ fn a_contact_as_long_as_the_oscillation_is_refused() {
     let text = text.replacen("5 ms", "2.9 ms", 1);
     assert!(Case::parse("pulse", &text).is_ok());
 }
+
+/// A sensor that reads up to a frequency shows a jump of the velocity with a peak of `2 f_c` times the jump.
+#[test]
+fn a_sensor_shows_an_impact_as_its_filter_does() {
+    let text = |upto: &str| {
+        format!(
+            "title = 't'\nsource = 's'\n[oscillator]\nmass = '10 kg'\nfrequency = '5 Hz'\ndamping_ratio = '2 %'\n\
+             [absorber]\nmass = '0.5 kg'\nclearance = '2 mm'\nrestitution = 0.6\n\
+             [excitation]\nkind = 'free'\nvelocity = '0.5 m/s'\n\
+             [criteria]\nacceleration = '<= 1e6 m/s2'\n{upto}impact_velocity = '<= 1e6 m/s'\n"
+        )
+    };
+    let [pulse, speed] = judged(&text("acceleration_upto = '500 Hz'\n"));
+    let jump = 0.5 / 10.5 * 1.6 * speed.found.expect("a speed");
+    let expected = 2.0 * 500.0 * jump;
+    // The pulse rides on the acceleration of the flights, of either sign; the speed is known better than that.
+    let found = pulse.found.expect("a number") + 0.5 * pulse.error;
+    assert!((found / expected - 1.0).abs() < 1e-3 && speed.error < 1e-3, "{found} {expected}");
+    let refused = |text: String, why: &str| {
+        let error = Case::parse("pulse", &text).expect_err("refused");
+        let told = format!("{:?}", error.problems().next().expect("one"));
+        assert!(told.contains(why), "{told}");
+    };
+    refused(
+        text("acceleration_upto = '100 Hz'\n"),
+        "reads impacts reads up to 196 Hz or more here",
+    );
+    refused(text("acceleration_upto = '0 Hz'\n"), "above 0");
+    let whole = text("acceleration_upto = '1 kHz'\n");
+    refused(
+        whole.replacen("0.6", "0.6\ncontact_time = '1 ms'", 1),
+        "both say how an impact is read",
+    );
+    refused(whole.replacen("acceleration = '<= 1e6 m/s2'", "", 1), "nothing asks for");
+}

@@ -442,7 +442,7 @@ function Live(place) {
     headline.replaceChildren(...first);
     fresh(headline);
     const [section, ...others] = screen, balance = answer.balance ? [make("p", {}, answer.balance)] : [];
-    verdict.replaceChildren(section, ...balance, ...others, ...notes.map((note) => make("p", { class: "live-note" }, note)));
+    verdict.replaceChildren(...balance, section, ...others, ...notes.map((note) => make("p", { class: "live-note" }, note)));
     const version = asked;
     if (keeps) written = link().then((address) => { if (version === asked) history.replaceState(null, "", address); });
     fresh(verdict);
@@ -680,7 +680,7 @@ function Running(engine, say) {
   function box({ g, width, height }, { ink, soft, line, blue, red }) {
     const [x, gap, way] = state(), ghost = alone(clock), rows = [66, 144], half = 24;
     // The cavity is to scale with the displacement, as far as a ball can be seen in it.
-    const room = width - 70, size = Math.min(room / (2 * reach + 2.6), 90), ball = Math.max(7, Math.min(15, 0.3 * size));
+    const room = width - 70, size = room / (2 * reach + 2.6), ball = Math.max(7, Math.min(15, 0.3 * size));
     const cavity = Math.max(size, 16), middle = 60 + room / 2;
     const spring = (from, to, y) => {
       g.beginPath(); g.moveTo(from, y);
@@ -721,7 +721,8 @@ function Running(engine, say) {
     g.fillStyle = blue;
     g.beginPath(); g.arc(at(x) - gap * cavity, rows[0] + half - ball - 1, ball, 0, 7); g.fill();
     g.fillStyle = soft;
-    g.fillText(`with absorber, ±${number(lately() * of.clearance)} ${of.unit} in these ten periods`, 16, 16);
+    const idle = clock > WINDOW && !impacts.some((value, k) => k % 2 === 0 && value > clock - WINDOW);
+    g.fillText(`with absorber, ±${number(lately() * of.clearance)} ${of.unit} ${idle ? "now: no impacts" : "in these ten periods"}`, 16, 16);
     // How long a round length is here.
     const length = round(40 / size * of.clearance), end = width - 10, begin = end - length / of.clearance * size;
     g.strokeStyle = soft; g.lineWidth = 2;
