@@ -110,30 +110,30 @@ impl Layer {
     /// Names the layer; what the colours of an image stand for is said elsewhere.
     #[must_use]
     pub fn labelled(mut self, name: impl Into<Label>) -> Self {
-        match &mut self {
+        if let Some(label) = self.place_of_label() {
+            *label = Some(name.into());
+        }
+        self
+    }
+
+    /// What it is called, to be changed.
+    pub fn label_mut(&mut self) -> Option<&mut Label> {
+        self.place_of_label()?.as_mut()
+    }
+
+    const fn place_of_label(&mut self) -> Option<&mut Option<Label>> {
+        match self {
             Self::Curve { label, .. }
             | Self::Points { label, .. }
             | Self::Band { label, .. }
-            | Self::Rule { label, .. } => *label = Some(name.into()),
-            Self::Image(_) => {}
+            | Self::Rule { label, .. } => Some(label),
+            Self::Image(_) => None,
         }
-        self
     }
 
     /// Whether it is [`Layer::this_case`].
     pub fn marks_case(&self) -> bool {
         matches!(self, Self::Points { marker, .. } if *marker == Marker::THIS_CASE)
-    }
-
-    /// What it is called, to be changed.
-    pub const fn label_mut(&mut self) -> Option<&mut Label> {
-        match self {
-            Self::Curve { label, .. }
-            | Self::Points { label, .. }
-            | Self::Band { label, .. }
-            | Self::Rule { label, .. } => label.as_mut(),
-            Self::Image(_) => None,
-        }
     }
 
     /// What it is called.

@@ -198,8 +198,6 @@ struct Ground {
     /// Of this round: whether a start has settled that wandered before, and periods that the others have flown.
     settled: bool,
     flown: u64,
-    /// Of this round: the most impacts per period of a start.
-    busiest: f64,
     /// Windows without a start that settled.
     quiet: f64,
     /// How often starts were flown on, and measured, and over how many periods they were the last time.
@@ -209,9 +207,10 @@ struct Ground {
     accuracy: Option<[f64; 2]>,
     /// Whether more was asked for when the last round was over.
     impatient: bool,
-    /// Excitation periods that each start was flown, and its impacts.
+    /// Excitation periods that each start was flown, impacts of its simulation so far, and those per period of the last flight.
     followed: Vec<u64>,
     impacts: Vec<u64>,
+    busy: Vec<f64>,
 }
 
 impl Ground {
@@ -249,7 +248,6 @@ impl Ground {
             alone: ALONE * place.starts.len().min(MOST) as f64,
             settled: false,
             flown: 0,
-            busiest: 0.0,
             quiet: 0.0,
             rounds: 0,
             measured: 0,
@@ -258,6 +256,7 @@ impl Ground {
             impatient: false,
             followed: vec![0; count],
             impacts: vec![0; count],
+            busy: vec![0.0; count],
         }
     }
 
@@ -266,9 +265,9 @@ impl Ground {
         let start = flight.index - self.first;
         let flown = flight.before + flight.simulation.periods() - self.followed[start];
         self.followed[start] += flown;
-        let impacts = flight.simulation.impacts().saturating_sub(self.impacts[start]);
+        let impacts = flight.simulation.impacts() - self.impacts[start];
         self.impacts[start] += impacts;
-        self.busiest = self.busiest.max(impacts as f64 / flown.max(1) as f64);
+        self.busy[start] = impacts as f64 / flown.max(1) as f64;
         self.open[start] = None;
         let first = self.rounds + self.measured == 0;
         let motion = match end {
@@ -289,6 +288,7 @@ impl Ground {
                 }
                 Identified::Leaves => {
                     let before = self.followed[start];
+                    self.impacts[start] = 0;
                     let simulation = pushed(&self.system, &sample.end);
                     self.open[start] = Some(*sample);
                     return simulation.map(|simulation| StartFlight {
@@ -365,7 +365,6 @@ impl Ground {
         let periods = self.periods as f64;
         self.quiet = if self.settled { 0.0 } else { self.quiet + self.flown as f64 / periods };
         (self.settled, self.flown) = (false, 0);
-        let busy = (std::mem::take(&mut self.busiest) / BUSY).max(1.0);
         if open.is_empty() {
             self.impatient = false;
             return open;
@@ -388,6 +387,8 @@ impl Ground {
         let again = self.accuracy.is_some_and(loose) && self.window * count < MOST_PERIODS;
         let vague = self.measured <= LONGEST && clusters.iter().any(Cluster::is_vague);
         self.impatient = missing > 0.0 || self.creeps;
+        let busiest = open.iter().map(|flight| self.busy[flight.index - self.first]);
+        let busy = busiest.fold(BUSY, f64::max) / BUSY;
         let rounds = (self.patience * ROUNDS as f64) as usize;
         let (left_out, window) = if self.rounds < rounds && (missing > 0.0 || restless) {
             let most = FURTHER[self.rounds.min(FURTHER.len() - 1)] * self.periods / 4;
