@@ -113,6 +113,16 @@ impl Subject {
         }
     }
 
+    /// The largest value of that whose root mean square it is.
+    const fn largest(self) -> Option<Self> {
+        match self {
+            Self::RmsDisplacement => Some(Self::PeakDisplacement),
+            Self::RmsVelocity => Some(Self::PeakVelocity),
+            Self::RmsAcceleration => Some(Self::Acceleration),
+            _ => None,
+        }
+    }
+
     fn dimension(self) -> Option<Dimension> {
         self.measure().kind(Device::Absorber).map(|kind| kind.dimension)
     }
@@ -250,7 +260,13 @@ fn criterion(
         let other = other.unwrap_or(Scene::Steady).words();
         let message = format!("`{key}` has no meaning for a structure that is {what}");
         let expected = format!("expected criteria of a structure that is {what}");
-        let help = format!("remove the line: `{key}` is for one that is {other}");
+        let help = match subject.largest() {
+            Some(largest) => format!(
+                "it moves for no given time over which a mean could be taken; ask for `{}`, sqrt(2) times the root mean square of a cycle",
+                largest.key()
+            ),
+            None => format!("remove the line: `{key}` is for one that is {other}"),
+        };
         reader.report(table.span_of(key), message, expected, help);
         return None;
     }

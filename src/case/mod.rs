@@ -37,6 +37,8 @@ mod value;
 mod variant;
 mod warnings;
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -137,6 +139,8 @@ pub struct Case {
     pub uncertainty: Uncertainty,
     /// The table `[sweep]`, if there is one.
     pub sweep: Option<SweepSettings>,
+    /// The file's text, in which warnings stand.
+    text: Arc<str>,
     inputs: Vec<Input>,
     warnings: Vec<Problem>,
     system: System,
@@ -231,7 +235,8 @@ impl Case {
         };
         match read(&mut reader, &document, sha256(text.as_bytes())) {
             Some(mut case) if reader.problems.is_empty() => {
-                case.warnings = warnings::of(visible, &case);
+                case.text = Arc::from(visible);
+                case.warnings = warnings::of(&case);
                 Ok(case)
             }
             _ => Err(refused(reader.problems, reader.more)),
@@ -362,6 +367,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         optimize,
         uncertainty,
         sweep,
+        text: Arc::default(),
         inputs: std::mem::take(&mut reader.inputs),
         warnings: Vec::new(),
         system,

@@ -5,11 +5,11 @@ use std::sync::{Arc, OnceLock};
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::Case;
 use super::error::{CaseError, Problem};
 use super::excitation::ExcitationTable;
 use super::quantity::{number_in, unit_in_brackets};
 use super::reader::{Reader, Table};
+use super::{Case, warnings};
 use crate::digest::sha256;
 use crate::excitation::{Record, RecordQuantity, Spectrum};
 use crate::quantity::Dimension;
@@ -119,6 +119,7 @@ impl Case {
                 }
             })?;
             *read = Some((sha256(text.as_bytes()), record));
+            self.warnings = warnings::of(&self);
         }
         Ok(self)
     }

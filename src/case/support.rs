@@ -14,10 +14,10 @@ use super::inputs::Input;
 use super::physical::{AbsorberTable, Physical};
 use super::reader::{Reader, Table};
 use super::{Case, Design, Rounding};
-use crate::excitation::{Scene, Transient};
-use crate::linear::{BandSystems, bare_along};
+use crate::excitation::{Record, Scene, Transient};
+use crate::linear::{BandSystems, bare_along, driven};
 use crate::quantity::numbers::rounded_to;
-use crate::system::{Band, BandOver, Parameter, System};
+use crate::system::{Band, BandOver, Parameter, Parameters, Scales, System};
 use crate::system::{STANDARD_GRAVITY, gravity_shares};
 
 names! { name:
@@ -134,11 +134,15 @@ impl Case {
     }
 
     /// The largest acceleration of the structure while it carries the absorber along, over `b omega0^2`; none where
-    /// a record drives it, which has to be simulated for that.
+    /// nobody has handed in the samples of its record.
     pub(super) fn acceleration_carried(&self) -> Option<f64> {
         if let Some(release) = self.design.release() {
             // With the absorber the structure is slower and its acceleration smaller.
             return Some(release.amplitude(&self.units()));
+        }
+        if self.recording.is_some() {
+            let each = self.records().iter().filter_map(|record| self.carried_under(record));
+            return each.reduce(f64::max);
         }
         let band = self.harmonic()?;
         let acceleration = |there: &System| {
@@ -148,6 +152,22 @@ impl Case {
             carried.map_or(f64::INFINITY, |response| omega * omega * response.amplitude())
         };
         Some(BandSystems::of(&band).largest(acceleration).1)
+    }
+
+    /// The same under a record. The structure is heavier then: one of a lower natural frequency.
+    fn carried_under(&self, record: &Record) -> Option<f64> {
+        let Parameters { mass_ratio, damping, .. } = self.system.parameters();
+        let mass = 1.0 + mass_ratio;
+        let units = self.units();
+        let slower = Scales {
+            natural_frequency: units.natural_frequency / sqrt(mass),
+            oscillator_mass: units.oscillator_mass * mass,
+            ..*units
+        };
+        let damping = damping / sqrt(mass);
+        let heavier = System::new(Parameters { damping, ..self.system.parameters() }).ok()?;
+        let moved = driven(&heavier, None, &record.pieces(&slower, Record::LONGEST), true);
+        Some(moved.shaking?.peak_acceleration / mass)
     }
 
     /// The restoring acceleration of the support that the model leaves out, over the structure's, both at their

@@ -7,7 +7,6 @@ use super::inputs::Input;
 use super::support::{Orientation, SOFT, metres, static_length};
 use super::{BandOver, BandSettings, Case, Design, Rounding};
 use crate::quantity::numbers::rounded_to;
-use crate::system::Cavity;
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
 const FAR_APART: f64 = 30.0;
@@ -29,9 +28,9 @@ const MOST_FRICTION: f64 = 1.0;
 /// of the excitation's frequency, peaks and averages of motions of all kinds then change by up to 6 %.
 const MOST_LEFT_OUT: f64 = 0.2;
 
-/// Everything that a case with this text is warned of, in the order of the file's lines.
-pub(super) fn of(text: &str, case: &Case) -> Vec<Problem> {
-    let read = Read { text, case };
+/// Everything that a case is warned of, in the order of the file's lines.
+pub(super) fn of(case: &Case) -> Vec<Problem> {
+    let read = Read { text: &case.text, case };
     let mut found = read.frequencies();
     found.extend(read.damping());
     found.extend(read.mass_ratio());
@@ -185,10 +184,12 @@ impl Read<'_> {
     /// That gravity holds the absorber at its lower wall, or friction wherever it is: the structure with that mass does
     /// not accelerate as much.
     fn held(&self) -> Option<Problem> {
+        let cavity = self.case.system.cavity();
+        let (gravity, friction) = (cavity.gravity_along.abs(), cavity.friction_acceleration);
+        if gravity.max(friction) == 0.0 {
+            return None;
+        }
         let acceleration = self.case.acceleration_carried().filter(|largest| *largest > 0.0)?;
-        let Cavity { gravity_along, friction_acceleration: friction, .. } =
-            self.case.system.cavity();
-        let gravity = gravity_along.abs();
         let (keys, what, holds, label): (&[&str], _, _, _) = if gravity > acceleration {
             let label = "an absorber at its lower wall stays there";
             (

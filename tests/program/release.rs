@@ -115,6 +115,7 @@ fn what_has_no_meaning_is_refused() {
             "z3_share = \">= 80 %\"",
             "has no meaning for a structure that is released",
         ),
+        ("decay_time = \"<= 10 s\"", "rms_velocity = \"<= 1 m/s\"", "ask for `peak_velocity`"),
         (
             "[criteria]",
             "[band]\nfrom = \"1 Hz\"\nto = \"2 Hz\"\n[criteria]",

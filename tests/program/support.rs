@@ -231,6 +231,21 @@ fn an_absorber_lies_on_its_floor_where_the_structure_accelerates_by_less_than_gr
         let text = format!("{design}{free}").replacen(LAST, &format!("{LAST}{UPRIGHT}"), 1);
         assert_eq!(warned(&text).len(), warnings, "{displacement}");
     }
+    // A record that is a sudden force: F/((1 + eps) m) at once, 1.015 1200 9.80665 = 11_944 N; without the absorber's mass
+    // it would be 11_768 N. Noise is made where it is asked for.
+    let record = "[excitation]\nkind = \"record\"\nquantity = \"force\"\n";
+    let case = |drive: &str| {
+        format!("{design}{record}{drive}").replacen(LAST, &format!("{LAST}{UPRIGHT}"), 1)
+    };
+    for (force, warnings) in [(11_900, 1), (11_990, 0)] {
+        let unread = parsed(&case("file = \"sudden.csv\"\n"));
+        assert!(unread.warnings().is_empty(), "nobody has seen the record");
+        let sudden = format!("time (s),force (N)\n0,{force}\n1,{force}\n");
+        let read = unread.with_record("sudden.csv", &sudden).expect("a record");
+        assert_eq!(read.warnings().len(), warnings, "{force} N");
+    }
+    let noise = "spectrum = [[1, 1.0], [4, 1.0]]\nduration = \"20 s\"\nseed = 1\n";
+    assert_eq!(warned(&case(noise)).len(), 1);
     // Friction that holds: mu g = 0.5 9.80665 against half of g.
     let said = warned(&with("friction = 0.6\n").replace("250 N", "100 N"));
     let words = ["friction is 1.2 times", "support = \"pendulum\"", "it does not rub", "1.41 m"];
