@@ -15,7 +15,9 @@ use crate::criteria::{self, Judged};
 use crate::excitation::Scene;
 use crate::executor::Executor;
 use crate::motions::{Effort, Measured, Motions, Place, measured, motions};
-use crate::operating_range::{Combined, HoldsFor, Reliability, Varied, combined, holds_for};
+use crate::operating_range::{
+    Combined, HoldsFor, Reliability, Together, Varied, combined, holds_for,
+};
 use crate::orbits::FullSystem;
 use crate::simulation::ImpactLog;
 use crate::study::fidelity::{Answers, LayerPlan};
@@ -47,6 +49,8 @@ pub struct Decided {
     pub alternatives: bool,
     /// How far each of these numbers may change before a criterion fails.
     pub ranges: &'static [Varied],
+    /// To where: all criteria hold, or none fails.
+    pub until: Together,
     /// What holds where amplitude and natural frequency change at once.
     pub combined: bool,
     /// With which probability all criteria hold where numbers are uncertain.
@@ -55,13 +59,18 @@ pub struct Decided {
 
 impl Decided {
     /// All of it.
-    pub const ALL: Self =
-        Self { alternatives: true, ranges: &Varied::ALL, combined: true, reliability: true };
+    pub const ALL: Self = Self {
+        alternatives: true,
+        ranges: &Varied::ALL,
+        until: Together::Undecided,
+        combined: true,
+        reliability: true,
+    };
     /// What a document of `check` has.
     pub const CHECKED: Self = Self { combined: false, ..Self::ALL };
     /// None of it.
     pub const NOTHING: Self =
-        Self { alternatives: false, ranges: &[], combined: false, reliability: false };
+        Self { alternatives: false, ranges: &[], combined: false, reliability: false, ..Self::ALL };
 }
 
 /// Theory and exact orbits of a case.
@@ -155,7 +164,7 @@ impl Answer {
             true => Alternatives::of(case, known, on)?,
             false => None,
         };
-        let holds_for = holds_for(case, &self.judged, what.ranges, &self.effort, on)?;
+        let holds_for = holds_for(case, &self.judged, what.ranges, what.until, &self.effort, on)?;
         let combined = match what.combined {
             true => combined(case, &holds_for, &self.effort, on)?,
             false => Vec::new(),

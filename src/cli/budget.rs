@@ -71,6 +71,7 @@ impl Long {
                 }
                 _ => &[],
             },
+            until: asked.until,
             combined: asked.combined
                 && !case.criteria.is_empty()
                 && allowed("the combinations of amplitude and frequency are", COMBINED),

@@ -7,7 +7,7 @@ use miette::{IntoDiagnostic, Report, Result};
 use serde_json::json;
 use vinesink::answer::{Answer, Asked, Decided};
 use vinesink::case::{Case, CaseError};
-use vinesink::operating_range::Varied;
+use vinesink::operating_range::{Together, Varied};
 use vinesink::program::case_file::{self, Reading};
 use vinesink::program::output;
 use vinesink::program::parallel::Parallel;
@@ -115,7 +115,8 @@ fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
     let (asked, told) = match arguments.format {
         CheckFormat::Json if !arguments.criteria_only => (Asked::Decision, Decided::CHECKED),
         CheckFormat::Text | CheckFormat::Markdown if !arguments.criteria_only => {
-            (Asked::Decision, Decided { ranges: &Varied::FIRST, ..Decided::CHECKED })
+            let (ranges, until) = (&Varied::FIRST, Together::Hold);
+            (Asked::Decision, Decided { ranges, until, ..Decided::CHECKED })
         }
         _ => (Asked::Criteria, Decided::NOTHING),
     };

@@ -1,6 +1,6 @@
 //! The excitation's amplitude and the natural frequency changed at once: what holds for each alone may fail for both.
 
-use super::{HoldsFor, Looked, Together, Varied, judge};
+use super::{HoldsFor, Look, Together, Varied, judge};
 use crate::case::{Case, Relation};
 use crate::executor::{Executor, map};
 use crate::flights::DrivenError;
@@ -43,8 +43,8 @@ pub fn combined(
         let there = case.varied(amplitude.0, a.value);
         let outcome = match there.and_then(|case| case.varied(frequency.0, f.value)) {
             Some(there) => {
-                let as_check = Looked::AsCheck(Together::Undecided);
-                let how = if promised { as_check } else { Looked::OnTheWay };
+                let as_check = Look::AsCheck(Together::Undecided);
+                let how = if promised { as_check } else { Look::OnTheWay };
                 Together::of(&judge(&there, effort, how)?)
             }
             None => Together::Fail,

@@ -72,8 +72,8 @@ pub struct HoldsFor {
     pub reached: Vec<[f64; 2]>,
 }
 
-/// How often an end is halved at most: to an eighth of its step.
-const HALVINGS: u32 = 3;
+/// Parts of a step to which an end is known.
+const FINEST: f64 = 8.0;
 /// How thoroughly a band is looked at on the way, and starts of a place.
 const BAND: BandEffort =
     BandEffort { even: 9, starts: 3, starts_between: 2, most: 24, tolerance: 0.1 };
@@ -85,6 +85,8 @@ const PLACES_OF_SWEEP: u64 = 16;
 const PLACES_OF_RECORD: u64 = 4;
 
 /// The ranges of these numbers of a case and what is known of it; none where a criterion fails at the case itself, or it has none.
+/// They go to where no criterion comes to less than `least`; where all are to hold that is not asked of a case that is not
+/// decided itself.
 ///
 /// # Errors
 /// [`DrivenError`] where a motion cannot be followed.
@@ -92,6 +94,7 @@ pub fn holds_for(
     case: &Case,
     judged: &[Judged],
     numbers: &[Varied],
+    least: Together,
     effort: &Effort,
     on: &dyn Executor,
 ) -> Result<Vec<HoldsFor>, DrivenError> {
@@ -101,10 +104,10 @@ pub fn holds_for(
     let own = Together::of(judged);
     let all = Number::all(case, numbers, effort);
     let side = |k: usize| {
-        let (number, up) = (all[k / 2], k % 2 == 1);
+        let (number, up) = (&all[k / 2], k % 2 == 1);
         // What is level and has ends alike does the mirrored thing at the mirrored inclination.
         let mirrored = number.varied == Varied::Inclination && !up && case.has_ideal_walls();
-        if mirrored { Ok(None) } else { number.search(own, up).map(Some) }
+        if mirrored { Ok(None) } else { number.search(own, least, up).map(Some) }
     };
     let sides = map(on, "ranges", 2 * all.len(), side);
     let mut sides = sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter();
@@ -184,127 +187,134 @@ impl<'a> Number<'a> {
         of.iter().filter_map(number).collect()
     }
 
-    fn search(&self, own: Together, up: bool) -> Result<Reach, DrivenError> {
-        let [undecided, reached] = [Vec::new(), Vec::new()];
-        let mut reach = Reach { end: self.own, open: true, holds: self.own, undecided, reached };
-        let mut looked = vec![(self.own, own)];
-        for step in self.varied.steps(self.own, up) {
-            let Some(judged) = self.judged_at(step, Looked::OnTheWay, &mut reach)? else { break };
-            let outcome = Together::of(&judged);
-            if outcome == Together::Fail {
-                reach.open = false;
-                let (mut inside, mut outside) = (reach.end, step);
-                let mut blurred = is_blurred(&judged);
-                for _ in 0..HALVINGS {
-                    if blurred {
-                        break;
-                    }
-                    let middle = 0.5 * (inside + outside);
-                    let judged = self.judged_at(middle, Looked::OnTheWay, &mut reach)?;
-                    match judged.as_ref().map(|judged| Together::of(judged)) {
-                        Some(Together::Fail) | None => outside = middle,
-                        Some(found) => {
-                            looked.push((middle, found));
-                            inside = middle;
-                        }
-                    }
-                    blurred = judged.is_some_and(|judged| is_blurred(&judged));
-                }
-                reach.end = inside;
-                break;
-            }
-            looked.push((step, outcome));
-            reach.end = step;
+    /// Goes outwards to where all criteria hold, if they do in the case itself, and unless that is all that is asked for on to
+    /// where one fails.
+    fn search(&self, own: Together, least: Together, up: bool) -> Result<Reach, DrivenError> {
+        let case = Looked { at: self.own, outcome: own, full: true, blurred: false, step: 0.0 };
+        let steps = self.varied.steps(self.own, up);
+        let mut search = Outwards { number: self, steps, looked: vec![case], reached: Vec::new() };
+        let (mut end, mut open, mut holds) = (self.own, true, self.own);
+        if own == Together::Hold {
+            (holds, open) = search.until(Together::Hold)?;
+            end = holds;
         }
-        self.end_as_check(&mut looked, &mut reach)?;
-        self.hold_as_check(&mut looked, &mut reach)?;
-        for pair in looked.windows(2) {
-            if pair[0].1 == Together::Undecided || pair[1].1 == Together::Undecided {
-                reach.undecided.push([pair[0].0, pair[1].0]);
+        if least < Together::Hold || own < Together::Hold {
+            (end, open) = search.until(Together::Undecided)?;
+        }
+        let Outwards { looked, reached, .. } = search;
+        let mut undecided = Vec::new();
+        let within = looked.iter().position(|one| one.at == end).unwrap_or_default();
+        for pair in looked[..=within].windows(2) {
+            if pair.iter().any(|one| one.outcome == Together::Undecided) {
+                undecided.push([pair[0].at, pair[1].at]);
             }
         }
-        Ok(reach)
-    }
-
-    /// Takes the end back until `check` says that nothing fails there: with fewer starts something may have been missed. The
-    /// case itself is known.
-    fn end_as_check(
-        &self,
-        looked: &mut Vec<(f64, Together)>,
-        reach: &mut Reach,
-    ) -> Result<(), DrivenError> {
-        while let [.., before, last] = looked[..] {
-            looked.pop();
-            let there = self.outcome(last.0, Looked::AsCheck(Together::Undecided), reach)?;
-            if let Some(found) = there.filter(|found| *found != Together::Fail) {
-                looked.push((last.0, found));
-                break;
-            }
-            reach.open = false;
-            let middle = 0.5 * (before.0 + last.0);
-            let between = self.outcome(middle, Looked::AsCheck(Together::Undecided), reach)?;
-            if let Some(found) = between.filter(|found| *found != Together::Fail) {
-                looked.push((middle, found));
-                break;
-            }
-        }
-        reach.end = looked.last().map_or(self.own, |last| last.0);
-        Ok(())
-    }
-
-    /// The same for where all criteria hold up to; the end of the stretch is known in full.
-    fn hold_as_check(
-        &self,
-        looked: &mut [(f64, Together)],
-        reach: &mut Reach,
-    ) -> Result<(), DrivenError> {
-        let mut decided = looked.iter().take_while(|one| one.1 == Together::Hold).count();
-        while decided > 1 && decided < looked.len() {
-            let (at, known) = &mut looked[decided - 1];
-            *known = self
-                .outcome(*at, Looked::AsCheck(Together::Hold), reach)?
-                .unwrap_or(Together::Fail);
-            if *known == Together::Hold {
-                break;
-            }
-            // What would fail in full within the stretch is told as not decided: further out nothing fails again.
-            *known = Together::Undecided;
-            decided -= 1;
-        }
-        if let Some(last) = decided.checked_sub(1) {
-            reach.holds = looked[last].0;
-        }
-        Ok(())
-    }
-
-    /// What the criteria come to at a value, as [`Self::judged_at`].
-    fn outcome(
-        &self,
-        value: f64,
-        how: Looked,
-        reach: &mut Reach,
-    ) -> Result<Option<Together>, DrivenError> {
-        Ok(self.judged_at(value, how, reach)?.map(|judged| Together::of(&judged)))
-    }
-
-    /// The criteria at a value, which is reached then; none where there is no such case.
-    fn judged_at(
-        &self,
-        value: f64,
-        how: Looked,
-        reach: &mut Reach,
-    ) -> Result<Option<Vec<Judged>>, DrivenError> {
-        let Some(judged) = self.judged(value, how)? else { return Ok(None) };
-        // A place that is looked at again is known better then.
-        reach.reached.retain(|[at, _]| *at != value);
-        reach.reached.extend(judged.first().and_then(|first| Some([value, first.found?])));
-        Ok(Some(judged))
+        Ok(Reach { end, open, holds, undecided, reached })
     }
 
     /// The criteria at a value.
-    fn judged(&self, value: f64, how: Looked) -> Result<Option<Vec<Judged>>, DrivenError> {
+    fn judged(&self, value: f64, how: Look) -> Result<Option<Vec<Judged>>, DrivenError> {
         let case = self.case.varied(self.parameter, value);
         case.map(|case| judge(&case, self.effort, how)).transpose()
+    }
+}
+
+/// What was looked at on the way outwards.
+struct Looked {
+    at: f64,
+    outcome: Together,
+    /// Whether that is what `check` says.
+    full: bool,
+    /// Whether all that fails does so by less than its error.
+    blurred: bool,
+    /// The step that it is in.
+    step: f64,
+}
+
+/// A search in one direction.
+struct Outwards<'a> {
+    number: &'a Number<'a>,
+    steps: Vec<f64>,
+    /// From the case's own outwards.
+    looked: Vec<Looked>,
+    reached: Vec<[f64; 2]>,
+}
+
+impl Outwards<'_> {
+    /// The last place up to which every one comes to no less than this, as `check` says it there; and whether the search ended
+    /// before one did.
+    fn until(&mut self, least: Together) -> Result<(f64, bool), DrivenError> {
+        let mut open = self.go_out(least)?;
+        // With fewer starts something may have been missed.
+        loop {
+            let last = self.first_below(least).unwrap_or(self.looked.len()).saturating_sub(1);
+            if self.looked[last].full {
+                return Ok((self.looked[last].at, open));
+            }
+            let at = self.looked[last].at;
+            let there = self.look(at, self.looked[last].step, Look::AsCheck(least))?;
+            let holds = there.outcome >= least;
+            self.looked[last] = there;
+            if holds {
+                return Ok((at, open));
+            }
+            open = false;
+            let before = &self.looked[last - 1];
+            let (middle, step) = (0.5 * (before.at + at), self.looked[last].step);
+            let there = self.look(middle, step, Look::AsCheck(least))?;
+            self.looked.insert(last, there);
+        }
+    }
+
+    /// Steps outwards to the first place that comes to less, and halves the step before it; whether there was none.
+    fn go_out(&mut self, least: Together) -> Result<bool, DrivenError> {
+        loop {
+            let Some(outside) = self.first_below(least) else {
+                if self.step_out()? {
+                    continue;
+                }
+                return Ok(true);
+            };
+            let [inside, beyond] = [outside - 1, outside].map(|k| &self.looked[k]);
+            // Where exactly an error begins to matter is not known any better.
+            let errs = beyond.blurred || beyond.outcome == Together::Undecided;
+            if errs || (beyond.at - inside.at).abs() <= beyond.step / FINEST {
+                return Ok(false);
+            }
+            let (middle, step) = (0.5 * (inside.at + beyond.at), beyond.step);
+            let there = self.look(middle, step, Look::OnTheWay)?;
+            self.looked.insert(outside, there);
+        }
+    }
+
+    /// Looks at the next step; whether there is one.
+    fn step_out(&mut self) -> Result<bool, DrivenError> {
+        let own = self.number.own;
+        let last = self.looked.last().map_or(own, |last| last.at);
+        let next = self.steps.iter().find(|next| (*next - own).abs() > (last - own).abs());
+        let Some(next) = next.copied() else { return Ok(false) };
+        if self.number.case.varied(self.number.parameter, next).is_none() {
+            return Ok(false);
+        }
+        let there = self.look(next, (next - last).abs(), Look::OnTheWay)?;
+        self.looked.push(there);
+        Ok(true)
+    }
+
+    /// The first place, after the case's own, that comes to less.
+    fn first_below(&self, least: Together) -> Option<usize> {
+        (1..self.looked.len()).find(|k| self.looked[*k].outcome < least)
+    }
+
+    /// The criteria at a value, which is reached then; where there is no such case they fail.
+    fn look(&mut self, at: f64, step: f64, how: Look) -> Result<Looked, DrivenError> {
+        let judged = self.number.judged(at, how)?.unwrap_or_default();
+        // A place that is looked at again is known better then.
+        self.reached.retain(|one| one[0] != at);
+        self.reached.extend(judged.first().and_then(|first| Some([at, first.found?])));
+        let outcome = if judged.is_empty() { Together::Fail } else { Together::of(&judged) };
+        let full = matches!(how, Look::AsCheck(least) if outcome >= least);
+        Ok(Looked { at, outcome, full, blurred: is_blurred(&judged), step })
     }
 }
 
@@ -316,7 +326,7 @@ fn is_blurred(judged: &[Judged]) -> bool {
 
 /// How thoroughly a case is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Looked {
+enum Look {
     /// With fewer starts and places, and short windows.
     OnTheWay,
     /// As `check` does, unless a first search comes to less than this: what is captured now and then comes up late.
@@ -324,12 +334,12 @@ enum Looked {
 }
 
 /// The criteria of a case.
-fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, DrivenError> {
+fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
     let Some(transient) = case.design.transient() else {
         return judge_band(case, effort, how);
     };
     let even = case.absorber_places().unwrap_or_default();
-    let in_full = how != Looked::OnTheWay;
+    let in_full = how != Look::OnTheWay;
     let most = match transient {
         _ if in_full => even,
         Transient::Release(_) => even,
@@ -346,7 +356,7 @@ fn judge(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, Drive
 
 /// Those of a case that is driven steadily. Most of a search goes into telling a long transient from a motion: first it counts
 /// as one, and then places that do not hold by what only a window shows are searched as thoroughly as `check` does.
-fn judge_band(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, DrivenError> {
+fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
     let settings = criteria::settings(case);
     let survey = |effort: Effort| {
         let settings =
@@ -354,11 +364,11 @@ fn judge_band(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, 
         Survey::of(&case.range(), &settings, None, &Serial)
     };
     let (first, then) = match how {
-        Looked::OnTheWay => {
+        Look::OnTheWay => {
             let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
             (few.short(), few)
         }
-        Looked::AsCheck(_) => (Effort { patience: 0.0, ..*effort }, *effort),
+        Look::AsCheck(_) => (Effort { patience: 0.0, ..*effort }, *effort),
     };
     let mut found = survey(first)?;
     let mut known: Vec<f64> = Vec::new();
@@ -373,7 +383,7 @@ fn judge_band(case: &Case, effort: &Effort, how: Looked) -> Result<Vec<Judged>, 
         known.extend(open);
     };
     match how {
-        Looked::AsCheck(least) if Together::of(&judged) >= least => {
+        Look::AsCheck(least) if Together::of(&judged) >= least => {
             Ok(criteria::judge(case, &survey(then)?))
         }
         _ => Ok(judged),

@@ -4,7 +4,7 @@
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
-use super::{Looked, Together, judge};
+use super::{Look, Together, judge};
 use crate::case::{Case, Distribution};
 use crate::executor::{Executor, map};
 use crate::flights::DrivenError;
@@ -51,7 +51,7 @@ impl Reliability {
         let come_to = |errors: &[(Parameter, f64)]| {
             // What leaves no system meets nothing.
             let Some(case) = case.deviating(errors) else { return Ok(Together::Fail) };
-            judge(&case, effort, Looked::OnTheWay).map(|judged| Together::of(&judged))
+            judge(&case, effort, Look::OnTheWay).map(|judged| Together::of(&judged))
         };
         let found = map(on, "designs", drawn.len(), |k| come_to(&drawn[k]));
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;

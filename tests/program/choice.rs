@@ -4,7 +4,7 @@ use serde_json::Value;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
 use vinesink::executor::Serial;
-use vinesink::operating_range::{Varied, holds_for};
+use vinesink::operating_range::{Together, Varied, holds_for};
 
 use super::run::vinesink;
 
@@ -75,7 +75,8 @@ fn ranges_end_where_check_says_so() {
         let own = Answer::of(&case, Asked::Criteria, None, &Serial).expect("judged");
         // Those that a line of the case says; of all eight a report tells.
         let numbers = [Varied::Amplitude, Varied::Clearance];
-        let ranges = holds_for(&case, &own.judged, &numbers, &effort, &Serial).expect("ranges");
+        let ranges = holds_for(&case, &own.judged, &numbers, Together::Undecided, &effort, &Serial)
+            .expect("ranges");
         assert_eq!(ranges.len(), 2, "{name}");
         for range in ranges {
             let keys: &[&str] = match range.parameter {

@@ -13,7 +13,7 @@ use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method::{self, ClosedForm};
 use crate::operating_range::{Combined, Edge, HoldsFor, Reliability, Varied};
-use crate::quantity::catalogue::{self as of, Digits};
+use crate::quantity::catalogue::{self as of};
 use crate::quantity::{Kind, Quantity};
 use crate::system::Parameter;
 
@@ -238,7 +238,6 @@ fn together(case: &Case, found: &Combined) -> Value {
 fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
     let kind = kind_of(case, found.parameter);
     let quantity = |value: f64| Quantity::new(kind, value, Method::Simulation);
-    let shown = |value: f64| case.units().with_digits(kind, value, Digits::Significant(3));
     let row = json!({
         "parameter": found.parameter,
         "unit": kind.dimension.symbol(case.units().physical),
@@ -260,7 +259,6 @@ fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
         "to_open": found.open[1],
         "holds": found.holds.map(|ends| ends.map(quantity)),
         "only_here": found.holds == Some([found.value; 2]),
-        "wider": found.holds.is_some_and(|holds| holds.map(shown) != found.range.map(shown)),
         "undecided": found.undecided.iter().map(|ends| ends.map(quantity)).collect::<Vec<_>>(),
     });
     (row, told)
