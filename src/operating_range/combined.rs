@@ -43,8 +43,7 @@ pub fn combined(
         let there = case.varied(amplitude.0, a.value);
         let outcome = match there.and_then(|case| case.varied(frequency.0, f.value)) {
             Some(there) => {
-                let as_check = Look::AsCheck(Together::Undecided);
-                let how = if promised { as_check } else { Look::OnTheWay };
+                let how = if promised { Look::AsCheck } else { Look::OnTheWay };
                 Together::of(&judge(&there, effort, how)?)
             }
             None => Together::Fail,

@@ -46,7 +46,7 @@ pub fn edges(
     let (mut case, asked) = (case.clone(), case.criteria.len());
     // No displacement is at most 0, which does not matter yet: the worst of all is found, whatever the limit.
     case.criteria.extend(watched.and_then(|measure| Criterion::at_most(measure, 0.0)));
-    let own = judge(&case, effort, Look::AsCheck(Together::Hold))?;
+    let own = judge(&case, effort, Look::AsCheck)?;
     if own.is_empty() || Together::of(&own[..asked.min(own.len())]) == Together::Fail {
         return Ok(Vec::new());
     }
@@ -69,7 +69,7 @@ impl Number<'_> {
             if looked.is_none_or(|judged| Together::of(&judged) != Together::Fail) {
                 continue;
             }
-            let there = self.judged(at, Look::AsCheck(Together::Hold))?.unwrap_or_default();
+            let there = self.judged(at, Look::AsCheck)?.unwrap_or_default();
             let lost = there
                 .into_iter()
                 .zip(own)

@@ -252,7 +252,7 @@ impl Outwards<'_> {
                 return Ok((self.looked[last].at, open));
             }
             let at = self.looked[last].at;
-            let there = self.look(at, self.looked[last].step, Look::AsCheck(least))?;
+            let there = self.look(at, self.looked[last].step, Look::AsCheck)?;
             let holds = there.outcome >= least;
             self.looked[last] = there;
             if holds {
@@ -261,7 +261,7 @@ impl Outwards<'_> {
             open = false;
             let before = &self.looked[last - 1];
             let (middle, step) = (0.5 * (before.at + at), self.looked[last].step);
-            let there = self.look(middle, step, Look::AsCheck(least))?;
+            let there = self.look(middle, step, Look::AsCheck)?;
             self.looked.insert(last, there);
         }
     }
@@ -313,7 +313,7 @@ impl Outwards<'_> {
         self.reached.retain(|one| one[0] != at);
         self.reached.extend(judged.first().and_then(|first| Some([at, first.found?])));
         let outcome = if judged.is_empty() { Together::Fail } else { Together::of(&judged) };
-        let full = matches!(how, Look::AsCheck(least) if outcome >= least);
+        let full = how == Look::AsCheck;
         Ok(Looked { at, outcome, full, blurred: is_blurred(&judged), step })
     }
 }
@@ -329,8 +329,8 @@ fn is_blurred(judged: &[Judged]) -> bool {
 enum Look {
     /// With fewer starts and places, and short windows.
     OnTheWay,
-    /// As `check` does, unless a first search comes to less than this: what is captured now and then comes up late.
-    AsCheck(Together),
+    /// As `check` does.
+    AsCheck,
 }
 
 /// The criteria of a case.
@@ -354,8 +354,7 @@ fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenE
     Ok(criteria::judge_transient(case, &study))
 }
 
-/// Those of a case that is driven steadily. Most of a search goes into telling a long transient from a motion: first it counts
-/// as one, and then places that do not hold by what only a window shows are searched as thoroughly as `check` does.
+/// Those of a case that is driven steadily.
 fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
     let settings = criteria::settings(case);
     let survey = |effort: Effort| {
@@ -363,29 +362,22 @@ fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, Dr
             SurveySettings { effort: settings.effort.map(|_| effort), ..settings.clone() };
         Survey::of(&case.range(), &settings, None, &Serial)
     };
-    let (first, then) = match how {
-        Look::OnTheWay => {
-            let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
-            (few.short(), few)
-        }
-        Look::AsCheck(_) => (Effort { patience: 0.0, ..*effort }, *effort),
-    };
-    let mut found = survey(first)?;
+    if how == Look::AsCheck {
+        return Ok(criteria::judge(case, &survey(*effort)?));
+    }
+    // Most of a search goes into telling a long transient from a motion: first it counts as one, and then places that do not
+    // hold by what only a window shows are searched with patience.
+    let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
+    let mut found = survey(few.short())?;
     let mut known: Vec<f64> = Vec::new();
-    let judged = loop {
+    loop {
         let judged = criteria::judge(case, &found);
         let mut open = criteria::open(case, &found, &judged, &known);
         if open.is_empty() {
-            break judged;
+            return Ok(judged);
         }
         open.truncate(AT_A_TIME);
-        found.motions.look_again(&open, &then, &Serial)?;
+        found.motions.look_again(&open, &few, &Serial)?;
         known.extend(open);
-    };
-    match how {
-        Look::AsCheck(least) if Together::of(&judged) >= least => {
-            Ok(criteria::judge(case, &survey(then)?))
-        }
-        _ => Ok(judged),
     }
 }

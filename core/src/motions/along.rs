@@ -5,7 +5,7 @@
 use serde::Serialize;
 
 use super::stability::{Extreme, Fact, OneToOne, extreme_at, stability};
-use super::{Effort, Motion, Motions, Place, Value, motions, rest, steady};
+use super::{Effort, Motion, MotionKind, Motions, Place, Value, motions, rest, steady};
 use crate::executor::{Executor, Serial};
 use crate::simulation::StartError;
 use crate::system::{Band, BandOver, State, Stretch};
@@ -152,6 +152,11 @@ const FINEST: f64 = 0.1;
 const FINEST_AMPLITUDE: f64 = 1.0 / 256.0;
 /// Smallest finest distance, over the band.
 const NARROWEST: f64 = 1.0 / 4096.0;
+/// Of the first places every so manieth is searched before those between.
+const SPARSE: usize = 4;
+/// Share of the patience with what may be a transient that is left where it was told from one before: at the same place, or
+/// on either side of it.
+const WAITED: f64 = 0.25;
 /// Places that are added before the next gaps are chosen.
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.
@@ -263,6 +268,11 @@ impl Spot {
         self.motions.iter().filter(|motion| motion.rest().is_none())
     }
 
+    /// Whether a motion that wanders was told from a transient.
+    fn has_waited(&self) -> bool {
+        self.moving().any(|one| matches!(one.kind, MotionKind::Wanders) && one.settled())
+    }
+
     /// Largest peak of one; 0 without one.
     fn peak(&self) -> f64 {
         self.moving().map(|motion| motion.facts().peak.value).fold(0.0, f64::max)
@@ -318,8 +328,16 @@ impl Sampler<'_> {
             return Ok((spots.into_iter().map(Spot::place).collect(), 0.0));
         }
         first.retain(|place| *place != at || spots.is_empty());
-        spots.extend(self.at(first, &[])?);
-        spots.sort_by(|a, b| a.at.total_cmp(&b.at));
+        first.sort_by(f64::total_cmp);
+        first.dedup();
+        let last = first.len().saturating_sub(1);
+        let sparse = |k: usize| k.is_multiple_of(SPARSE) || k == last;
+        for round in [true, false] {
+            let places = first.iter().enumerate().filter(|(k, _)| sparse(*k) == round);
+            let new = self.at(places.map(|(_, at)| *at).collect(), &spots, true)?;
+            spots.extend(new);
+            spots.sort_by(|a, b| a.at.total_cmp(&b.at));
+        }
         loop {
             let room = self.effort.band.most.saturating_sub(spots.len());
             let limit = (1.0 + self.effort.band.tolerance) * largest_of(&spots);
@@ -330,7 +348,7 @@ impl Sampler<'_> {
             if between.is_empty() && !followed {
                 break;
             }
-            let new = self.at(between.into_iter().map(|gap| gap.0).collect(), &spots)?;
+            let new = self.at(between.into_iter().map(|gap| gap.0).collect(), &spots, false)?;
             spots.extend(new);
             spots.sort_by(|a, b| a.at.total_cmp(&b.at));
         }
@@ -340,19 +358,30 @@ impl Sampler<'_> {
         Ok((spots.into_iter().map(Spot::place).collect(), highest - largest))
     }
 
-    /// The motions at new places, from the usual starts and from what `known` places beside them have.
-    fn at(&self, mut places: Vec<f64>, known: &[Spot]) -> Result<Vec<Spot>, StartError> {
+    /// The motions at new places: from the usual starts at the first, else also from what `known` places beside them have.
+    fn at(
+        &self,
+        mut places: Vec<f64>,
+        known: &[Spot],
+        first: bool,
+    ) -> Result<Vec<Spot>, StartError> {
         places.sort_by(f64::total_cmp);
         places.dedup();
         // Between known places the motions beside are the starts that matter.
         let BandEffort { starts, starts_between, .. } = self.effort.band;
-        let starts = if known.is_empty() { starts } else { starts_between };
+        let starts = if first { starts } else { starts_between };
         let place = |at: f64| {
             let system = self.band.system(at).ok()?;
             let right = known.partition_point(|place| place.at < at);
-            let beside = known[right.saturating_sub(1)..known.len().min(right + 1)].iter();
-            let further = beside.flat_map(|place| place.states(0.0)).collect();
-            Some((at, Place { further, ..Place::new(&system, starts) }))
+            let beside = &known[right.saturating_sub(1)..known.len().min(right + 1)];
+            let further = match first {
+                true => Vec::new(),
+                false => beside.iter().flat_map(|place| place.states(0.0)).collect(),
+            };
+            // Both have waited for what may be the same transient.
+            let waited = beside.len() == 2 && beside.iter().all(Spot::has_waited);
+            let patience = if waited { WAITED } else { 1.0 };
+            Some((at, Place { further, patience, ..Place::new(&system, starts) }))
         };
         let (at, places): (Vec<f64>, Vec<Place>) = places.into_iter().filter_map(place).unzip();
         let found = motions(&places, &self.effort.between(), self.on)?;
@@ -372,7 +401,8 @@ impl Sampler<'_> {
             if let (false, Ok(system)) = (further.is_empty(), self.band.system(spots[k].at)) {
                 chosen.push((k, beside.map(Spot::peak).fold(0.0, f64::max)));
                 let known = spots[k].motions.iter().cloned().collect();
-                places.push(Place { further, known, ..Place::with(&system, Vec::new()) });
+                let patience = if spots[k].has_waited() { WAITED } else { 1.0 };
+                places.push(Place { further, known, patience, ..Place::with(&system, Vec::new()) });
             }
         }
         let found = motions(&places, &self.effort.between(), self.on)?;

@@ -128,6 +128,8 @@ pub struct Place {
     pub further: Vec<State>,
     /// Motions that are known already; they keep their places in the list.
     pub known: Vec<Motion>,
+    /// Share of the patience with what may be a transient that is left: places on either side had it.
+    pub patience: f64,
 }
 
 impl Place {
@@ -138,7 +140,7 @@ impl Place {
 
     /// A system with starts of its own.
     pub fn with(system: &System, starts: Vec<State>) -> Self {
-        Self { system: *system, starts, further: Vec::new(), known: Vec::new() }
+        Self { system: *system, starts, further: Vec::new(), known: Vec::new(), patience: 1.0 }
     }
 }
 

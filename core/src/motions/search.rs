@@ -195,6 +195,7 @@ struct Ground {
     periods: u64,
     alone: f64,
     patience: f64,
+    most_rounds: usize,
     /// Of this round: whether a start has settled that wandered before, and periods that the others have flown.
     settled: bool,
     flown: u64,
@@ -244,7 +245,8 @@ impl Ground {
             late: Vec::new(),
             open: vec![None; count],
             periods: effort.periods.max(1),
-            patience: effort.patience,
+            patience: effort.patience * place.patience,
+            most_rounds: (effort.patience * ROUNDS as f64) as usize,
             alone: ALONE * place.starts.len().min(MOST) as f64,
             settled: false,
             flown: 0,
@@ -389,8 +391,7 @@ impl Ground {
         self.impatient = missing > 0.0 || self.creeps;
         let busiest = open.iter().map(|flight| self.busy[flight.index - self.first]);
         let busy = busiest.fold(BUSY, f64::max) / BUSY;
-        let rounds = (self.patience * ROUNDS as f64) as usize;
-        let (left_out, window) = if self.rounds < rounds && (missing > 0.0 || restless) {
+        let (left_out, window) = if self.rounds < self.most_rounds && (missing > 0.0 || restless) {
             let most = FURTHER[self.rounds.min(FURTHER.len() - 1)] * self.periods / 4;
             let most = (most as f64 / busy) as u64;
             let each = (missing * periods / open.len() as f64).ceil() as u64;
