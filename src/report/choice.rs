@@ -140,8 +140,10 @@ pub fn figure(case: &Case, found: &Alternatives, facts: &Value) -> Option<Figure
     let units = case.units();
     let absorber: Vec<[f64; 2]> =
         over.absorber.iter().map(|(drift, [value, _])| [*drift, *value]).collect();
+    let limit = case.criteria.first().filter(|one| one.measure == found.measure);
+    let limit = limit.map(|one| one.limit);
     let all = over.dampers.iter().flatten().chain(&absorber).map(|one| one[1]);
-    let largest = all.filter(|one| one.is_finite()).fold(0.0, f64::max);
+    let largest = all.chain(limit).filter(|one| one.is_finite()).fold(0.0, f64::max);
     let x = AxisOf::si(units, &of::FREQUENCY_DRIFT).axis([first, last]);
     let y = AxisOf::si(units, found.measure.kind(Device::Absorber)?).axis([0.0, 1.1 * largest]);
     let [usual, equal] = over.dampers.clone();
@@ -155,5 +157,7 @@ pub fn figure(case: &Case, found: &Alternatives, facts: &Value) -> Option<Figure
         .with(line(DAMPER, Shape::Square, usual).labelled("tuned mass damper, best for this"))
         .with(line(EQUAL, Shape::Diamond, equal).labelled("in the absorber's room"))
         .with(Layer::points(Role::Simulation, absorber).labelled("absorber"));
+    let limit = limit.map(|limit| Layer::horizontal(limit, LIMIT).labelled("limit"));
+    let panel = limit.into_iter().fold(panel, Panel::with);
     Some(Figure::new(NAME, "").with_panel(panel).with_facts("captions/choice", facts.clone()))
 }

@@ -305,12 +305,19 @@ impl Pair {
         let from = if symmetric { ASYMMETRIC * self.period } else { -half };
         let fastest = self.map.flight.frequency().max(1.0);
         let count = (fastest * (half - from) / RADIANS).ceil().min(PIECES);
-        let edges: Vec<f64> = places([from, half], count as u32).collect();
+        // What is even in `s` is a function of its square, that has a slope at 0 too, where asymmetric orbits leave the
+        // symmetric one.
+        let (squared, rooted): (fn(f64) -> f64, fn(f64) -> f64) = match symmetric {
+            true => (|s| s * s, f64::sqrt),
+            false => (|s| s, |s| s),
+        };
+        let narrowest = NARROWEST * squared(self.period);
+        let edges: Vec<f64> = places([from, half], count as u32).map(squared).collect();
         let mut pieces: Vec<([f64; 2], Option<Interpolant>)> =
             edges.windows(2).map(|ends| ([ends[0], ends[1]], None)).collect();
         let (mut roots, mut undecided) = (Vec::new(), Vec::new());
         let mut left = pieces.len() + MOST;
-        let f = |s: f64| self.defect(s, symmetric);
+        let f = |at: f64| self.defect(rooted(at), symmetric);
         while let Some((ends, known)) = pieces.pop() {
             left -= 1;
             let place = |z: f64| 0.5 * ((1.0 - z) * ends[0] + (1.0 + z) * ends[1]);
@@ -319,8 +326,8 @@ impl Pair {
                 continue;
             }
             if near.is_monotone() {
-                roots.extend(narrowed(ends, f));
-            } else if ends[1] - ends[0] > NARROWEST * self.period && left > pieces.len() + 1 {
+                roots.extend(narrowed(ends, f).map(rooted));
+            } else if ends[1] - ends[0] > narrowest && left > pieces.len() + 1 {
                 let middle = 0.5 * (ends[0] + ends[1]);
                 let halves = [[ends[0], middle], [middle, ends[1]]];
                 if near.is_exhausted() {
@@ -333,7 +340,7 @@ impl Pair {
                     pieces.extend(halves.into_iter().zip(near.halves().map(Some)));
                 }
             } else {
-                undecided.push(ends);
+                undecided.push(ends.map(rooted));
             }
         }
         (roots, undecided)

@@ -93,6 +93,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
             "at": place(worst.at),
             "change": change,
             "motion": Motions::id(worst.index),
+            "regime": worst.motion.regime(),
         })
     });
     let steady = motions.peak_at().and_then(|at| Some((at, motions.at(at)?)));

@@ -238,6 +238,8 @@ fn together(case: &Case, found: &Combined) -> Value {
 fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
     let kind = kind_of(case, found.parameter);
     let quantity = |value: f64| Quantity::new(kind, value, Method::Simulation);
+    let change =
+        |end: f64| Quantity::new(&of::RELATIVE_CHANGE, end / found.value - 1.0, Method::Simulation);
     let row = json!({
         "parameter": found.parameter,
         "unit": kind.dimension.symbol(case.units().physical),
@@ -258,6 +260,8 @@ fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
         "from_open": found.open[0],
         "to_open": found.open[1],
         "holds": found.holds.map(|ends| ends.map(quantity)),
+        // By how much of itself the number may be off.
+        "off": found.holds.filter(|_| found.value != 0.0).map(|ends| ends.map(change)),
         "only_here": found.holds == Some([found.value; 2]),
         "undecided": found.undecided.iter().map(|ends| ends.map(quantity)).collect::<Vec<_>>(),
     });

@@ -22,7 +22,7 @@ pub(super) fn band(scene: &DrawnCase, data: &BandCurves) -> Option<Figure> {
     let band = survey.band();
     let found = beside_orbits(scene, survey);
     let drawn = data.orbits.iter().flatten().map(|point| point[1]);
-    let highest = drawn.chain(found.iter().map(|(at, _)| at[1]));
+    let highest = drawn.chain(found.iter().map(|one| one.at[1]));
     let highest = highest.filter(|value| value.is_finite()).fold(0.0, f64::max);
     let rival = data.bare.iter().chain(&data.damper).map(|point| point[1]).fold(0.0, f64::max);
     // The bare oscillator's resonance is cut where it would hide the rest.
@@ -32,16 +32,27 @@ pub(super) fn band(scene: &DrawnCase, data: &BandCurves) -> Option<Figure> {
         BandOver::Amplitude => scene.forcing.0,
     };
     let chart = scene.chart([kind, &of::PEAK], [band.range, [0.0, top]]);
-    let marks = found.iter().map(|(at, what)| scene.mark(&chart, *at, what));
+    let marks = |exact: bool| {
+        let chosen = found.iter().filter(move |one| one.exact == exact);
+        chosen.map(|one| scene.mark(&chart, one.at, &one.what))
+    };
     let marker = Marker::filled(Shape::Cross).sized(7.0);
+    let ring = Marker::hollow(Shape::Circle).sized(5.0);
     let [stable, unstable] = &data.orbits;
+    // What is cut off is told.
+    let bare = survey.bare().1;
+    let without = match bare > top && bare.is_finite() {
+        true => format!("without absorber, up to {}", scene.text(&of::BARE_PEAK, bare)),
+        false => "without absorber".to_owned(),
+    };
     let mut panel = chart
         .panel()
-        .with(Layer::curve(Role::BareOscillator, data.bare.clone()).labelled("without absorber"))
+        .with(Layer::curve(Role::BareOscillator, data.bare.clone()).labelled(without))
         .with(damper(&data.damper))
         .with(Layer::curve(Role::Unstable, unstable.clone()).labelled("unstable 1:1"))
         .with(Layer::curve(Role::Stable, stable.clone()).labelled("stable 1:1 (exact)"))
-        .with(Layer::marked(marker, Role::Simulation.color(), marks).labelled("simulated"));
+        .with(Layer::marked(ring, Role::ExactOrbit.color(), marks(true)).labelled("other orbit"))
+        .with(Layer::marked(marker, Role::Simulation.color(), marks(false)).labelled("simulated"));
     if let Some(limit) = scene.limit.filter(|limit| *limit < top) {
         let style = Style::new(Color::Vermillion, 1.4, Dash::Dotted);
         panel = panel.with(Layer::horizontal(limit, style).labelled("limit"));
@@ -66,11 +77,20 @@ fn damper(line: &Line) -> Layer {
     Layer::curve(style, line.clone()).labelled("tuned mass damper")
 }
 
-/// Simulated peaks along the band where they are not the exact orbit's.
-fn beside_orbits(scene: &DrawnCase, survey: &Survey) -> Vec<([f64; 2], String)> {
+/// A motion along the band.
+struct Beside {
+    at: [f64; 2],
+    what: String,
+    /// Whether it is a proven orbit.
+    exact: bool,
+}
+
+/// Peaks along the band of what is on neither line of 1:1 orbits.
+fn beside_orbits(scene: &DrawnCase, survey: &Survey) -> Vec<Beside> {
     let mut found = Vec::new();
     for (at, here) in survey.motions.places() {
         for (_, motion) in here.counting(survey.count_rest) {
+            let exact = motion.orbit().is_some();
             let what = match motion.rest() {
                 Some(rest) => {
                     let share = scene.text(&of::INACTIVE_SHARE, rest.share);
@@ -79,10 +99,11 @@ fn beside_orbits(scene: &DrawnCase, survey: &Survey) -> Vec<([f64; 2], String)> 
                 None if motion.is_solved() => continue,
                 None => {
                     let impacts = motion.facts().impacts_per_period.value;
-                    format!("simulated, z = {}", scene.text(&of::IMPACTS_PER_PERIOD, impacts))
+                    let known = if exact { "exact orbit" } else { "simulated" };
+                    format!("{known}, z = {}", scene.text(&of::IMPACTS_PER_PERIOD, impacts))
                 }
             };
-            found.push(([*at, motion.facts().peak.value], what));
+            found.push(Beside { at: [*at, motion.facts().peak.value], what, exact });
         }
     }
     found
