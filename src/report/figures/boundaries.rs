@@ -34,15 +34,32 @@ pub(super) fn map(scene: &DrawnCase, data: &BoundaryMap) -> Figure {
     let third = grazing.map(MarkedPoint::from);
     let limits = data.exact.iter().flat_map(|at| {
         let bounds = at.symmetric.limits.iter().filter(|limit| limit.bounds_stability);
-        bounds.map(|limit| mark([at.frequency_ratio, limit.clearance], limit.kind.words()))
+        bounds.map(|limit| (at.frequency_ratio, limit))
     });
-    let small = |shape, marks: Vec<MarkedPoint>| {
-        Layer::marked(Marker::hollow(shape).sized(5.0), Role::ExactOrbit.color(), marks)
+    let limits: Vec<_> = limits.collect();
+    let small = |shape, color: Color, marks: Vec<MarkedPoint>| {
+        Layer::marked(Marker::hollow(shape).sized(5.0), color, marks)
     };
-    let panel = panel
-        .with(small(Shape::Square, third.collect()).labelled("Z2 ends (exact)"))
-        .with(small(Shape::Circle, limits.collect()).labelled("exact limits"))
-        .with(scene.star(&chart, [scene.system().frequency_ratio(), 1.0]));
+    let third = small(Shape::Square, Role::ExactOrbit.color(), third.collect());
+    let mut panel = panel.with(third.labelled("Z2 ends (exact)"));
+    // Each in the colour of the theory's line that it is the exact one of.
+    let color = |kind: Bifurcation| {
+        let line = COMPARED.iter().find(|(of, _)| *of == kind);
+        line.map_or(Role::ExactOrbit.color(), |(_, role)| role.style().color)
+    };
+    let mut kinds: Vec<Bifurcation> = Vec::new();
+    for (_, limit) in &limits {
+        if !kinds.contains(&limit.kind) {
+            kinds.push(limit.kind);
+        }
+    }
+    for (k, kind) in kinds.into_iter().enumerate() {
+        let of = limits.iter().filter(|(_, limit)| limit.kind == kind);
+        let marks = of.map(|(at, limit)| mark([*at, limit.clearance], kind.words()));
+        let layer = small(Shape::Circle, color(kind), marks.collect());
+        panel = panel.with(if k == 0 { layer.labelled("exact limits") } else { layer });
+    }
+    let panel = panel.with(scene.star(&chart, [scene.system().frequency_ratio(), 1.0]));
     let below = errors(scene, data);
     let figure = scene.figure("map", "captions/map", json!({ "compared": below.is_some() }));
     match below {
