@@ -23,12 +23,15 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 28] = [
+const NOT_IN_A_BROWSER: [&str; 31] = [
     "analyze",
+    "captions/choice",
+    "captions/optimize",
     "captions/record",
     "captions/release",
     "captions/sine-sweep",
     "captions/sweep",
+    "captions/tradeoff",
     "check.github",
     "check.txt",
     "check.xml",

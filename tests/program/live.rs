@@ -403,7 +403,7 @@ fn the_search_can_be_stopped() {
         const looks = best.textContent;
         best.click();
         await new Promise((done) => setTimeout(done, 50));
-        return [looks, best.textContent, document.querySelector('.live-status').textContent];
+        return [looks, best.textContent, document.querySelector('.live-advice').textContent];
     })()";
     assert_eq!(
         page.evaluate(stopped),
@@ -426,7 +426,7 @@ fn the_first_figures_need_no_theory() {
             let said = page.evaluate(&words).to_string();
             let theory = theirs.iter().any(|one| said.contains(one));
             assert_eq!(theory, detailed, "{name}: {said}");
-            assert_eq!(said.contains("two even impacts"), !detailed, "{name}: {said}");
+            assert_eq!(said.contains("two symmetric impacts"), !detailed, "{name}: {said}");
         }
         page.evaluate("document.querySelector('.live-detail input').click()");
         settle(&mut page);
@@ -554,6 +554,10 @@ fn the_first_screen_holds_still() {
         let said = page.evaluate(said);
         assert!(said[0].as_str().expect("a title").ends_with(", changed"), "{said}");
         assert_eq!(said[1], "");
+        // The menu says what was changed, and a case can be chosen anew.
+        let menu = page
+            .evaluate("document.querySelector('.live-bar select').selectedOptions[0].textContent");
+        assert_eq!(menu, "a footbridge at 2 Hz, changed");
     }
 }
 

@@ -105,6 +105,8 @@ function Live(place) {
   const status = make("p", { class: "live-status", role: "status" });
   const problem = make("p", { class: "live-problem", role: "alert", hidden: true });
   const headline = make("p", { class: "live-headline", role: "status" });
+  // What the search has found stands beside the verdict, until the case is another.
+  const advice = make("p", { class: "live-advice", role: "status" });
   const verdict = make("div", { class: "live-verdict", "aria-live": "polite" });
   const decision = make("div", { class: "live-decision", "aria-live": "polite" });
   const panel = make("form", { class: "live-sliders", "aria-label": "Sliders", onsubmit: (e) => e.preventDefault() });
@@ -140,7 +142,7 @@ function Live(place) {
       return;
     }
     const presets = here.ask({ ask: "presets" });
-    const parts = [["verdict", headline], ["running", running.figure], ["verdict", verdict], ["decision", decision]].filter(([name]) => wanted(name)).map(([, part]) => part);
+    const parts = [["verdict", headline], ["verdict", advice], ["running", running.figure], ["verdict", verdict], ["decision", decision]].filter(([name]) => wanted(name)).map(([, part]) => part);
     place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
       make("div", { class: "live-left" }, problem, panel), make("div", {}, ...parts, board, ...(shown ? [] : [make("label", { class: "live-detail" }, detail, " Name the theory's limits, with exact orbits beside them"), fold]))));
     const own = document.getElementById("live-case")?.textContent;
@@ -172,7 +174,7 @@ function Live(place) {
 
   function bar(presets) {
     choose = make("select", { onchange: () => { const of = choose.value; if (of !== "") { remember(); open(presets[of][1]); choose.value = of; } } },
-      make("option", { value: "" }, "choose a case"), ...presets.map(([name], k) => make("option", { value: k }, name)));
+      make("option", { value: "" }, "your case"), ...presets.map(([name], k) => make("option", { value: k }, name)));
     const use = button("Use this case file", () => { remember(); open(file.value); });
     const paste = make("details", { class: "live-file", ontoggle: () => { file.value = text; } },
       make("summary", {}, "Case file: copy or paste"), file, use, " ", button("Copy as case file", () => copy(text, "The case file is in the clipboard.")));
@@ -182,6 +184,9 @@ function Live(place) {
   }
 
   function say(words) { status.textContent = words; }
+  const changed = (name) => name.endsWith(", changed") ? name : `${name}, changed`;
+  /** What the menu calls a case that is none of its own. */
+  function named(name) { [choose.value, choose.options[0].textContent] = ["", name]; }
 
   async function copy(words, done) {
     try { await navigator.clipboard.writeText(words); say(done); }
@@ -241,7 +246,8 @@ function Live(place) {
       const { range, log, unit } = before.get(one.key) ?? one;
       if (range[0] <= one.value && one.value <= range[1]) Object.assign(one, { range, log, unit });
     }
-    choose.value = "";
+    named("your case");
+    advice.textContent = "";
     place.dataset.title = answer.title;
     sliders.clear();
     const rows = controls.map(slider), first = ["clearance", "restitution", "amplitude", "frequency", ...(chosen ?? [])];
@@ -304,10 +310,11 @@ function Live(place) {
     show(answer.controls);
     for (const one of answer.figures) draw(one);
     if (other) {
+      advice.textContent = "";
       running.change(text, "here");
       // It is no longer the case of that name.
-      choose.value = "";
-      panel.firstChild.textContent = `${place.dataset.title}, changed`;
+      named(changed(choose.selectedOptions[0].textContent));
+      panel.firstChild.textContent = changed(place.dataset.title);
     }
     const onlyCase = [...some.keys()].every((key) => key === "frequency" || key === "clearance");
     follow(some.size > 0 && onlyCase);
@@ -383,13 +390,15 @@ function Live(place) {
     clearInterval(clock);
     seeker.end();
     [stop, best.textContent] = [null, "Best clearance"];
-    if (!answer) return say("Stopped: the clearance is as it was.");
-    if (answer.problems) return complain(answer.problems);
-    say(answer.said);
-    if (!answer.text || from !== text) return;
-    remember();
-    open(answer.text, true);
-    panel.firstChild.textContent = `${place.dataset.title}, changed`;
+    if (answer?.problems) return complain(answer.problems);
+    if (answer?.text && from === text) {
+      const name = choose.selectedOptions[0].textContent;
+      remember();
+      open(answer.text, true);
+      named(changed(name));
+      panel.firstChild.textContent = changed(place.dataset.title);
+    }
+    advice.textContent = answer ? answer.said : "Stopped: the clearance is as it was.";
   }
 
   /** Where on its track the clearance has a stable 1:1 motion. */
@@ -403,7 +412,7 @@ function Live(place) {
     good.firstChild.style.marginLeft = `${100 * first}%`;
     good.firstChild.style.width = `${100 * (last - first)}%`;
     const end = (part) => Number((at(of, part) / of.unit.size).toPrecision(3));
-    good.lastChild.textContent = `two even impacts per period: ${end(first)} to ${end(last)} ${of.unit.symbol}`;
+    good.lastChild.textContent = `two symmetric impacts per period, by exact orbits: ${end(first)} to ${end(last)} ${of.unit.symbol}`;
   }
 
   /** Until everything on the page belongs to the sliders. */
@@ -439,7 +448,8 @@ function Live(place) {
     if (answer.problems) return complain(answer.problems);
     const [first, ...screen] = firstScreen(answer);
     headline.className = `live-headline ${answer.document.verdict.tone ?? ""}`;
-    headline.replaceChildren(...first);
+    const known = [...first].map((one) => one.textContent).join("");
+    headline.replaceChildren(...first, ...(/±|\(\+[\d.]+\s[^%d]/.test(known) ? [make("small", {}, " ± and brackets: how far it may be off")] : []));
     fresh(headline);
     const [section, ...others] = screen, balance = answer.balance ? [make("p", {}, answer.balance)] : [];
     verdict.replaceChildren(...balance, section, ...others, ...notes.map((note) => make("p", { class: "live-note" }, note)));
@@ -468,17 +478,24 @@ function Live(place) {
     return [first, table, ...others].filter(Boolean);
   }
 
+  /** A level in per cent, and what other brackets mean. */
+  const inPercent = (words) => words.replace(/\(([+−])([\d.]+)\sdB\)/, (_, sign, level) => {
+    const share = 100 * (10 ** ((sign === "−" ? -level : +level) / 20) - 1);
+    return `(${share < 0 ? "−" : "+"}${Math.abs(share) < 9.5 ? Math.abs(share).toPrecision(1) : Math.abs(share).toFixed(0)} %)`;
+  });
+
   /** The verdict's first words, the rest of it and the first numbers, from the Markdown of the report. */
   function firstScreen({ first_screen, document: { verdict: { tone } } }) {
     const lines = first_screen.split("\n");
     const quoted = (begin) => lines.filter((line) => line.startsWith(begin)).map((line) => line.slice(2));
-    const some = (begin) => quoted(begin).map(sentence), [first = "", ...others] = quoted("> ");
+    const [first = "", ...others] = quoted("> ");
     // "Works. 1.6 mm instead of 4 mm; ...", and why it is mixed.
     const why = /, not the steady [^;]*/.exec(first)?.[0].replace(/\.$/, "") ?? "", [amounts, ...parts] = first.split("; ");
-    const [begin, rest] = [amounts + why, parts.join("; ").replace(why, "")];
+    const rests = parts.findIndex((part) => part.includes("stays inactive")), idle = rests < 0 ? "" : `; ${parts.splice(rests, 1)[0].replace(/\.$/, "")}`;
+    const [begin, rest] = [inPercent(amounts) + why + idle, parts.join("; ").replace(why, "")];
     const said = [rest && rest[0].toUpperCase() + rest.slice(1), ...others].filter(Boolean).map(sentence);
     const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map(cells);
-    return [sentence(begin).childNodes, make("section", { class: `verdict ${tone ?? ""}`, hidden: !said.length }, ...said), ...some("- "),
+    return [sentence(begin).childNodes, make("section", { class: `verdict ${tone ?? ""}`, hidden: !said.length }, ...said), ...quoted("- ").map((line) => sentence(line.replace(/Line \d+ of the case: /, ""))),
       make("dl", { class: "live-numbers" }, ...names.map((name, k) => make("div", {}, make("dt", {}, name), make("dd", {}, numbers[k], make("small", {}, layers[k])))))];
   }
 
@@ -557,15 +574,16 @@ function Running(engine, say) {
   } }, "Sound");
   const speed = make("select", {}, ...[[0.5, "slow motion"], [2, "2 periods a second"], [10, "10 periods a second"], [200, "200 periods a second"]].map(([value, words]) =>
     make("option", { value, selected: value === 2 }, words)));
+  const upright = make("strong", { hidden: true }, "It moves up and down: the picture lies on its side. ");
   label();
   this.figure = make("figure", { class: "live-running", "data-name": "running" },
     make("div", { class: "live-bar" }, pause, make("label", {}, make("span", {}, "Speed "), speed), sound,
       make("button", { type: "button", onclick: () => this.change(this.text, "push") }, "With a push"),
       make("button", { type: "button", onclick: () => this.change(this.text, "rest") }, "From rest")),
     make("div", { class: "live-canvases" }, scene, motion),
-    make("figcaption", {}, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. The red arrow is the push of the ball on it, the arrow above the box the way that it moves: a push against that way brakes the structure. Grey and dashed: the same structure without an absorber."),
+    make("figcaption", {}, upright, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. The red arrow is the push of the ball on it, the arrow above the box the way that it moves: a push against that way brakes the structure. Grey and dashed: the same structure without an absorber."),
     make("details", {}, make("summary", {}, "Times between impacts"), map,
-      make("p", { class: "live-note" }, "The time between impacts over the one before, in periods; two evenly spaced impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents.")));
+      make("p", { class: "live-note" }, "The time between impacts over the one before, in periods; two symmetric impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents.")));
   new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(scene);
 
   /** Runs a case on from where the simulation is, or anew: at rest, or with an absorber that was pushed. */
@@ -575,6 +593,7 @@ function Running(engine, say) {
     if (answer.problems) return say(answer.problems[0].message);
     const before = of.clearance;
     of = { ...answer, unit: answer.unit || "b" };
+    upright.hidden = !answer.upright;
     if (from !== "here") { points = []; clock = simulated = largest = 0; }
     // Lengths of before are over another clearance.
     for (let k = 0; k < points.length; k += 3) { points[k + 1] *= before / of.clearance; points[k + 2] *= before / of.clearance; }

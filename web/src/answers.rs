@@ -6,7 +6,9 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use vinesink::answer::{Answer, Asked};
 use vinesink::band::Worst;
-use vinesink::case::{Case, CaseError, Objective, Problem, RewriteError, Rounding};
+use vinesink::case::{
+    Case, CaseError, Design, Objective, Orientation, Problem, RewriteError, Rounding,
+};
 use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
 use vinesink::linear::bare_amplitude;
@@ -115,11 +117,17 @@ fn answer(request: Request) -> Result<Value, Value> {
             let unit = case.units().unit(Dimension::Length, clearance);
             Ok(json!({
                 "clearance": clearance / unit.size, "unit": unit.symbol, "bare": running::bare(&system),
+                "upright": is_upright(&case),
             }))
         }
         Request::Judge { text } => judged(&parsed(&text)?),
         Request::Optimize { text } => best(&parsed(&text)?, &text),
     }
+}
+
+/// Whether its cavity is upright.
+fn is_upright(case: &Case) -> bool {
+    matches!(&case.design, Design::Physical(of) if of.orientation() == Some(Orientation::Vertical))
 }
 
 /// What `vinesink check --criteria-only` says of a case.

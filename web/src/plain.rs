@@ -8,10 +8,10 @@ use vinesink::report::figure::{Figure, Label};
 const NAMES: [(&str, &str); 9] = [
     ("without absorber", "without absorber"),
     ("tuned mass damper", "tuned mass damper of the same mass"),
-    ("stable 1:1 (theory)", "two even impacts (theory)"),
+    ("stable 1:1 (theory)", "two symmetric impacts (theory)"),
     ("Z4: no 1:1", "few impacts, or none"),
-    ("Z3: steady 1:1", "two even impacts per period"),
-    ("Z2: asymmetric", "two uneven impacts"),
+    ("Z3: steady 1:1", "two symmetric impacts per period"),
+    ("Z2: asymmetric", "two asymmetric impacts"),
     ("Z1: more impacts", "more than two impacts"),
     ("A1", "depends on the start"),
     ("A2", "it beats"),
@@ -52,8 +52,8 @@ fn renamed(label: &mut Label) -> bool {
 const fn simulated(regime: Regime) -> &'static str {
     match regime {
         Regime::AboveTwo => "simulated: more impacts",
-        Regime::TwoAsymmetric => "simulated: two uneven impacts",
-        Regime::TwoSymmetric => "simulated: two even impacts",
+        Regime::TwoAsymmetric => "simulated: two asymmetric impacts",
+        Regime::TwoSymmetric => "simulated: two symmetric impacts",
         Regime::StronglyModulated => "simulated: it beats",
         Regime::BelowTwo => "simulated: few impacts",
         Regime::AtRest => "simulated: no impacts",

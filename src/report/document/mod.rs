@@ -118,7 +118,7 @@ pub fn document(source: &Source) -> Value {
     let drawn = |name: &str| source.figures.iter().any(|figure| figure.name == name);
     let fields = json!({
         "name": source.name,
-        "verdict": verdict::verdict(study, judged),
+        "verdict": verdict::verdict(study, judged, case.count_inactive),
         // Numbers of the case, and those that its first screen, the index and a comparison show, by their id.
         "quantities": quantities(&scale, case, study),
         "criteria": criteria::criteria(case, judged),

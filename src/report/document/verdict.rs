@@ -39,10 +39,10 @@ pub enum Headline {
 
 /// The answer: good, mixed or bad; in a word, by the criteria or else by what the absorber does; at the case's
 /// own excitation; along the band, none without one or where nothing was found; and why it is worse.
-pub fn verdict(study: &CaseStudy, judged: &[Judged]) -> Value {
+pub fn verdict(study: &CaseStudy, judged: &[Judged], count_rest: bool) -> Value {
     let headline = headline(study);
     let band = along_band(study);
-    let without = || band.map_or_else(|| word(study, headline), Headline::word);
+    let without = || band.map_or_else(|| word(study, headline, count_rest), Headline::word);
     let word = badge(judged).unwrap_or_else(without);
     let worse = study.motions.main().filter(|_| headline == Headline::Worse);
     let confirmed = study.claims.iter().filter(|claim| claim.verdict == Verdict::Confirmed);
@@ -69,12 +69,14 @@ impl Headline {
     }
 }
 
-/// A smaller vibration is only good news where it is steady 1:1 resonance that starts were seen to end in.
-fn word(study: &CaseStudy, headline: Headline) -> Word {
+/// A smaller vibration is only good news where it is steady 1:1 resonance that starts were seen to end in, those of an absorber
+/// at rest among them.
+fn word(study: &CaseStudy, headline: Headline, count_rest: bool) -> Word {
     let steady = study.motions.main().is_some_and(Motion::is_one_to_one);
+    let rests = || study.motions.counting(count_rest).any(|(_, one)| one.rest().is_some());
     match headline {
         Headline::UnlimitedWithout if steady => Word::Works,
-        Headline::Less if !steady => Word::Mixed,
+        Headline::Less if !steady || rests() => Word::Mixed,
         other => other.word(),
     }
 }
