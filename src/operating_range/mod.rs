@@ -276,8 +276,14 @@ impl Outwards<'_> {
                 return Ok(true);
             };
             let [inside, beyond] = [outside - 1, outside].map(|k| &self.looked[k]);
+            let undecided = beyond.outcome == Together::Undecided;
+            // With more starts and longer windows an error may be smaller.
+            if undecided && !beyond.full {
+                self.looked[outside] = self.look(beyond.at, beyond.step, Look::AsCheck)?;
+                continue;
+            }
             // Where exactly an error begins to matter is not known any better.
-            let errs = beyond.blurred || beyond.outcome == Together::Undecided;
+            let errs = beyond.blurred || undecided;
             if errs || (beyond.at - inside.at).abs() <= beyond.step / FINEST {
                 return Ok(false);
             }

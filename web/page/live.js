@@ -493,7 +493,7 @@ function Live(place) {
     const why = /, not the steady [^;]*/.exec(first)?.[0].replace(/\.$/, "") ?? "", [amounts, ...parts] = first.split("; ");
     const rests = parts.findIndex((part) => part.includes("stays inactive")), idle = rests < 0 ? "" : `; ${parts.splice(rests, 1)[0].replace(/\.$/, "")}`;
     const [begin, rest] = [inPercent(amounts) + why + idle, parts.join("; ").replace(why, "")];
-    const said = [rest && rest[0].toUpperCase() + rest.slice(1), ...others].filter(Boolean).map(sentence);
+    const said = [rest && rest[0].toUpperCase() + rest.slice(1).replace(/([^.])$/, "$1."), ...others].filter(Boolean).map(sentence);
     const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map(cells);
     return [sentence(begin).childNodes, make("section", { class: `verdict ${tone ?? ""}`, hidden: !said.length }, ...said), ...quoted("- ").map((line) => sentence(line.replace(/Line \d+ of the case: /, ""))),
       make("dl", { class: "live-numbers" }, ...names.map((name, k) => make("div", {}, make("dt", {}, name), make("dd", {}, numbers[k], make("small", {}, layers[k])))))];
@@ -574,14 +574,14 @@ function Running(engine, say) {
   } }, "Sound");
   const speed = make("select", {}, ...[[0.5, "slow motion"], [2, "2 periods a second"], [10, "10 periods a second"], [200, "200 periods a second"]].map(([value, words]) =>
     make("option", { value, selected: value === 2 }, words)));
-  const upright = make("strong", { hidden: true }, "It moves up and down: the picture lies on its side. ");
+  const held = make("strong");
   label();
   this.figure = make("figure", { class: "live-running", "data-name": "running" },
     make("div", { class: "live-bar" }, pause, make("label", {}, make("span", {}, "Speed "), speed), sound,
       make("button", { type: "button", onclick: () => this.change(this.text, "push") }, "With a push"),
       make("button", { type: "button", onclick: () => this.change(this.text, "rest") }, "From rest")),
     make("div", { class: "live-canvases" }, scene, motion),
-    make("figcaption", {}, upright, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. The red arrow is the push of the ball on it, the arrow above the box the way that it moves: a push against that way brakes the structure. Grey and dashed: the same structure without an absorber."),
+    make("figcaption", {}, held, "The full system, impact by impact; a slider changes it while it runs. The box is the structure, the ball the absorber; a wall that is hit turns red. The red arrow is the push of the ball on it, the arrow above the box the way that it moves: a push against that way brakes the structure. Grey and dashed: the same structure without an absorber."),
     make("details", {}, make("summary", {}, "Times between impacts"), map,
       make("p", { class: "live-note" }, "The time between impacts over the one before, in periods; two symmetric impacts per period are the point (0.5, 0.5), on the line of all motions with two impacts per period. From rest the absorber may stay inactive, which a push prevents.")));
   new IntersectionObserver(([one]) => { shown = one.isIntersecting; }).observe(scene);
@@ -593,7 +593,7 @@ function Running(engine, say) {
     if (answer.problems) return say(answer.problems[0].message);
     const before = of.clearance;
     of = { ...answer, unit: answer.unit || "b" };
-    upright.hidden = !answer.upright;
+    held.textContent = answer.lies;
     if (from !== "here") { points = []; clock = simulated = largest = 0; }
     // Lengths of before are over another clearance.
     for (let k = 0; k < points.length; k += 3) { points[k + 1] *= before / of.clearance; points[k + 2] *= before / of.clearance; }

@@ -7,7 +7,8 @@ use serde_json::{Value, json};
 use vinesink::answer::{Answer, Asked};
 use vinesink::band::Worst;
 use vinesink::case::{
-    Case, CaseError, Design, Objective, Orientation, Problem, RewriteError, Rounding,
+    Case, CaseError, Design, Objective, Orientation, Problem, RewriteError, Rounding, Support,
+    SupportKind,
 };
 use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
@@ -15,7 +16,9 @@ use vinesink::linear::bare_amplitude;
 use vinesink::method::Method;
 use vinesink::optimize::{JudgedDesign, Optimization, Task};
 use vinesink::quantity::Dimension;
-use vinesink::quantity::catalogue::{CLEARANCE, LARGEST_PEAK, WORK};
+use vinesink::quantity::catalogue::{
+    CLEARANCE, LARGEST_PEAK, SUPPORT_FREQUENCY, SUPPORT_LENGTH, WORK,
+};
 use vinesink::quantity::numbers::significant;
 use vinesink::report::criteria;
 use vinesink::report::document::{self, Source};
@@ -117,7 +120,7 @@ fn answer(request: Request) -> Result<Value, Value> {
             let unit = case.units().unit(Dimension::Length, clearance);
             Ok(json!({
                 "clearance": clearance / unit.size, "unit": unit.symbol, "bare": running::bare(&system),
-                "upright": is_upright(&case),
+                "lies": lies(&case),
             }))
         }
         Request::Judge { text } => judged(&parsed(&text)?),
@@ -125,9 +128,23 @@ fn answer(request: Request) -> Result<Value, Value> {
     }
 }
 
-/// Whether its cavity is upright.
-fn is_upright(case: &Case) -> bool {
-    matches!(&case.design, Design::Physical(of) if of.orientation() == Some(Orientation::Vertical))
+/// How the ball is held, where the picture does not show it.
+fn lies(case: &Case) -> String {
+    let Design::Physical(of) = &case.design else { return String::new() };
+    let carried = || {
+        let support = of.support.filter(Support::carries)?;
+        let length = case.units().text(&SUPPORT_LENGTH, of.support_length_m()?);
+        let frequency = case.units().text(&SUPPORT_FREQUENCY, support.frequency_hz?);
+        Some(match support.kind {
+            SupportKind::Pendulum => {
+                format!("A pendulum of {frequency}, {length} long, holds the ball in the middle. ")
+            }
+            _ => format!("A soft spring of {frequency}, stretched by {length}, carries the ball. "),
+        })
+    };
+    let upright = of.orientation() == Some(Orientation::Vertical);
+    let side = if upright { "It moves up and down: the picture lies on its side. " } else { "" };
+    side.to_owned() + &carried().unwrap_or_default()
 }
 
 /// What `vinesink check --criteria-only` says of a case.
@@ -166,10 +183,16 @@ fn best(case: &Case, text: &str) -> Result<Value, Value> {
         ),
         _ => String::new(),
     };
+    let beside = match case.band {
+        None => {
+            " Beside this frequency it may be larger: a table [band] in the case file asks for a range."
+        }
+        Some(_) => "",
+    };
     let said = match task.objective {
         Objective::WorstAmplitude if helps => format!(
             "The best clearance is {clearance}: the largest peak of any motion that can happen {place}, an absorber that \
-             stays at rest included, is {best}; before it was {own}.{price}"
+             stays at rest included, is {best}; before it was {own}.{price}{beside}"
         ),
         Objective::WorstAmplitude => format!(
             "No clearance helps at this excitation; the least bad is {clearance}, with {best} instead of {own}."
@@ -336,14 +359,22 @@ fn balance(case: &Case, document: &Value) -> Option<String> {
     let velocity = system.frequency_ratio() * bare_amplitude(&system);
     let loss = 0.5 * system.mass_ratio() * system.damping() * velocity * velocity * system.period();
     let ratio = work / case.units().quantity(&WORK, loss, Method::ClosedForm).value;
-    let begins = match ratio > 0.0 && ratio.is_finite() {
-        true => format!(
-            "In a period the excitation puts in {} times the energy that it puts into the structure alone: of that",
-            significant(ratio, 2)
-        ),
-        false => "Of the energy that the excitation puts in".to_owned(),
+    let much = match ratio {
+        less if less > 0.0 && less < 1.0 => {
+            let share = significant(100.0 * less, 2);
+            format!(
+                " {share} % of what it puts into the structure alone, as the pushes also shift the resonance"
+            )
+        }
+        more if more.is_finite() && more > 0.0 => {
+            format!(" {} times what it puts into the structure alone", significant(more, 2))
+        }
+        _ => " energy".to_owned(),
     };
     let friction = motion["energy"]["friction"].is_object();
     let rest = if friction { "damping and friction" } else { "the structure's damping" };
-    Some(format!("{begins} impacts take {} %, {rest} the rest.", significant(taken, 2)))
+    Some(format!(
+        "Where the ball bounces the excitation puts in{much}. Of that impacts take {} %, {rest} the rest.",
+        significant(taken, 2)
+    ))
 }

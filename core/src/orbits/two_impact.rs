@@ -307,10 +307,8 @@ impl Pair {
         let count = (fastest * (half - from) / RADIANS).ceil().min(PIECES);
         // What is even in `s` is a function of its square, that has a slope at 0 too, where asymmetric orbits leave the
         // symmetric one.
-        let (squared, rooted): (fn(f64) -> f64, fn(f64) -> f64) = match symmetric {
-            true => (|s| s * s, f64::sqrt),
-            false => (|s| s, |s| s),
-        };
+        let squared = |s: f64| if symmetric { s * s } else { s };
+        let rooted = |at: f64| if symmetric { at.sqrt() } else { at };
         let narrowest = NARROWEST * squared(self.period);
         let edges: Vec<f64> = places([from, half], count as u32).map(squared).collect();
         let mut pieces: Vec<([f64; 2], Option<Interpolant>)> =

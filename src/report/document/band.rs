@@ -90,6 +90,7 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
         let change = change([worst.peak.value, worst.peak.error], method(&worst.motion));
         json!({
             "peak": peak(scale, worst),
+            "most": scale.units.quantity(&of::PEAK, worst.peak.value + worst.peak.error, method(&worst.motion)),
             "at": place(worst.at),
             "change": change,
             "motion": Motions::id(worst.index),

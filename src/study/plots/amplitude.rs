@@ -61,7 +61,9 @@ impl AmplitudeCurves {
             ratios.iter().map(at).collect()
         };
         let bare = linear(&bare_amplitude);
-        let damper = linear(&|there| study.rivals.damper.amplitude(there));
+        // The one that the page is about.
+        let rivals = study.band.as_ref().map_or(&study.rivals, |band| band.rivals());
+        let damper = linear(&|there| rivals.damper.amplitude(there));
         let half = 0.5 * (window[1] - window[0]) / f64::from(SWEEP);
         let middles: Vec<f64> = even(window[0] + half, window[1] - half, SWEEP - 1).collect();
         let simulated = visited(&middles, |ratio| system.with_frequency_ratio(ratio))?;
