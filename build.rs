@@ -23,15 +23,28 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 31] = [
+const NOT_IN_A_BROWSER: [&str; 44] = [
     "analyze",
+    "captions/areas",
+    "captions/basins",
+    "captions/bifurcations",
+    "captions/captures",
     "captions/choice",
+    "captions/clearances",
+    "captions/diagram",
+    "captions/dissipation",
+    "captions/exponents",
+    "captions/forcing",
+    "captions/modulation",
+    "captions/nearer",
     "captions/optimize",
     "captions/record",
     "captions/release",
+    "captions/restitutions",
     "captions/sine-sweep",
     "captions/sweep",
     "captions/tradeoff",
+    "captions/transfer",
     "check.github",
     "check.txt",
     "check.xml",

@@ -496,7 +496,8 @@ function Live(place) {
     const said = [rest && rest[0].toUpperCase() + rest.slice(1).replace(/([^.])$/, "$1."), ...others].filter(Boolean).map(sentence);
     const [names = [], , numbers = [], layers = []] = lines.filter((line) => line.startsWith("|")).map(cells);
     return [sentence(begin).childNodes, make("section", { class: `verdict ${tone ?? ""}`, hidden: !said.length }, ...said), ...quoted("- ").map((line) => sentence(line.replace(/Line \d+ of the case: /, ""))),
-      make("dl", { class: "live-numbers" }, ...names.map((name, k) => make("div", {}, make("dt", {}, name), make("dd", {}, numbers[k], make("small", {}, layers[k])))))];
+      make("dl", { class: "live-numbers" }, ...names.map((name, k) => make("div", {}, make("dt", {}, name), make("dd", {}, numbers[k], make("small", {}, layers[k]))))),
+      make("p", { class: "live-note" }, "A tuned mass damper is tuned to the structure and needs its stroke as room; the ball is not tuned and needs its cavity.")];
   }
 
   // The map's mark: an axis value is `at`, and one in SI `values`.
