@@ -175,3 +175,52 @@ fn a_place_that_is_looked_at_again_is_known_better() {
         }
     }
 }
+
+/// The second mode of a mast with a tenth of its mass in a ball: below resonance motions that never repeat, beside 1:1 motions
+/// that attract.
+fn mast(frequency_ratio: f64) -> System {
+    System::new(Parameters {
+        mass_ratio: 0.1,
+        damping: 0.1,
+        restitution: 0.3,
+        frequency_ratio,
+        forcing_per_clearance: 0.926,
+        excitation: Excitation::Force,
+        cavity: Cavity::IDEAL,
+    })
+    .expect("valid")
+}
+
+/// Excitation periods after which the longest of the motions that never repeat counted as one, by what a fourth of the
+/// patience and all of it say.
+#[test]
+fn what_was_told_from_a_transient_beside_a_place_is_waited_for_less() {
+    let wanders = |motions: &Motions| {
+        let wanders = |one: &&Motion| one.repeats_after().is_none() && one.rest().is_none();
+        let all: Vec<u64> =
+            motions.iter().filter(wanders).map(|one| one.reached().followed).collect();
+        assert!(motions.iter().all(Motion::settled), "still settling");
+        all.into_iter().max()
+    };
+    let (mut long, mut short) = (Vec::new(), Vec::new());
+    for k in 0..16 {
+        let place = Place::new(&mast(0.85 + 0.007 * f64::from(k)), 8);
+        let hasty = Place { patience: 0.25, ..place.clone() };
+        let [all, part] = [place, hasty].map(|place| wanders(&found(place)));
+        long.extend(all);
+        short.extend(part);
+    }
+    let mean = |all: &[u64]| all.iter().sum::<u64>() / all.len().max(1) as u64;
+    assert!(long.len() >= 8 && short.len() >= long.len(), "{long:?} {short:?}");
+    // What fades first, and a window, come to both.
+    assert!(2 * mean(&long) > 3 * mean(&short), "{long:?} {short:?}");
+    // Along a band the first of four places waits, and those between two of them less.
+    let range = [0.85, 0.908];
+    let band = Band { over: BandOver::Frequency, range, spectrum: Vec::new(), base: mast(0.88) };
+    let effort = Effort { band: BandEffort { most: 0, ..BandEffort::FULL }, ..Effort::default() };
+    let along = along(&band, &[], None, Some(&effort), &Serial).expect("finite");
+    let waited: Vec<u64> =
+        along.places().iter().filter_map(|(_, motions)| wanders(motions)).collect();
+    let less = waited.iter().filter(|one| 3 * **one < 2 * waited[0]).count();
+    assert!(waited.len() >= 20 && less * 2 > waited.len(), "{waited:?}");
+}

@@ -285,16 +285,20 @@ fn a_marked_point_is_told_by_the_arrow_keys_and_under_a_finger() {
         assert_eq!(press("ArrowLeft", 37), titles[0]);
         assert_eq!(press("ArrowLeft", 37), titles[titles.len() - 1]);
         assert_eq!(press("Escape", 27), "");
-        // A click is a finger's touch: near a point, and far from all.
+        // A click is a finger's touch: near a point, where no other is, and far from all.
         page.evaluate(
             "new Promise((done) => { drawing.scrollIntoView({ block: 'center', behavior: 'instant' });
                 requestAnimationFrame(() => requestAnimationFrame(done)); })",
         );
-        let point = "((box) => [box.x, box.y])(svg.querySelectorAll('svg * > title')[1].parentNode.getBoundingClientRect())";
-        let point = page.evaluate(point);
-        let [x, y] = [0, 1].map(|k| point[k].as_f64().expect("a number"));
+        let lonely = "(() => {
+            const at = [...svg.querySelectorAll('svg * > title')].map((title) => title.parentNode.getBoundingClientRect());
+            const room = at.map((a, k) => Math.min(...at.filter((_, j) => j !== k).map((b) => Math.hypot(a.x - b.x, a.y - b.y))));
+            const k = room.indexOf(Math.max(...room));
+            return [at[k].x, at[k].y, k]; })()";
+        let point = page.evaluate(lonely);
+        let [x, y, k] = [0, 1, 2].map(|k| point[k].as_f64().expect("a number"));
         page.drag([x, y], [x, y], 1);
-        assert_eq!(page.evaluate("told()"), titles[1]);
+        assert_eq!(page.evaluate("told()"), titles[k as usize]);
         let corner = "((box) => [box.x + 3, box.y + 3])(drawing.getBoundingClientRect())";
         let corner = page.evaluate(corner);
         let corner = [0, 1].map(|k| corner[k].as_f64().expect("a number"));
