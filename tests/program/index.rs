@@ -59,7 +59,7 @@ fn every_case_is_listed_with_its_verdict_and_numbers() {
     assert_eq!((code, message.as_str()), (0, ""));
     assert!(printed.contains("index.html\n") && printed.contains("README.md\n"), "{printed}");
     let markdown = read(&folder, "README.md");
-    assert!(markdown.contains("\n2 cases: 1 works, 1 makes it worse.\n"), "{markdown}");
+    assert!(markdown.contains("\n2 cases: 1 mixed, 1 makes it worse.\n"), "{markdown}");
     let rows: Vec<&str> = markdown.lines().filter(|line| line.starts_with("| [")).collect();
     assert!(rows[0].starts_with("| [a](a/report.md): Li 2016, 8 Hz, b = 15 mm; [accuracy and cost](a/tradeoff.md) | **Makes it worse**, 2 notes | "), "{}", rows[0]);
     assert!(
