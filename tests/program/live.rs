@@ -705,7 +705,10 @@ fn the_first_lines_say_why() {
     };
     let ratio = work("two-symmetric") / work("at-rest");
     let verdict = said(&mut page, ".live-verdict");
-    assert!(verdict.contains(&format!(" {ratio:.1} times what it puts into the structure alone")), "{ratio}: {verdict}");
+    assert!(
+        verdict.contains(&format!(" {ratio:.1} times what it puts into the structure alone")),
+        "{ratio}: {verdict}"
+    );
     assert!(verdict.contains("impacts take 72 %, the structure's damping the rest."), "{verdict}");
     // Before a frame moves it.
     let begins = page.evaluate(&format!(
