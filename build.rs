@@ -23,28 +23,8 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 44] = [
+const NOT_IN_A_BROWSER: [&str; 24] = [
     "analyze",
-    "captions/areas",
-    "captions/basins",
-    "captions/bifurcations",
-    "captions/captures",
-    "captions/choice",
-    "captions/clearances",
-    "captions/diagram",
-    "captions/dissipation",
-    "captions/exponents",
-    "captions/forcing",
-    "captions/modulation",
-    "captions/nearer",
-    "captions/optimize",
-    "captions/record",
-    "captions/release",
-    "captions/restitutions",
-    "captions/sine-sweep",
-    "captions/sweep",
-    "captions/tradeoff",
-    "captions/transfer",
     "check.github",
     "check.txt",
     "check.xml",
@@ -69,6 +49,9 @@ const NOT_IN_A_BROWSER: [&str; 44] = [
     "sweep",
     "tradeoff",
 ];
+/// Captions of the figures that it draws, in `templates/captions/`.
+const CAPTIONS_OF_A_BROWSER: [&str; 9] =
+    ["amplitude", "map", "map-plain", "motion", "plane", "ranges", "response", "return-map", "sim"];
 
 /// Writes a list of every file of `templates/`: its path there without `.tera`, and its text. Those of the crate
 /// `evidence` are among them: they are filled in with the filters and components of the others.
@@ -77,11 +60,16 @@ fn templates() -> Result<(), Box<dyn Error>> {
     let mut list = String::from("&[\n");
     for file in files(&["templates"])? {
         let name = file.strip_prefix("templates")?.display().to_string();
-        if browser && NOT_IN_A_BROWSER.iter().any(|begin| name.starts_with(begin)) {
+        let name = name.trim_end_matches(".tera");
+        let needed = match name.strip_prefix("captions/") {
+            Some(caption) => CAPTIONS_OF_A_BROWSER.contains(&caption),
+            None => !NOT_IN_A_BROWSER.iter().any(|begin| name.starts_with(begin)),
+        };
+        if browser && !needed {
             continue;
         }
         let path = std::path::absolute(&file)?;
-        list += &format!("({:?}, include_str!({path:?})),\n", name.trim_end_matches(".tera"));
+        list += &format!("({:?}, include_str!({path:?})),\n", name);
     }
     let folder = std::env::var("OUT_DIR")?;
     Ok(std::fs::write(Path::new(&folder).join("templates.rs"), list + "]\n")?)

@@ -191,8 +191,8 @@ fn mast(frequency_ratio: f64) -> System {
     .expect("valid")
 }
 
-/// Excitation periods after which the longest of the motions that never repeat counted as one, by what a fourth of the
-/// patience and all of it say.
+/// A motion that never repeats counts as one earlier with a quarter of the patience, and that is what is left at the places of
+/// a band between two that had all of it.
 #[test]
 fn what_was_told_from_a_transient_beside_a_place_is_waited_for_less() {
     let wanders = |motions: &Motions| {

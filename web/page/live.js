@@ -594,7 +594,7 @@ function Running(engine, say) {
     if (answer.problems) return say(answer.problems[0].message);
     const before = of.clearance;
     of = { ...answer, unit: answer.unit || "b" };
-    held.textContent = answer.lies;
+    held.textContent = answer.carried;
     if (from !== "here") { points = []; clock = simulated = largest = 0; }
     // Lengths of before are over another clearance.
     for (let k = 0; k < points.length; k += 3) { points[k + 1] *= before / of.clearance; points[k + 2] *= before / of.clearance; }

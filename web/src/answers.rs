@@ -6,19 +6,14 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use vinesink::answer::{Answer, Asked};
 use vinesink::band::Worst;
-use vinesink::case::{
-    Case, CaseError, Design, Objective, Orientation, Problem, RewriteError, Rounding, Support,
-    SupportKind,
-};
+use vinesink::case::{Case, CaseError, Objective, Problem, RewriteError, Rounding};
 use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
 use vinesink::linear::bare_amplitude;
 use vinesink::method::Method;
 use vinesink::optimize::{JudgedDesign, Optimization, Task};
 use vinesink::quantity::Dimension;
-use vinesink::quantity::catalogue::{
-    CLEARANCE, LARGEST_PEAK, SUPPORT_FREQUENCY, SUPPORT_LENGTH, WORK,
-};
+use vinesink::quantity::catalogue::{CLEARANCE, LARGEST_PEAK, WORK};
 use vinesink::quantity::numbers::significant;
 use vinesink::report::criteria;
 use vinesink::report::document::{self, Source};
@@ -120,7 +115,7 @@ fn answer(request: Request) -> Result<Value, Value> {
             let unit = case.units().unit(Dimension::Length, clearance);
             Ok(json!({
                 "clearance": clearance / unit.size, "unit": unit.symbol, "bare": running::bare(&system),
-                "lies": lies(&case),
+                "carried": carried(&case)?,
             }))
         }
         Request::Judge { text } => judged(&parsed(&text)?),
@@ -128,23 +123,11 @@ fn answer(request: Request) -> Result<Value, Value> {
     }
 }
 
-/// How the ball is held, where the picture does not show it.
-fn lies(case: &Case) -> String {
-    let Design::Physical(of) = &case.design else { return String::new() };
-    let carried = || {
-        let support = of.support.filter(Support::carries)?;
-        let length = case.units().text(&SUPPORT_LENGTH, of.support_length_m()?);
-        let frequency = case.units().text(&SUPPORT_FREQUENCY, support.frequency_hz?);
-        Some(match support.kind {
-            SupportKind::Pendulum => {
-                format!("A pendulum of {frequency}, {length} long, holds the ball in the middle. ")
-            }
-            _ => format!("A soft spring of {frequency}, stretched by {length}, carries the ball. "),
-        })
-    };
-    let upright = of.orientation() == Some(Orientation::Vertical);
-    let side = if upright { "It moves up and down: the picture lies on its side. " } else { "" };
-    side.to_owned() + &carried().unwrap_or_default()
+/// How the ball is held, which the picture does not show; nothing where the case does not say.
+fn carried(case: &Case) -> Result<String, Value> {
+    let Some(support) = document::support(case) else { return Ok(String::new()) };
+    let facts = json!({ "support": support });
+    template::render("carried.md", &case.units(), &facts).map_err(words)
 }
 
 /// What `vinesink check --criteria-only` says of a case.

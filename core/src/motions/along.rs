@@ -152,7 +152,7 @@ const FINEST: f64 = 0.1;
 const FINEST_AMPLITUDE: f64 = 1.0 / 256.0;
 /// Smallest finest distance, over the band.
 const NARROWEST: f64 = 1.0 / 4096.0;
-/// Of the first places every so manieth is searched before those between.
+/// Of the first places one of so many is searched before those between.
 const SPARSE: usize = 4;
 /// Share of the patience with what may be a transient that is left where it was told from one before: at the same place, or
 /// on either side of it.
@@ -293,6 +293,11 @@ impl Spot {
     }
 }
 
+/// The patience that is left where others may have waited.
+const fn patience(waited: bool) -> f64 {
+    if waited { WAITED } else { 1.0 }
+}
+
 fn largest_of(spots: &[Spot]) -> f64 {
     spots.iter().map(Spot::peak).fold(0.0, f64::max)
 }
@@ -379,8 +384,7 @@ impl Sampler<'_> {
                 false => beside.iter().flat_map(|place| place.states(0.0)).collect(),
             };
             // Both have waited for what may be the same transient.
-            let waited = beside.len() == 2 && beside.iter().all(Spot::has_waited);
-            let patience = if waited { WAITED } else { 1.0 };
+            let patience = patience(beside.len() == 2 && beside.iter().all(Spot::has_waited));
             Some((at, Place { further, patience, ..Place::new(&system, starts) }))
         };
         let (at, places): (Vec<f64>, Vec<Place>) = places.into_iter().filter_map(place).unzip();
@@ -401,7 +405,7 @@ impl Sampler<'_> {
             if let (false, Ok(system)) = (further.is_empty(), self.band.system(spots[k].at)) {
                 chosen.push((k, beside.map(Spot::peak).fold(0.0, f64::max)));
                 let known = spots[k].motions.iter().cloned().collect();
-                let patience = if spots[k].has_waited() { WAITED } else { 1.0 };
+                let patience = patience(spots[k].has_waited());
                 places.push(Place { further, known, patience, ..Place::with(&system, Vec::new()) });
             }
         }

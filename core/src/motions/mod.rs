@@ -128,7 +128,7 @@ pub struct Place {
     pub further: Vec<State>,
     /// Motions that are known already; they keep their places in the list.
     pub known: Vec<Motion>,
-    /// Share of the patience with what may be a transient that is left: places on either side had it.
+    /// Share of [`Effort::patience`] with what may be a transient, 0 to 1: less than 1 where that was told from one beside it.
     pub patience: f64,
 }
 

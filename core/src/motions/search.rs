@@ -191,7 +191,8 @@ struct Ground {
     late: Vec<usize>,
     /// What the others were like when they were measured, if they still are.
     open: Vec<Option<WindowSample>>,
-    /// Periods of a window, and windows that each start flies on, whatever else is known.
+    /// Periods of a window, windows that each start flies on, whatever else is known, the patience with all of them, and how
+    /// often starts are flown on at most.
     periods: u64,
     alone: f64,
     patience: f64,

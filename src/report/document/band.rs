@@ -87,10 +87,12 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
     let own = band.own();
     let worst_motion = survey.worst();
     let worst = worst_motion.as_ref().map(|worst| {
-        let change = change([worst.peak.value, worst.peak.error], method(&worst.motion));
+        let (peak_and_error, by) = ([worst.peak.value, worst.peak.error], method(&worst.motion));
+        let change = change(peak_and_error, by);
+        let most = scale.units.quantity(&of::PEAK, peak_and_error.iter().sum(), by);
         json!({
             "peak": peak(scale, worst),
-            "most": scale.units.quantity(&of::PEAK, worst.peak.value + worst.peak.error, method(&worst.motion)),
+            "most": most,
             "at": place(worst.at),
             "change": change,
             "motion": Motions::id(worst.index),

@@ -13,7 +13,7 @@ use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method::{self, ClosedForm};
 use crate::operating_range::{Combined, Edge, HoldsFor, Reliability, Varied};
-use crate::quantity::catalogue::{self as of};
+use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 use crate::system::Parameter;
 

@@ -33,7 +33,7 @@ use crate::system::Parameter;
 pub(super) use band::{AbsorberAlong, damper, outside};
 pub use decision::{decide, edges};
 pub use notes::theory_limits;
-pub use scale::{Scale, cavity};
+pub use scale::{Scale, cavity, support};
 pub use word::{Tone, Word};
 
 /// Name and version of the format of what is known of a case: `report.json`, and what `analyze` and `simulate` print.
