@@ -3,7 +3,6 @@
 //!
 //! For the program itself: this module may change at any time.
 
-use crate::analysis::FreeDecay;
 use crate::answer::{Answer, Asked, Decided};
 use crate::case::{Case, CaseError, Objective, Problem, Rounding, StartingLine};
 use crate::criteria::{Judged, all_hold};
@@ -12,10 +11,11 @@ use crate::flights::DrivenError;
 use crate::measure::Measure;
 use crate::operating_range::{Edge, edges};
 use crate::optimize::design::missed_by;
+use crate::optimize::guess::{self, MISSES};
 use crate::optimize::{self, OptimizeError, Task};
 use crate::quantity::numbers::rounded_to;
 use crate::study::StudyError;
-use crate::system::{Excitation, Parameter};
+use crate::system::Parameter;
 use crate::transient::best_clearance;
 
 /// How the structure is set in motion.
@@ -159,12 +159,8 @@ pub const RESTITUTION: f64 = 0.3;
 /// Half of the band about the natural frequency where none is given: an absorber of 10 % of the mass, moving with the
 /// structure, lowers its resonance by 5 %, and a natural frequency is hardly known to another 5 %.
 pub const HALF_BAND: f64 = 0.1;
-/// Force of an absorber in phase with the velocity, over its mass times omega0^2 times the clearance: 0.78 at the fold and
-/// 0.50 at symmetry breaking for r = 0.6.
-const FORCE: f64 = 0.55;
-/// Factor by which the closed form of the clearance may miss the best, either way; also of what it promises.
-const MISSES: f64 = 1.7;
-/// The same of a release, in which the absorber passes through every regime.
+/// Factor by which the closed form of the clearance may miss the best of a release, in which the absorber passes through
+/// every regime.
 const MISSES_OF_RELEASE: f64 = 4.0;
 /// Part of its clearance that a proposal at an edge gives up at once, and how often.
 const STEP: f64 = 0.05;
@@ -177,7 +173,7 @@ impl Wishes {
     /// [`CaseError`] where what was said makes no case.
     pub fn first(&self, title: &str) -> Result<Case, Box<CaseError>> {
         let (_, case) = self.case(title, MASS_RATIOS[0], "1 mm")?;
-        Ok(self.case(title, MASS_RATIOS[0], &written(guess(&case)[0]))?.1)
+        Ok(self.case(title, MASS_RATIOS[0], &written(guess::clearance(&case)[0]))?.1)
     }
 
     /// The case with an absorber of a mass ratio; its clearance is of no meaning yet.
@@ -233,36 +229,6 @@ impl Wishes {
         }
         read(&lines)
     }
-}
-
-/// The clearance of a case by closed form, and what it promises: the largest displacement, or the time to come to rest.
-///
-/// At resonance damper and absorber carry the force, `P = k A 2 zeta + 0.55 eps k b` with the amplitude `A`, which is about
-/// the clearance where the absorber still follows in 1:1 resonance: `A = b`. Beside resonance the stiffness carries its part.
-/// Released, an absorber is captured down to the fold of the slow manifold: it lies at the amplitude at which the structure
-/// has come to rest; until then it acts as dry friction beside the damper.
-fn guess(case: &Case) -> [f64; 2] {
-    let (system, design) = (case.system(), &case.design);
-    let zeta = 0.5 * system.mass_ratio() * system.damping();
-    let absorber = FORCE * system.mass_ratio();
-    if let Some(from) = design.value(Parameter::InitialDisplacement) {
-        let clearance = case.decay_level * from / FreeDecay::of(&system).residual_amplitude();
-        // dA/dtau = -zeta A - 0.55 eps b/2.
-        let friction = 0.5 * absorber * clearance;
-        let ratio = (zeta * from + friction) / (zeta * case.decay_level * from + friction);
-        return [clearance, case.units().time(libm::log(ratio) / zeta)];
-    }
-    let amplitude = design.value(Parameter::Amplitude).unwrap_or_default();
-    let [from, to] = case.range().range;
-    let at = 1.0_f64.clamp(from, to);
-    let still = match system.excitation() {
-        Excitation::Force => {
-            amplitude / design.value(Parameter::Stiffness).unwrap_or(f64::INFINITY)
-        }
-        Excitation::BaseDisplacement => amplitude * libm::hypot(1.0, 2.0 * zeta * at),
-    };
-    let clearance = still / libm::hypot(1.0 - at * at, (2.0 * zeta + absorber) * at);
-    [clearance, clearance]
 }
 
 /// A length as a person writes it.
@@ -341,7 +307,7 @@ impl Proposal {
         let mut ruled_out = [Vec::new(), Vec::new()];
         for (k, ratio) in ratios.iter().enumerate() {
             let (_, case) = wishes.case(title, *ratio, "1 mm")?;
-            let [clearance, promised] = guess(&case);
+            let [clearance, promised] = guess::clearance(&case);
             let limit = case.criteria.first().map_or(f64::INFINITY, |one| one.limit);
             // The closed form is not so far off.
             if promised > MISSES * limit && k + 1 < ratios.len() {

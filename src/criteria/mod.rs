@@ -10,9 +10,12 @@ mod scope;
 
 use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation};
+use crate::excitation::Scene;
+use crate::linear::{BandSystems, bare_amplitude};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
+use crate::system::System;
 use crate::transient::Study;
 
 use scope::Scope;
@@ -88,6 +91,27 @@ const ROUNDING: f64 = 1e-9;
 /// Whether criteria can only be judged with simulation.
 pub fn needs_simulation(criteria: &[Criterion]) -> bool {
     criteria.iter().any(|one| one.measure.is_of_motions())
+}
+
+/// Whether a structure that is driven steadily meets what is asked of it without an absorber too; not where only an absorber
+/// can, or nothing is asked of the structure.
+pub fn kept_without_absorber(case: &Case) -> bool {
+    let (range, units) = (case.range(), case.units());
+    let along = BandSystems::of(&range);
+    let keeps = |one: &Criterion| {
+        let of =
+            |system: &System| one.measure.of_sine(bare_amplitude(system), system.frequency_ratio());
+        match (one.measure, one.measure.kind(Device::Without)) {
+            (Measure::ImpactSpeed | Measure::ImpactsPerPeriod | Measure::NoCoexistence, _) => None,
+            (_, Some(kind)) if of(&range.base).is_some() && one.relation == Relation::AtMost => {
+                let (_, largest) = along.largest(|system| of(system).unwrap_or(f64::INFINITY));
+                Some(units.number(kind.dimension, largest) <= one.limit)
+            }
+            _ => Some(false),
+        }
+    };
+    let kept: Vec<bool> = case.criteria.iter().filter_map(keeps).collect();
+    case.design.scene() == Scene::Steady && !kept.is_empty() && !kept.contains(&false)
 }
 
 /// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst

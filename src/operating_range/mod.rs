@@ -68,6 +68,8 @@ pub struct HoldsFor {
     pub holds: Option<[f64; 2]>,
     /// Places in it at which an error could turn a criterion: from one that is decided to the next.
     pub undecided: Vec<[f64; 2]>,
+    /// Whether the structure alone keeps the limits of its motion too where all that holds ends, or where the stretch does.
+    pub kept_alone: [bool; 2],
     /// Places that were looked at, ascending, those beyond the ends too, and what the first criterion found there.
     pub reached: Vec<[f64; 2]>,
 }
@@ -131,12 +133,19 @@ pub fn holds_for(
             }
             joins
         });
+        let range = [below.end, above.end];
+        let holds = (own == Together::Hold).then_some([below.holds, above.holds]);
+        let kept_alone = holds.unwrap_or(range).map(|end| {
+            let there = parameter.parameter(case).and_then(|one| case.varied(one, end));
+            there.is_some_and(|case| criteria::kept_without_absorber(&case))
+        });
         found.push(HoldsFor {
             parameter,
             value,
-            range: [below.end, above.end],
+            range,
             open: [below.open, above.open],
-            holds: (own == Together::Hold).then_some([below.holds, above.holds]),
+            holds,
+            kept_alone,
             undecided,
             reached,
         });

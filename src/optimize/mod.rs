@@ -11,6 +11,7 @@
 pub mod chart;
 pub mod claim;
 pub mod design;
+pub mod guess;
 pub mod robust;
 pub mod search;
 pub mod sensitivity;
@@ -23,7 +24,7 @@ pub use task::{Bounds, Task};
 
 use crate::analysis::Strip;
 use crate::band::theory;
-use crate::case::{self, Case, Objective, RewriteError, Rewritten};
+use crate::case::{self, Case, Criterion, Objective, Relation, RewriteError, Rewritten};
 use crate::executor::Executor;
 use crate::flights::DrivenError;
 use crate::measure::Measure;
@@ -67,6 +68,9 @@ pub struct Optimization {
     pub own: JudgedDesign,
     /// Where no absorber meets all criteria: the one that misses them least.
     pub closest: Option<JudgedDesign>,
+    /// The mass ratio with which by the first guess the displacement that a criterion allows is reached, where no absorber
+    /// meets all criteria.
+    pub needed_mass_ratio: Option<f64>,
     /// The best in expectation, where something is uncertain.
     pub robust: Option<robust::Robust>,
     /// Every absorber that was judged, in the order of the clearance.
@@ -134,6 +138,10 @@ impl Optimization {
         let again = judge.judged(again, executor)?;
         let closest = designs.iter().chain([&own]).filter(|_| !best.is_feasible());
         let closest = closest.min_by(|a, b| a.violation().total_cmp(&b.violation())).cloned();
+        let allows =
+            |one: &&Criterion| one.measure == Measure::Peak && one.relation == Relation::AtMost;
+        let limit = task.case.criteria.iter().find(allows).filter(|_| closest.is_some());
+        let needed = limit.and_then(|one| guess::mass_ratio(&task.case, one.limit));
         let watched = (task.objective == Objective::WorstAmplitude).then_some(Measure::Peak);
         let edges = match best.is_feasible() {
             true => edges(&best.written.case, watched, &task.effort, executor)?,
@@ -142,6 +150,7 @@ impl Optimization {
         designs.sort_by(|a, b| a.choice.clearance().total_cmp(&b.choice.clearance()));
         Ok(Self {
             closest,
+            needed_mass_ratio: needed.filter(|one| *one > best.written.case.system().mass_ratio()),
             judged: designs,
             robust,
             plateau: proposed.plateau,

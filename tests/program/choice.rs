@@ -110,6 +110,26 @@ fn ranges_end_where_check_says_so() {
     assert!(ends >= 12 && held >= 12, "{ends} ends, {held} of what holds");
 }
 
+/// A range that goes to where no absorber is needed says so: a structure at resonance moves by x_st/(2 zeta) without one.
+#[test]
+fn a_range_says_where_the_structure_alone_keeps_the_limit() {
+    let text = "title = 't'\nsource = 's'\n[oscillator]\nmass = \"10 kg\"\nfrequency = \"5 Hz\"\ndamping_ratio = 0.02\n\
+                [absorber]\nmass = \"0.5 kg\"\nclearance = \"0.8 mm\"\nrestitution = 0.5\n\
+                [excitation]\nkind = \"force\"\namplitude = \"0.7 N\"\nfrequency = \"5 Hz\"\n\
+                [criteria]\npeak_displacement = \"<= 1.2 mm\"\n";
+    let case = Case::parse("case.toml", text).expect("valid");
+    let judged = Answer::of(&case, Asked::Criteria, None, &Serial).expect("judged").judged;
+    let (all, effort) = ([Varied::Amplitude], case.effort());
+    let ranges = holds_for(&case, &judged, &all, Together::Hold, &effort, &Serial);
+    let range = ranges.expect("ranges").remove(0);
+    let stiffness = 10.0 * libm::pow(std::f64::consts::TAU * 5.0, 2.0);
+    let alone = |force: f64| force / (stiffness * 0.04) <= 1.2e-3;
+    let ends = range.holds.expect("it holds");
+    println!("{ends:?} N, the limit alone at {} N", 1.2e-3 * stiffness * 0.04);
+    assert_eq!((alone(range.value), range.kept_alone), (false, ends.map(alone)), "{range:?}");
+    assert_eq!(range.kept_alone, [true, false]);
+}
+
 /// What is said of an amplitude and a natural frequency that change at once is what `check` says of that case, on designs that
 /// nobody tuned to: what fails there fails, and what holds does not fail.
 #[test]

@@ -159,6 +159,18 @@ fn the_best_of_those_that_meet_the_criteria_wins() {
     assert!(answer.starts_with(lead) && answer.contains("asked ≤ 1 mm"), "{told}");
     assert!(told.contains("\nA tuned mass damper of the same mass"), "{told}");
     assert!(told.contains("\nbest by the objective  "), "{told}");
+    // A mass that would: at resonance damping and absorber carry the force, x_st = 1 mm (2 zeta + 0.55 eps).
+    let needed = none.needed_mass_ratio.expect("none has enough");
+    let damped = {
+        let system = case(&text).system();
+        system.mass_ratio() * system.damping()
+    };
+    let still = case(&text).design.value(Parameter::Amplitude).expect("it is driven");
+    let still = still * libm::hypot(1.0, damped);
+    let right = (damped + 0.55 * needed) * 1e-3;
+    assert!((still / right - 1.0).abs() < 1e-9, "{needed}: {still} {right}");
+    assert!(told.contains("the limit asks for an absorber of"), "{told}");
+    assert!(bound.needed_mass_ratio.is_none());
 }
 
 /// Standard normal numbers with a fixed beginning, by Box and Muller.

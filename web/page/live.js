@@ -386,7 +386,9 @@ function Live(place) {
     const looking = () => { best.textContent = `Stop looking (${seconds} s)`; seconds += 1; };
     looking();
     const clock = setInterval(looking, 1000);
-    const from = text, answer = await Promise.race([seeker.ask({ ask: "optimize", text }), ended]);
+    const from = text, few = await Promise.race([seeker.ask({ ask: "optimize_few", text }), ended]);
+    if (few?.said) advice.textContent = few.said;
+    const answer = few && await Promise.race([seeker.ask({ ask: "optimize", text }), ended]);
     clearInterval(clock);
     seeker.end();
     [stop, best.textContent] = [null, "Best clearance"];
@@ -412,7 +414,7 @@ function Live(place) {
     good.firstChild.style.marginLeft = `${100 * first}%`;
     good.firstChild.style.width = `${100 * (last - first)}%`;
     const end = (part) => Number((at(of, part) / of.unit.size).toPrecision(3));
-    good.lastChild.textContent = `two symmetric impacts per period, by exact orbits: ${end(first)} to ${end(last)} ${of.unit.symbol}`;
+    good.lastChild.textContent = `two symmetric impacts per period: ${end(first)} to ${end(last)} ${of.unit.symbol}`;
   }
 
   /** Until everything on the page belongs to the sliders. */

@@ -11,7 +11,7 @@ use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
 use vinesink::linear::bare_amplitude;
 use vinesink::method::Method;
-use vinesink::optimize::{JudgedDesign, Optimization, Task};
+use vinesink::optimize::{self, JudgedDesign, Optimization, Task};
 use vinesink::quantity::Dimension;
 use vinesink::quantity::catalogue::{CLEARANCE, LARGEST_PEAK, WORK};
 use vinesink::quantity::numbers::significant;
@@ -59,6 +59,8 @@ enum Request {
     Run { text: String, from: From },
     /// The criteria of a case, over its band where it has one, in Markdown.
     Judge { text: String },
+    /// The best of a few absorbers: what may be said while [`Request::Optimize`] is waited for.
+    OptimizeFew { text: String },
     /// The absorber that serves a case best, as the program chooses it.
     Optimize { text: String },
 }
@@ -119,6 +121,7 @@ fn answer(request: Request) -> Result<Value, Value> {
             }))
         }
         Request::Judge { text } => judged(&parsed(&text)?),
+        Request::OptimizeFew { text } => best_of_few(&parsed(&text)?, &text),
         Request::Optimize { text } => best(&parsed(&text)?, &text),
     }
 }
@@ -136,6 +139,31 @@ fn judged(case: &Case) -> Result<Value, Value> {
     let answer = answer.map_err(words)?;
     let table = criteria::table("Criteria", case, &answer.judged).map_err(words)?;
     Ok(json!({ "markdown": unbroken(&table) }))
+}
+
+/// What is said of the best of a few absorbers, each judged over the band as `check` judges it; nothing of a case without
+/// one, whose search takes no longer.
+fn best_of_few(case: &Case, text: &str) -> Result<Value, Value> {
+    if case.band.is_none() {
+        return Ok(json!({ "said": null }));
+    }
+    let task = Task::of(case, None).map_err(words)?;
+    let found = optimize::best_of_few(&task, text, &Serial).map_err(words)?;
+    let units = case.units();
+    let clearance = units.text(&CLEARANCE, found.choice.clearance());
+    let about = match task.objective {
+        Objective::WorstAmplitude => {
+            format!(", with a peak of {} at most", units.text(&LARGEST_PEAK, found.value))
+        }
+        _ => String::new(),
+    };
+    let holds = match found.is_feasible() {
+        true => "",
+        false => "; it does not meet what the case asks for",
+    };
+    Ok(
+        json!({ "said": format!("Best so far: a clearance of {clearance}{about}{holds}. The search goes on.") }),
+    )
 }
 
 /// The case with the best absorber, where that is better than its own and meets what it asks for, and what is said of it.

@@ -9,6 +9,7 @@ use super::scale::Scale;
 use crate::alternatives::{Alternatives, DESIGN, Row, Which};
 use crate::answer::Answer;
 use crate::case::{Case, Relation};
+use crate::criteria::kept_without_absorber;
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method::{self, ClosedForm};
@@ -102,6 +103,9 @@ fn choice(case: &Case, found: &Alternatives) -> Value {
         "of_time": found.measure == Measure::DecayTime,
         "limit": limit.map(|one| Quantity::new(kind, one.limit, Method::Given)),
         "strokes": devices.iter().map(|which| largest_stroke(case, found, *which)).collect::<Vec<_>>(),
+        // Of the damper that is best for the case.
+        "damper_stroke": largest_stroke(case, found, Which::Damper),
+        "kept_alone": kept_without_absorber(case),
         "inactive": found.inactive,
         "devices": devices,
         "drifts": drifts.iter().skip(1).map(|one| drift(*one)).collect::<Vec<_>>(),
@@ -263,6 +267,8 @@ fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
         // By how much of itself the number may be off.
         "off": found.holds.filter(|_| found.value != 0.0).map(|ends| ends.map(change)),
         "only_here": found.holds == Some([found.value; 2]),
+        // At its ends.
+        "kept_alone": found.kept_alone,
         "undecided": found.undecided.iter().map(|ends| ends.map(quantity)).collect::<Vec<_>>(),
     });
     (row, told)

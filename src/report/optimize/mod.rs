@@ -81,6 +81,13 @@ pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
         "own": row(&found.own),
         // Where nothing meets all criteria, the absorber that misses them least.
         "closest": found.closest.as_ref().map(row),
+        // What the limit of a displacement asks for by the first guess, where nothing meets all criteria.
+        "needed": found.needed_mass_ratio.map(|ratio| json!({
+            "mass_ratio": Quantity::new(&catalogue::MASS_RATIO, ratio, Method::ClosedForm),
+            "mass": case.design.value(Parameter::Mass).map(|mass| {
+                Quantity::new(&catalogue::ABSORBER_MASS, ratio * mass, Method::ClosedForm)
+            }),
+        })),
         "robust": robust,
         // Bounds of the search on which the optimum lies.
         "on_bounds": on_bounds(found),
