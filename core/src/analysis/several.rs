@@ -236,7 +236,7 @@ impl AbsorberGroup {
             let ends = self.members.iter().map(|one| of(&one.manifold) * one.clearance);
             ends.fold(0.0, f64::max)
         };
-        let from = end(|one| one.fold.oscillator_amplitude);
+        let from = end(|one| one.fold.oscillator_amplitude) * (1.0 + 1e-12);
         let to = 1.5 * end(|one| one.symmetry_breaking.oscillator_amplitude).max(from);
         let value = |c: f64| function(c).unwrap_or(f64::NAN);
         // Closer together towards the fold, where branches are steep.

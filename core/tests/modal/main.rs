@@ -2,4 +2,6 @@
 //! engine for one of each, and against values of two programs that share nothing with this one.
 
 mod cases;
+mod orbits;
 mod simulation;
+mod theory;
