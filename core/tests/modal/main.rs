@@ -2,6 +2,7 @@
 //! engine for one of each, and against values of two programs that share nothing with this one.
 
 mod cases;
+mod contact;
 mod orbits;
 mod simulation;
 mod theory;

@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use self::contact::{HeldPanel, Inverse};
 use self::flight::{FlightEnd, Standing, doing, side};
-use self::motion::{Constants, Phasors, View, sine_and_cosine};
+use self::motion::{Constants, Gap, Phasors, View, sine_and_cosine};
 use super::events::{Detail, Side};
 use super::path::{Path, StraightLine};
 use super::run::Stop;
@@ -430,13 +430,18 @@ impl ModalSimulation {
         for j in 0..all.absorbers {
             let [y, velocity] = start.absorbers[j].map(|value| value / all.clearances[j]);
             let line = StraightLine { y, velocity };
-            let gap = all.constants.gap(j, &at.phasors, line).gap;
+            let Gap { gap, slope, .. } = all.constants.gap(j, &at.phasors, line);
             let touch = all.constants.touch(&all.constants.views[j], &sizes, line);
             if gap.abs() > 1.0 + touch {
                 return Err(ModalStartError::OutsideCavity { absorber: j + 1, gap });
             }
             at.lines[j] = line;
             at.walls[j] = if gap.abs() >= 1.0 - touch { gap.signum() } else { 0.0 };
+            // What rounding makes of a velocity that is the wall's.
+            if at.walls[j] != 0.0 && slope.abs() <= touch * (1.0 + all.constants.fastest) {
+                at.lines[j].velocity += slope;
+                at.lines[j].velocity += all.constants.gap(j, &at.phasors, at.lines[j]).slope;
+            }
         }
         let inverse = Inverse::of(&all, &[0.0; MOST]);
         let mut simulation = Self { all, at, stuck: [0.0; MOST], inverse, slow: false };
