@@ -233,7 +233,7 @@ impl ModalSimulation {
         for j in 0..all.absorbers {
             let (view, wall) = (&all.constants.views[j], at.walls[j]);
             let touch = all.constants.touch(view, &sizes, at.lines[j]);
-            if !(touch <= LARGEST_TOUCH) {
+            if touch.is_nan() || touch > LARGEST_TOUCH {
                 return Err(Stop::WallsUnresolved);
             }
             if self.stuck[j] != 0.0 {

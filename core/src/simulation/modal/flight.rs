@@ -84,7 +84,7 @@ impl<const N: usize, const M: usize> Constants<N, M> {
         loop {
             let begin = *at;
             let (landing, may_stick) = self.flight(at, slow)?;
-            told.flown(&begin, &landing.at, landing.time);
+            told.flown(&begin, landing.time);
             for line in &mut at.lines {
                 *line = line.from(landing.time);
             }
@@ -156,7 +156,7 @@ impl<const N: usize, const M: usize> Constants<N, M> {
             let mut gap = Gap::of(self.seen(view, &free, here.rotor), line);
             let (slack, bend) = self.slack(view, &sizes);
             let touch = self.touch(view, &sizes, line);
-            if !(touch <= LARGEST_TOUCH) {
+            if touch.is_nan() || touch > LARGEST_TOUCH {
                 return Err(Stop::WallsUnresolved);
             }
             let side = if wall == 0.0 { gap.gap.signum() } else { wall };
@@ -229,8 +229,8 @@ impl<const N: usize, const M: usize> Constants<N, M> {
                 return Ok((Landing { time: left, wall: None, at }, may_stick));
             }
             (here, time, gaps) = (there, reach, ends);
-            for j in 0..M {
-                lines[j] = at.lines[j].from(time);
+            for (line, from) in lines.iter_mut().zip(&at.lines) {
+                *line = from.from(time);
             }
         }
     }
@@ -246,6 +246,46 @@ impl<const N: usize, const M: usize> Constants<N, M> {
         slow: bool,
         evaluations: &mut u64,
     ) -> Result<Option<Landing<N>>, Stop> {
+        let begin = if slow {
+            0.0
+        } else {
+            match self.proven_root(j, panel, watched, limit, evaluations) {
+                Proof::Root(root) => return Ok(Some(root)),
+                Proof::None => return Ok(None),
+                Proof::UpTo(begin) => begin,
+            }
+        };
+        let moment = |s: f64| self.after(panel.here, s);
+        let gap = |at: &Phasors<N>, s: f64| self.gap(j, at, panel.line.from(s));
+        let curve =
+            GapCurve { of: |s| gap(&moment(s), s).sample(watched.bend), horizon: self.step };
+        let band = CrossingBand { lower: -1.0, upper: 1.0, touch: watched.touch };
+        match first_crossing(&curve, begin.max(watched.clear.min(limit)), limit, band) {
+            Search::Clear { evaluations: made } => {
+                *evaluations += u64::from(made);
+                Ok(None)
+            }
+            Search::NotFinite(_) => Err(Stop::NotFinite),
+            Search::Crossed(Crossing { time, edge, evaluations: made }) => {
+                *evaluations += u64::from(made);
+                let wall = if edge == Edge::Upper { 1.0 } else { -1.0 };
+                // A correction backwards may lead to just before the panel.
+                let at = moment(time.max(0.0));
+                Ok(Some(Landing { time: time.max(0.0), wall: Some((j, wall)), at }))
+            }
+        }
+    }
+
+    /// The same by quintics: where nothing is proven any more, up to where it was.
+    #[inline(always)]
+    fn proven_root(
+        &self,
+        j: usize,
+        panel: &Panel<'_, N>,
+        watched: &Watched,
+        limit: f64,
+        evaluations: &mut u64,
+    ) -> Proof<N> {
         let (mut begin, mut end, mut here) = (0.0, watched.first, panel.ends[0]);
         let moment = |s: f64| self.after(panel.here, s);
         let gap = |at: &Phasors<N>, s: f64| self.gap(j, at, panel.line.from(s));
@@ -255,13 +295,13 @@ impl<const N: usize, const M: usize> Constants<N, M> {
             *evaluations += 1;
         }
         let shortest = SHORTEST * end;
-        while !slow {
+        loop {
             let length = end - begin;
             let slack = watched.slack.part(length / self.step);
             let hull = Hull::of(&here, &there, length, &slack);
             if hull.clear() {
                 if end >= limit {
-                    return Ok(None);
+                    return Proof::None;
                 }
                 (begin, end, here, there) = (end, self.step, there, panel.ends[1]);
                 continue;
@@ -282,36 +322,28 @@ impl<const N: usize, const M: usize> Constants<N, M> {
                     let outwards = (slope + e * a) * wall;
                     if sharp && outwards > 0.0 && outwards * outwards > slack.slope_squared {
                         let (time, at) = (from + e, self.nearby(&at, e));
-                        return Ok(Some(Landing { time, wall: Some((j, wall)), at }));
+                        return Proof::Root(Landing { time, wall: Some((j, wall)), at });
                     }
                     s = from + e - begin;
                 }
             }
             if length < shortest {
-                break;
+                return Proof::UpTo(begin);
             }
             end = begin + 0.5 * length;
             there = gap(&moment(end), end);
             *evaluations += 1;
         }
-        let curve =
-            GapCurve { of: |s| gap(&moment(s), s).sample(watched.bend), horizon: self.step };
-        let band = CrossingBand { lower: -1.0, upper: 1.0, touch: watched.touch };
-        match first_crossing(&curve, begin.max(watched.clear.min(limit)), limit, band) {
-            Search::Clear { evaluations: made } => {
-                *evaluations += u64::from(made);
-                Ok(None)
-            }
-            Search::NotFinite(_) => Err(Stop::NotFinite),
-            Search::Crossed(Crossing { time, edge, evaluations: made }) => {
-                *evaluations += u64::from(made);
-                let wall = if edge == Edge::Upper { 1.0 } else { -1.0 };
-                // A correction backwards may lead to just before the panel.
-                let at = moment(time.max(0.0));
-                Ok(Some(Landing { time: time.max(0.0), wall: Some((j, wall)), at }))
-            }
-        }
     }
+}
+
+/// What quintics prove of a panel.
+enum Proof<const N: usize> {
+    Root(Landing<N>),
+    /// There is no root.
+    None,
+    /// There is none before.
+    UpTo(f64),
 }
 
 /// One absorber's share of a panel.

@@ -236,8 +236,8 @@ impl All {
     /// The modes' motion.
     fn state(&self, z: &[[f64; 2]; MOST], [sin, cos]: [f64; 2]) -> ModalState {
         let mut state = ModalState::default();
-        for k in 0..self.modes {
-            let (mode, [re, im], [s, c]) = (&self.constants.modes[k], z[k], self.steady[k]);
+        for (k, [re, im]) in z.iter().enumerate().take(self.modes) {
+            let (mode, [s, c]) = (&self.constants.modes[k], self.steady[k]);
             state.modes[k] = [
                 re + s * sin + c * cos,
                 self.constants.frequency * (s * cos - c * sin)
@@ -250,11 +250,11 @@ impl All {
     /// The free phasors of it.
     fn phasors(&self, state: &ModalState, [sin, cos]: [f64; 2]) -> Phasors<MOST> {
         let mut z = [[0.0; 2]; MOST];
-        for k in 0..self.modes {
+        for (k, z) in z.iter_mut().enumerate().take(self.modes) {
             let (mode, [s, c], [q, v]) = (&self.constants.modes[k], self.steady[k], state.modes[k]);
             let x = q - (s * sin + c * cos);
             let v = v - self.constants.frequency * (s * cos - c * sin);
-            z[k] = [x, -((v + mode.decay * x) * mode.inverse_ringing)];
+            *z = [x, -((v + mode.decay * x) * mode.inverse_ringing)];
         }
         Phasors { z, rotor: [sin, cos] }
     }
@@ -282,12 +282,7 @@ struct Told<'a> {
 
 impl Told<'_> {
     #[inline(always)]
-    fn flown<const N: usize, const M: usize>(
-        &mut self,
-        begin: &Standing<N, M>,
-        _end: &Phasors<N>,
-        duration: f64,
-    ) {
+    fn flown<const N: usize, const M: usize>(&mut self, begin: &Standing<N, M>, duration: f64) {
         if self.detail == Detail::Flights && duration > 0.0 {
             self.tell_flight(begin, duration);
         }

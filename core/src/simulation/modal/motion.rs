@@ -259,8 +259,8 @@ impl<const N: usize> Phasors<N> {
     #[inline(always)]
     fn turned(&self, modes: &[ModeRates; N], frequency: f64, e: f64) -> Self {
         let mut turned = *self;
-        for k in 0..N {
-            turned.z[k] = multiply(self.z[k], near([-modes[k].decay * e, modes[k].ringing * e]));
+        for (z, mode) in turned.z.iter_mut().zip(modes) {
+            *z = multiply(*z, near([-mode.decay * e, mode.ringing * e]));
         }
         let [sin, cos] = self.rotor;
         let [c, s] = near([0.0, frequency * e]);
@@ -285,8 +285,8 @@ impl<const N: usize, const M: usize> Constants<N, M> {
     #[inline(always)]
     pub fn next(&self, here: &Phasors<N>) -> Phasors<N> {
         let mut next = *here;
-        for k in 0..N {
-            next.z[k] = multiply(here.z[k], self.modes[k].turn);
+        for (z, mode) in next.z.iter_mut().zip(&self.modes) {
+            *z = multiply(*z, mode.turn);
         }
         let ([sin, cos], [s, c]) = (here.rotor, self.swing);
         next.rotor = [sin * c + cos * s, cos * c - sin * s];
@@ -297,10 +297,10 @@ impl<const N: usize, const M: usize> Constants<N, M> {
     #[inline(always)]
     pub fn after(&self, here: &Phasors<N>, s: f64) -> Phasors<N> {
         let mut there = *here;
-        for k in 0..N {
-            let envelope = small_exponential(-(self.modes[k].decay * s));
-            let (sin, cos) = small_angle(self.modes[k].ringing * s);
-            there.z[k] = multiply(here.z[k], [envelope * cos, envelope * sin]);
+        for (z, mode) in there.z.iter_mut().zip(&self.modes) {
+            let envelope = small_exponential(-(mode.decay * s));
+            let (sin, cos) = small_angle(mode.ringing * s);
+            *z = multiply(*z, [envelope * cos, envelope * sin]);
         }
         let ([sin, cos], (s, c)) = (here.rotor, small_angle(self.frequency * s));
         there.rotor = [sin * c + cos * s, cos * c - sin * s];
@@ -316,12 +316,12 @@ impl<const N: usize, const M: usize> Constants<N, M> {
     #[inline(always)]
     pub fn free(&self, at: &Phasors<N>) -> Free<N> {
         let mut free = [[0.0; N]; 3];
-        for k in 0..N {
-            let (mode, [re, im]) = (&self.modes[k], at.z[k]);
+        let [xs, vs, accelerations] = &mut free;
+        for (k, (mode, [re, im])) in self.modes.iter().zip(&at.z).enumerate() {
             let v = -(mode.decay * re + mode.ringing * im);
-            free[0][k] = re;
-            free[1][k] = v;
-            free[2][k] = -(2.0 * mode.decay * v) - mode.stiffness * re;
+            xs[k] = *re;
+            vs[k] = v;
+            accelerations[k] = -(2.0 * mode.decay * v) - mode.stiffness * re;
         }
         Free(free)
     }
@@ -362,9 +362,8 @@ impl<const N: usize, const M: usize> Constants<N, M> {
     #[inline(always)]
     pub fn sizes(&self, at: &Phasors<N>) -> [f64; N] {
         let mut sizes = [0.0; N];
-        for k in 0..N {
-            let [re, im] = at.z[k];
-            sizes[k] = (re * re + im * im).sqrt();
+        for (size, [re, im]) in sizes.iter_mut().zip(&at.z) {
+            *size = (re * re + im * im).sqrt();
         }
         sizes
     }
@@ -373,9 +372,9 @@ impl<const N: usize, const M: usize> Constants<N, M> {
     #[inline(always)]
     pub fn slack(&self, view: &View<N>, sizes: &[f64; N]) -> (Slack<f64>, f64) {
         let (mut coefficient, mut bend) = (view.sixth_steady, view.second_steady);
-        for k in 0..N {
-            coefficient += view.sixth[k] * sizes[k];
-            bend += view.second[k] * sizes[k];
+        for (k, free) in sizes.iter().enumerate() {
+            coefficient += view.sixth[k] * free;
+            bend += view.second[k] * free;
         }
         // 4 M S/14340 with S = 7200 times the coefficient.
         (Slack { coefficient, slope_squared: bend * coefficient * 2.01 }, bend)
@@ -394,8 +393,8 @@ impl<const N: usize, const M: usize> Constants<N, M> {
     #[inline(always)]
     pub fn touch(&self, view: &View<N>, sizes: &[f64; N], line: StraightLine<f64>) -> f64 {
         let mut size = 1.0 + view.steady_size + line.y.abs() + line.velocity.abs();
-        for k in 0..N {
-            size += view.shape[k].abs() * sizes[k];
+        for (phi, free) in view.shape.iter().zip(sizes) {
+            size += phi.abs() * free;
         }
         TOUCH * size
     }
@@ -404,8 +403,8 @@ impl<const N: usize, const M: usize> Constants<N, M> {
     #[inline(always)]
     pub fn strike(&self, j: usize, w: f64, at: &mut Phasors<N>, velocity: &mut f64) {
         let kick = &self.kicks[j];
-        for k in 0..N {
-            at.z[k][1] += kick.turn[k] * w;
+        for (z, turn) in at.z.iter_mut().zip(&kick.turn) {
+            z[1] += turn * w;
         }
         *velocity += kick.push * w;
     }
