@@ -6,6 +6,7 @@
 //! equation of motion is equation (1) of Li, Seguy, Berlioz (2016) divided by the clearance.
 
 mod band;
+mod modal;
 mod parameter;
 mod physical;
 mod scales;
@@ -14,6 +15,10 @@ mod shaking;
 use serde::{Deserialize, Serialize};
 
 pub use band::{Band, BandOver, Stretch};
+pub use modal::{
+    InvalidModalSystem, LARGEST_DAMPING_RATIO, MOST_MODES, ModalAbsorber, ModalParameters,
+    ModalState, ModalSystem, Mode,
+};
 pub use parameter::Parameter;
 pub use physical::{
     Absorber, Harmonic, STANDARD_GRAVITY, Structure, gravity_shares, modal_stiffness,

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::ManifoldPoint;
 use super::manifold::{Manifold, ManifoldBranch};
 use crate::equations::fixed_points::{DETUNING_0, DETUNING_1, DETUNING_2, UNTUNED};
+use crate::numerics::polynomial::quadratic_roots;
 use crate::system::System;
 
 /// A point of the response curve.
@@ -65,19 +66,6 @@ pub fn detunings(system: &System, manifold: &Manifold, shift: f64) -> Vec<f64> {
         DETUNING_1.at([ratio, shift]),
         DETUNING_2.at([oscillator * oscillator]),
     ])
-}
-
-/// Real roots of `constant + linear x + square x^2`, ascending, by the formula that does not
-/// cancel.
-fn quadratic_roots([constant, linear, square]: [f64; 3]) -> Vec<f64> {
-    let discriminant = linear * linear - 4.0 * square * constant;
-    if square == 0.0 || discriminant.is_nan() || discriminant < 0.0 {
-        return Vec::new();
-    }
-    let q = -0.5 * (linear + discriminant.sqrt().copysign(linear));
-    let mut roots = if q == 0.0 { vec![0.0] } else { vec![q / square, constant / q] };
-    roots.sort_by(f64::total_cmp);
-    roots
 }
 
 /// Values of `B/b - 1` from almost -1 to `largest - 1`, with the ends of the branches among them.

@@ -13,6 +13,7 @@ mod fixed_points;
 pub mod frequency_response;
 mod manifold;
 pub mod motion;
+mod several;
 pub mod slow_motion;
 
 use serde::Serialize;
@@ -28,6 +29,10 @@ pub use curve::{Amplitude, FixedPointCurve};
 pub use decay::{EnergyShares, FreeDecay};
 pub use fixed_points::{FixedPoint, FixedPointKind, solve as fixed_points};
 pub use manifold::{Manifold, ManifoldBranch};
+pub use several::{
+    AbsorberGroup, Grading, GroupFixedPoint, GroupForces, GroupMember, UnforcedMode,
+    apparent_restitution, scattered,
+};
 
 /// The quadratic of the fixed points has a coefficient that is not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]

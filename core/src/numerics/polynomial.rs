@@ -35,6 +35,19 @@ pub fn real_roots(coefficients: &[f64]) -> Vec<f64> {
     places.windows(2).filter_map(|pair| bisected([pair[0], pair[1]], value)).collect()
 }
 
+/// Real roots of `constant + linear x + square x^2`, ascending, by the formula that does not
+/// cancel.
+pub fn quadratic_roots([constant, linear, square]: [f64; 3]) -> Vec<f64> {
+    let discriminant = linear * linear - 4.0 * square * constant;
+    if square == 0.0 || discriminant.is_nan() || discriminant < 0.0 {
+        return Vec::new();
+    }
+    let q = -0.5 * (linear + discriminant.sqrt().copysign(linear));
+    let mut roots = if q == 0.0 { vec![0.0] } else { vec![q / square, constant / q] };
+    roots.sort_by(f64::total_cmp);
+    roots
+}
+
 #[cfg(test)]
 mod tests {
     use super::{real_roots, through};

@@ -22,12 +22,18 @@
 //! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
 //! [`crate::numerics::crossing`] takes over.
 
-use super::phasor::{FlightState, Slack};
+use super::phasor::Slack;
 use crate::numerics::lanes::Real;
 
 /// Steps of Newton towards a level place: from the secant, off by some percent of a panel, two leave less
 /// than what the quintic is off.
 const LEVELLING: u32 = 2;
+
+/// A curve at one moment, as far as a quintic asks.
+pub(super) trait Jet<R> {
+    /// Value, slope and second derivative.
+    fn jet(&self) -> [R; 3];
+}
 
 /// A polynomial in the part of a panel, lowest power first.
 pub(super) struct Quintic<R>([R; 6]);
@@ -35,16 +41,17 @@ pub(super) struct Quintic<R>([R; 6]);
 impl<R: Real> Quintic<R> {
     /// The one with the gap's values, slopes and curvatures at both ends.
     #[inline(always)]
-    pub(super) fn through(here: &FlightState<R>, there: &FlightState<R>, length: R) -> Self {
+    pub(super) fn through(here: &impl Jet<R>, there: &impl Jet<R>, length: R) -> Self {
+        let ([gap, slope, a], [end_gap, end_slope, end_a]) = (here.jet(), there.jet());
         let half = length * length * 0.5;
-        let (v0, c2) = (here.slope * length, here.a * half);
-        let bend = there.a * half - c2;
-        let d = there.gap - here.gap - v0 - c2;
-        let e = there.slope * length - v0 - c2 * 2.0;
+        let (v0, c2) = (slope * length, a * half);
+        let bend = end_a * half - c2;
+        let d = end_gap - gap - v0 - c2;
+        let e = end_slope * length - v0 - c2 * 2.0;
         let c3 = d * 10.0 - e * 4.0 + bend;
         let c4 = e * 7.0 - d * 15.0 - bend * 2.0;
         let c5 = d * 6.0 - e * 3.0 + bend;
-        Self([here.gap, v0, c2, c3, c4, c5])
+        Self([gap, v0, c2, c3, c4, c5])
     }
 
     /// One step of Newton from `u` towards `value`.
@@ -114,25 +121,29 @@ pub(super) struct Hull<R> {
 
 impl<R: Real> Hull<R> {
     #[inline(always)]
-    pub(super) fn of(
-        here: &FlightState<R>,
-        there: &FlightState<R>,
-        length: R,
-        slack: &Slack<R>,
-    ) -> Self {
+    pub(super) fn of(here: &impl Jet<R>, there: &impl Jet<R>, length: R, slack: &Slack<R>) -> Self {
+        let ([gap, slope, a], [end_gap, end_slope, end_a]) = (here.jet(), there.jet());
         let part = length * 0.2;
         let curve = length * length * 0.05;
-        let (v0, v1) = (here.slope * part, there.slope * part);
+        let (v0, v1) = (slope * part, end_slope * part);
         Self {
             inner: [
-                here.gap + v0,
-                here.gap + v0 * 2.0 + here.a * curve,
-                there.gap - v1 * 2.0 + there.a * curve,
-                there.gap - v1,
+                gap + v0,
+                gap + v0 * 2.0 + a * curve,
+                end_gap - v1 * 2.0 + end_a * curve,
+                end_gap - v1,
             ],
-            last: there.gap,
+            last: end_gap,
             slack: slack.coefficient,
         }
+    }
+
+    /// What the curve's absolute value does not exceed after its beginning.
+    #[inline(always)]
+    pub(super) fn highest(&self) -> R {
+        let [b1, b2, b3, b4] = self.inner;
+        let outer = b1.abs().larger(b2.abs()).larger(b4.abs());
+        outer.larger(b3.abs() + self.slack).larger(self.last.abs())
     }
 
     /// Where the gap is proven to stay between the walls. It may begin on one.
@@ -201,7 +212,7 @@ mod tests {
     use super::*;
     use crate::simulation::flow::Oscillator;
     use crate::simulation::path::{Path, StraightLine};
-    use crate::simulation::phasor::Rates;
+    use crate::simulation::phasor::{FlightState, Rates};
     use crate::system::{Cavity, Excitation, Parameters, System};
 
     fn oscillator(mass_ratio: f64, damping: f64, frequency_ratio: f64) -> Oscillator {

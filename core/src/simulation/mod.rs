@@ -15,6 +15,7 @@ pub mod flow;
 mod history;
 mod integrals;
 mod landing;
+mod modal;
 mod panels;
 mod path;
 mod peaks;
@@ -34,6 +35,10 @@ mod walls;
 pub use contact::ContactTolerance;
 pub use events::{AbsorberMotion, Detail, Impact, Observer, Reversal, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
+pub use modal::{
+    Doing, ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation, ModalStartError,
+    PlaceMotion,
+};
 pub use run::{Simulation, Stop};
 pub use shaking::ShakingMeter;
 pub(crate) use statistics::lost_in;

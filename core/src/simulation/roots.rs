@@ -3,7 +3,7 @@
 
 use fearless_simd::Simd;
 
-use super::certificate::Quintic;
+use super::certificate::{Jet, Quintic};
 use super::path::Path;
 use super::phasor::{FlightState, NEAR, Rates, Slack, Steady};
 use crate::numerics::lanes::{Mask, Real};
@@ -33,16 +33,17 @@ impl<R: Real> Rates<R> {
     /// matter.
     #[inline(always)]
     pub(super) fn guess(
-        here: &FlightState<R>,
-        there: &FlightState<R>,
+        here: &impl Jet<R>,
+        there: &impl Jet<R>,
         length: R,
         wall: R,
         lanes: R::Mask,
     ) -> R {
-        let rise = there.gap - here.gap;
-        let part = (wall - here.gap) / rise;
+        let ([gap, slope, _], [end_gap, end_slope, _]) = (here.jet(), there.jet());
+        let rise = end_gap - gap;
+        let part = (wall - gap) / rise;
         let rest = -part + 1.0;
-        let (v0, v1) = (here.slope * length, there.slope * length);
+        let (v0, v1) = (slope * length, end_slope * length);
         let mut u = part * part * (-(part * 2.0) + 3.0)
             + rise * part * rest * (rest * v1 - part * v0) / (v0 * v1);
         let quintic = Quintic::through(here, there, length);
@@ -74,7 +75,7 @@ impl<R: Real> Rates<R> {
         let at = self.after(simd, here, time, path);
         let [a, j, s] = self.derivatives(&at, path);
         // w + w' e + w'' e^2/2 + w''' e^3/6 = 0; a constant acceleration has no part in w'''.
-        let (e, sharp) = self.reverted([wall - at.gap, at.slope, at.a, j]);
+        let (e, sharp) = reverted(self.fastest, [wall - at.gap, at.slope, at.a, j]);
         let slope = (at.slope + e * at.a) * wall;
         let first_root = e.like(0.0).less(slope) & slack.slope_squared.less(slope * slope);
         self.moved(at, [a, j, s], time, e, first_root & sharp)
@@ -94,7 +95,7 @@ impl<R: Real> Rates<R> {
     ) -> Corrected<R> {
         let at = self.after(simd, here, time, path);
         let [a, j, s] = self.derivatives(&at, path);
-        let (e, sharp) = self.reverted([-at.slope, at.a, j, s]);
+        let (e, sharp) = reverted(self.fastest, [-at.slope, at.a, j, s]);
         let bend = -((at.a + e * j) * sense);
         let first_root = e.like(0.0).less(bend) & bend_squared.less(bend * bend);
         self.moved(at, [a, j, s], time, e, first_root & sharp)
@@ -112,22 +113,6 @@ impl<R: Real> Rates<R> {
         let s = -(twice * (j + squared * at.steady.v)) - self.stiffness * free_a
             + squared * squared * at.steady.x;
         [a, j, s]
-    }
-
-    /// Where `f' e + f'' e^2/2 + f''' e^3/6` is `f`, by the reverted series, and whether that is near and leaves
-    /// nothing above rounding.
-    #[inline(always)]
-    fn reverted(&self, [f, first, second, third]: [R; 4]) -> (R, R::Mask) {
-        let inverse_slope = f.like(1.0) / first;
-        let newton = f * inverse_slope;
-        let (p, q) = (second * 0.5 * inverse_slope, third * (1.0 / 6.0) * inverse_slope);
-        let e = newton * (-(newton * (p - newton * (p * p * 2.0 - q))) + 1.0);
-        // The series' next term is five times the cube of its first; the expansion about the
-        // evaluated point ends with the fourth order.
-        let first = (newton * p).abs() + (newton * newton * q).abs();
-        let left = newton.abs() * first * first * first;
-        let near = (e.abs() * self.fastest).at_most(e.like(NEAR));
-        (e, near & (left * self.fastest).at_most(left.like(LEFT)))
     }
 
     /// The motion a time `e` after `at`, where its derivatives are known.
@@ -157,4 +142,20 @@ impl<R: Real> Rates<R> {
             exact,
         }
     }
+}
+
+/// Where `f' e + f'' e^2/2 + f''' e^3/6` is `f`, by the reverted series, and whether that is near and leaves
+/// nothing above rounding.
+#[inline(always)]
+pub(super) fn reverted<R: Real>(fastest: R, [f, first, second, third]: [R; 4]) -> (R, R::Mask) {
+    let inverse_slope = f.like(1.0) / first;
+    let newton = f * inverse_slope;
+    let (p, q) = (second * 0.5 * inverse_slope, third * (1.0 / 6.0) * inverse_slope);
+    let e = newton * (-(newton * (p - newton * (p * p * 2.0 - q))) + 1.0);
+    // The series' next term is five times the cube of its first; the expansion about the
+    // evaluated point ends with the fourth order.
+    let first = (newton * p).abs() + (newton * newton * q).abs();
+    let left = newton.abs() * first * first * first;
+    let near = (e.abs() * fastest).at_most(e.like(NEAR));
+    (e, near & (left * fastest).at_most(left.like(LEFT)))
 }

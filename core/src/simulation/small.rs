@@ -49,6 +49,15 @@ pub(super) fn small_angles<R: Real, S: Simd>(simd: S, [a, b]: [R; 2]) -> [(R, R)
     [(a * a_sin, a_cos), (b * b_sin, b_cos)]
 }
 
+/// Sine and cosine of one such angle.
+#[inline(always)]
+pub(super) fn small_angle(a: f64) -> (f64, f64) {
+    const SINE: [f64; 9] = alternating(1);
+    const COSINE: [f64; 9] = alternating(0);
+    let squared = a * a;
+    (a * series(squared, SINE), series(squared, COSINE))
+}
+
 /// `e^x` for `-0.78 < x <= 0`: an oscillator that rings decays no more in a panel.
 #[inline(always)]
 pub(super) fn small_exponential<R: Real>(x: R) -> R {

@@ -1,0 +1,354 @@
+//! Absorbers that rest on a wall: the end of a chattering sequence, and the coupled modes until the contact force changes its sign.
+//!
+//! With the set `C` of those that rest the modes have the mass matrix `M + sum_C m_j phi_j phi_j^T`, and damping is no longer
+//! modal. In a panel of half a radian of the fastest mode the motion is its series to rounding: every coefficient follows from
+//! the two before by the equation of motion. The `n`-th derivative `u` of the motion is a motion under the `n`-th derivative of
+//! the force, whose energy grows by no more than that does work: `sqrt(u'^T M u' + u^T K u)` by at most `h Omega^n F`,
+//! `F^2 = f^T M^-1 f`. So `abs(phi^T u')` is bounded by that root times `sqrt(phi^T M^-1 phi)`, and the certified search needs
+//! no more. The masses only lower the frequencies.
+
+use super::flight::{LARGEST_TOUCH, clear_of_wall};
+use super::motion::{Gap, View, sine_and_cosine};
+use super::{All, Course, Detail, MOST, ModalObserver, ModalSegment, ModalSimulation, Told};
+use crate::numerics::crossing::{CrossingBand, Edge, Sample, Search, first_of};
+use crate::simulation::Stop;
+use crate::simulation::contact::{AtWall, ContactTolerance};
+use crate::simulation::path::{Path, StraightLine};
+use crate::system::ModalState;
+
+/// Angle of the fastest mode in a panel.
+const ANGLE: f64 = 0.5;
+/// Last power of the series: the next is below `0.5^18/18! = 6e-22`, and so is what a fourth derivative leaves out, `1e-17`.
+const LAST: usize = 17;
+
+type Vector = [f64; MOST];
+
+fn dot(a: &Vector, b: &Vector) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// The inverse of the mass matrix with the masses of those that rest.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Inverse {
+    rows: [Vector; MOST],
+    stuck: Vector,
+}
+
+impl Inverse {
+    /// By a change of rank one for each of them (Sherman and Morrison).
+    pub(super) fn of(all: &All, stuck: &Vector) -> Self {
+        let mut rows = [[0.0; MOST]; MOST];
+        for (k, row) in rows.iter_mut().enumerate() {
+            row[k] = 1.0 / all.masses[k];
+        }
+        let mut inverse = Self { rows, stuck: *stuck };
+        for j in (0..all.absorbers).filter(|j| stuck[*j] != 0.0) {
+            let shape = all.shape(j);
+            let moved = inverse.times(&shape);
+            let share =
+                all.absorber_masses[j] / (1.0 + all.absorber_masses[j] * dot(&shape, &moved));
+            for (row, by) in inverse.rows.iter_mut().zip(&moved) {
+                row.iter_mut().zip(&moved).for_each(|(entry, other)| *entry -= share * by * other);
+            }
+        }
+        inverse
+    }
+
+    fn times(&self, vector: &Vector) -> Vector {
+        std::array::from_fn(|k| dot(&self.rows[k], vector))
+    }
+}
+
+impl All {
+    /// The modes' values at an absorber.
+    fn shape(&self, j: usize) -> Vector {
+        self.constants.views[j].shape.map(|value| value * self.clearances[j])
+    }
+}
+
+/// The motion of the coupled modes in a short time.
+#[derive(Debug)]
+pub(super) struct HeldPanel {
+    /// Derivatives of the modes' coordinates at its beginning.
+    derivatives: [Vector; LAST + 1],
+    phase: f64,
+    frequency: f64,
+    length: f64,
+    /// `sqrt(u'^T M u' + u^T K u)` of the motion and its first five derivatives, at most.
+    energies: [f64; 6],
+    inverse: Inverse,
+}
+
+impl HeldPanel {
+    fn of(all: &All, state: &ModalState, phase: f64, inverse: &Inverse) -> Self {
+        let constants = &all.constants;
+        let (frequency, squared) = (constants.frequency, constants.frequency * constants.frequency);
+        let mut force = all.forces;
+        for j in (0..all.absorbers).filter(|j| inverse.stuck[*j] != 0.0) {
+            // The inertia of what rests on a wall of a structure whose base moves.
+            let by_base = all.absorber_masses[j] * squared * all.base;
+            force.iter_mut().zip(all.shape(j)).for_each(|(one, phi)| *one += by_base * phi);
+        }
+        let [sin, cos] = sine_and_cosine(phase);
+        // Derivatives of the sine, from two before.
+        let mut swing = [sin, frequency * cos];
+        let mut derivatives = [[0.0; MOST]; LAST + 1];
+        derivatives[0] = state.modes.map(|[q, _]| q);
+        derivatives[1] = state.modes.map(|[_, v]| v);
+        for n in 0..LAST - 1 {
+            let (here, next) = (derivatives[n], derivatives[n + 1]);
+            let forces: Vector = std::array::from_fn(|k| {
+                let mode = &constants.modes[k];
+                let own = 2.0 * mode.decay * next[k] + mode.stiffness * here[k];
+                force[k] * swing[n % 2] - all.masses[k] * own
+            });
+            derivatives[n + 2] = inverse.times(&forces);
+            swing[n % 2] *= -squared;
+        }
+        let length = (ANGLE / constants.fastest).min(constants.left(phase));
+        let mut work = dot(&force, &inverse.times(&force)).sqrt() * length;
+        let energies = std::array::from_fn(|n| {
+            let (u, v) = (&derivatives[n], &derivatives[n + 1]);
+            let modes: f64 = (0..all.modes)
+                .map(|k| all.masses[k] * (v[k] * v[k] + constants.modes[k].stiffness * u[k] * u[k]))
+                .sum();
+            let held = (0..all.absorbers).filter(|j| inverse.stuck[*j] != 0.0).map(|j| {
+                let speed = dot(&all.shape(j), v);
+                all.absorber_masses[j] * speed * speed
+            });
+            let energy = (modes + held.sum::<f64>()).sqrt() + work;
+            work *= frequency;
+            energy
+        });
+        Self { derivatives, phase, frequency, length, energies, inverse: inverse.clone() }
+    }
+
+    /// A derivative of a mode's coordinate.
+    fn mode(&self, k: usize, s: f64, order: usize) -> f64 {
+        let mut sum = 0.0;
+        for n in (order..=LAST).rev() {
+            sum = self.derivatives[n][k] + sum * s / (n - order + 1) as f64;
+        }
+        sum
+    }
+
+    pub(super) fn state(&self, s: f64) -> ModalState {
+        let mut state = ModalState::default();
+        for (k, mode) in state.modes.iter_mut().enumerate() {
+            *mode = [self.mode(k, s, 0), self.mode(k, s, 1)];
+        }
+        state
+    }
+
+    /// A derivative of what is seen.
+    pub(super) fn seen(&self, view: &View<MOST>, s: f64, order: usize) -> f64 {
+        let [sin, cos] = sine_and_cosine(self.phase + self.frequency * s);
+        let power = (0..order).fold(1.0, |product, _| product * self.frequency);
+        let turned = [sin, cos, -sin, -cos][order % 4];
+        let modes = view.shape.iter().enumerate().map(|(k, shape)| match *shape {
+            0.0 => 0.0,
+            shape => shape * self.mode(k, s, order),
+        });
+        view.base * power * turned + modes.sum::<f64>()
+    }
+
+    /// What a derivative of what is seen, of order 1 to 6, does not exceed.
+    pub(super) fn bound(&self, view: &View<MOST>, order: usize) -> f64 {
+        let power = (0..order).fold(1.0, |product, _| product * self.frequency);
+        let seen = dot(&view.shape, &self.inverse.times(&view.shape));
+        seen.max(0.0).sqrt() * self.energies[order - 1] + view.base.abs() * power
+    }
+}
+
+impl ModalSimulation {
+    /// Lets each absorber that stands on its wall, and is not thrown off, rest there.
+    pub(super) fn settle(&mut self, observer: &mut dyn ModalObserver) {
+        for j in 0..self.all.absorbers {
+            if self.at.walls[j] == 0.0 || self.stuck[j] != 0.0 {
+                continue;
+            }
+            if let Some(loss) = self.rests(j) {
+                observer.sticks(j, loss);
+            }
+        }
+    }
+
+    /// Whether an absorber on its wall rests there from now on, and the energy that it loses then.
+    fn rests(&mut self, j: usize) -> Option<f64> {
+        let (all, wall) = (&self.all, self.at.walls[j]);
+        let (constants, view) = (&all.constants, &all.constants.views[j]);
+        let sizes = constants.sizes(&self.at.phasors);
+        let touch = constants.touch(view, &sizes, self.at.lines[j]);
+        let (_, bend) = constants.slack(view, &sizes);
+        let Gap { slope, .. } = constants.gap(j, &self.at.phasors, self.at.lines[j]);
+        let (opening, r) = (-slope * wall, constants.kicks[j].restitution);
+        let inelastic = ((1.0 - r) * (1.0 + r)).max(f64::MIN_POSITIVE);
+        let excursion = ContactTolerance::default().excursion.max(touch / inelastic);
+        // What still comes has its impact first.
+        if opening < 0.0 || opening * opening > 2.0 * excursion * bend.max(f64::MIN_POSITIVE) {
+            return None;
+        }
+        let mut state = self.state();
+        let panel = HeldPanel::of(all, &state, self.at.phase, &self.inverse);
+        let shape = all.shape(j);
+        let seen = 1.0 / all.absorber_masses[j] + dot(&shape, &self.inverse.times(&shape));
+        // By how much what an absorber takes along turns the phasors, and these the jerk.
+        let kicked = (0..all.modes).map(|k| {
+            let (mode, phi) = (&constants.modes[k], view.shape[k] * all.clearances[j]);
+            let size = all.absorber_masses[j] * phi.abs() / all.masses[k] * mode.inverse_ringing;
+            phi.abs() * size * mode.stiffness * mode.stiffness.sqrt()
+        });
+        let at_wall = AtWall {
+            separation_speed: opening,
+            closing_acceleration: wall * panel.seen(view, 0.0, 2),
+            speed: 0.0,
+            force_rate: panel.bound(view, 3),
+            damping: kicked.sum(),
+            stiffness: 0.0,
+        };
+        let closing = at_wall.closing_acceleration;
+        let unresolved = closing > 0.0 && opening * opening <= 2.0 * closing * touch;
+        let tolerance = ContactTolerance { excursion, ..ContactTolerance::default() };
+        if !(unresolved || tolerance.sticks(r, &at_wall)) {
+            return None;
+        }
+        let speed = slope * all.clearances[j];
+        let impulse = speed / seen;
+        let moved = self.inverse.times(&shape);
+        state.modes.iter_mut().zip(&moved).for_each(|(mode, by)| mode[1] -= by * impulse);
+        self.at.phasors = all.phasors(&state, sine_and_cosine(self.at.phase));
+        (self.stuck[j], self.at.walls[j]) = (wall, 0.0);
+        self.inverse = Inverse::of(&self.all, &self.stuck);
+        Some(0.5 * speed * impulse)
+    }
+
+    /// Takes absorbers along to the next event, the end of the period, or for a panel.
+    pub(super) fn tow(&mut self, observer: &mut dyn ModalObserver) -> Result<(), Stop> {
+        let (all, at) = (&self.all, &self.at);
+        let panel = HeldPanel::of(all, &self.state(), at.phase, &self.inverse);
+        let sizes = all.constants.sizes(&at.phasors);
+        let mut bands =
+            [CrossingBand { lower: f64::NEG_INFINITY, upper: f64::INFINITY, touch: 1.0 }; MOST];
+        let (mut bounds, mut from) = ([0.0; MOST], [0.0; MOST]);
+        for j in 0..all.absorbers {
+            let (view, wall) = (&all.constants.views[j], at.walls[j]);
+            let touch = all.constants.touch(view, &sizes, at.lines[j]);
+            if touch.is_nan() || touch > LARGEST_TOUCH {
+                return Err(Stop::WallsUnresolved);
+            }
+            if self.stuck[j] != 0.0 {
+                let touch = touch * (1.0 + all.constants.fastest * all.constants.fastest);
+                bands[j] = CrossingBand { lower: 0.0, upper: f64::INFINITY, touch };
+                bounds[j] = panel.bound(view, 4);
+                // Nothing pulls at what another one's impact has set free.
+                if self.stuck[j] * panel.seen(view, 0.0, 2) < -touch {
+                    self.release(j);
+                    return Ok(());
+                }
+            } else {
+                bands[j] = CrossingBand { lower: -1.0, upper: 1.0, touch };
+                bounds[j] = panel.bound(view, 2);
+                let [v, a, jerk] = [1, 2, 3].map(|order| panel.seen(view, 0.0, order));
+                if wall != 0.0 && v == at.lines[j].velocity {
+                    let further = [3, 4].map(|order| panel.bound(view, order));
+                    let clear = clear_of_wall([a * wall, jerk * wall], bounds[j], further, touch);
+                    from[j] = clear.min(panel.length);
+                }
+            }
+        }
+        let samples = |s: f64| -> [Sample; MOST] {
+            std::array::from_fn(|j| {
+                if j >= all.absorbers {
+                    return Sample { value: 0.0, slope: 0.0, curvature_bound: 0.0 };
+                }
+                let (view, wall) = (&all.constants.views[j], self.stuck[j]);
+                if wall != 0.0 {
+                    let [value, slope] = [2, 3].map(|order| wall * panel.seen(view, s, order));
+                    return Sample { value, slope, curvature_bound: bounds[j] };
+                }
+                let [x, v, a] = [0, 1, 2].map(|order| panel.seen(view, s, order));
+                Gap::of([x, v, a], at.lines[j].from(s)).sample(bounds[j])
+            })
+        };
+        let (found, which) = first_of(samples, panel.length, from, panel.length, bands);
+        let (time, event) = match found {
+            Search::Clear { .. } => (panel.length, None),
+            Search::Crossed(crossing) => (crossing.time.max(0.0), Some((which, crossing.edge))),
+            Search::NotFinite(_) => return Err(Stop::NotFinite),
+        };
+        let detail = observer.detail();
+        if detail == Detail::Flights && time > 0.0 {
+            observer.segment(&ModalSegment {
+                all,
+                lines: at.lines,
+                stuck: self.stuck,
+                turns: at.turns,
+                phase: at.phase,
+                duration: time,
+                course: Course::Held(&panel),
+            });
+        }
+        self.move_on(
+            &panel,
+            time,
+            event.is_none() && time == self.all.constants.left(self.at.phase),
+        );
+        if self.at.phase == 0.0 && event.is_none() {
+            Told { all: &self.all, detail, observer: &mut *observer }.period(&self.at);
+        }
+        match event {
+            Some((j, _)) if self.stuck[j] != 0.0 => self.release(j),
+            Some((j, edge)) => {
+                for j in (0..self.all.absorbers).filter(|j| self.stuck[*j] != 0.0) {
+                    self.at.walls[j] = self.stuck[j];
+                }
+                self.stuck = [0.0; MOST];
+                self.inverse = Inverse::of(&self.all, &self.stuck);
+                let wall = if edge == Edge::Upper { 1.0 } else { -1.0 };
+                let before = self.at;
+                self.all.constants.collide(&mut self.at, j, wall);
+                Told { all: &self.all, detail, observer: &mut *observer }
+                    .impact(&before, &self.at, j, wall);
+                self.settle(observer);
+            }
+            None => {}
+        }
+        Ok(())
+    }
+
+    /// Moves everything on in a panel.
+    fn move_on(&mut self, panel: &HeldPanel, time: f64, period_ends: bool) {
+        let all = &self.all;
+        let state = panel.state(time);
+        let at = &mut self.at;
+        if time > 0.0 {
+            at.walls = [0.0; MOST];
+        }
+        at.evaluations += 1;
+        at.phase += all.constants.frequency * time;
+        if period_ends {
+            (at.phase, at.turns) = (0.0, at.turns + 1);
+        }
+        at.phasors = all.phasors(&state, sine_and_cosine(at.phase));
+        for j in 0..all.absorbers {
+            at.lines[j] = at.lines[j].from(time);
+        }
+        self.carry();
+    }
+
+    /// Puts what rests on a wall where that is.
+    fn carry(&mut self) {
+        let still = StraightLine { y: 0.0, velocity: 0.0 };
+        for j in (0..self.all.absorbers).filter(|j| self.stuck[*j] != 0.0) {
+            let Gap { gap, slope, .. } = self.all.constants.gap(j, &self.at.phasors, still);
+            self.at.lines[j] = StraightLine { y: gap - self.stuck[j], velocity: slope };
+        }
+    }
+
+    /// A wall lets go.
+    fn release(&mut self, j: usize) {
+        self.carry();
+        (self.at.walls[j], self.stuck[j]) = (self.stuck[j], 0.0);
+        self.inverse = Inverse::of(&self.all, &self.stuck);
+    }
+}

@@ -1,0 +1,8 @@
+//! Structures of several modes with several absorbers: theory, exact orbits and simulation against one another, against the
+//! engine for one of each, and against values of two programs that share nothing with this one.
+
+mod cases;
+mod contact;
+mod orbits;
+mod simulation;
+mod theory;

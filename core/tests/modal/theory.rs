@@ -1,0 +1,131 @@
+//! The theory of several absorbers: published and independent values, and against exact orbits, of first order in the mass ratio.
+
+use vinesink_core::analysis::{AbsorberGroup, Analysis, Grading, GroupFixedPoint};
+use vinesink_core::system::{ModalSystem, System};
+
+use super::cases::{EPS, one_by_one, table1, two_by_two};
+use super::orbits::attracting;
+
+fn stable(system: &ModalSystem) -> GroupFixedPoint {
+    let group = AbsorberGroup::of(system, 0).expect("seen");
+    let points = group.fixed_points();
+    let mut stable: Vec<GroupFixedPoint> =
+        points.iter().filter(|point| point.stable).cloned().collect();
+    assert_eq!(stable.len(), 1, "{points:?}");
+    stable.remove(0)
+}
+
+#[test]
+fn amplitudes_are_the_known_ones() {
+    for (absorbers, expected) in [
+        (vec![[EPS, 20.0, 0.6]], 3.63919),
+        (vec![[0.5 * EPS, 20.0, 0.6], [0.5 * EPS, 10.0, 0.6]], 3.93920),
+        (vec![[0.3 * EPS, 20.0, 0.6], [0.3 * EPS, 12.0, 0.7], [0.4 * EPS, 8.0, 0.5]], 4.09905),
+    ] {
+        let found = stable(&table1(&[], &absorbers)).amplitude;
+        assert!((found - expected).abs() < 5.1e-6, "{found} {expected}");
+    }
+    for (name, expected) in [('B', 4.0), ('D', 2.0)] {
+        let found = stable(&two_by_two(name)).amplitude;
+        assert!((found - expected).abs() < 1e-9, "{name}: {found}");
+    }
+}
+
+#[test]
+fn gradings_are_the_known_ones() {
+    for (r, lower, upper, ratio) in [
+        (0.3, 0.3243, 0.8926, 2.75),
+        (0.4, 0.2632, 0.8215, 3.12),
+        (0.5, 0.2076, 0.7692, 3.71),
+        (0.6, 0.1572, 0.7321, 4.66),
+        (0.7, 0.1116, 0.7072, 6.33),
+        (0.8, 0.0706, 0.6918, 9.80),
+        (0.9, 0.0335, 0.6838, 20.4),
+    ] {
+        let found = Grading::of(r);
+        assert!((found.lower - lower).abs() < 5.1e-5 && (found.upper - upper).abs() < 5.1e-5);
+        let digits = if ratio > 10.0 { 0.051 } else { 0.0051 };
+        assert!((found.ratio - ratio).abs() < digits, "{r}: {found:?}");
+    }
+}
+
+/// One absorber has the fixed points of the theory for one, with trace and determinant in other variables.
+#[test]
+fn one_absorber_has_the_theory_for_one() {
+    for (omega, gamma) in [(1.0181, 1.6), (0.958, 4.34), (0.99, 1.2)] {
+        let clearance = 3.0;
+        let (one, several): (System, ModalSystem) =
+            one_by_one([EPS, 1.799, 0.6, omega, gamma], clearance);
+        let known = Analysis::of(&one).expect("finite");
+        let group = AbsorberGroup::of(&several, 0).expect("seen");
+        let found = group.fixed_points();
+        for point in &known.fixed_points {
+            let upper = point.shift > known.manifold.fold_shift;
+            let c = point.oscillator_amplitude * clearance;
+            if !upper || c > 1.5 * group.range().expect("one")[1] {
+                continue;
+            }
+            let same = found.iter().find(|one| (one.amplitude / c - 1.0).abs() < 1e-9);
+            let same = same.unwrap_or_else(|| panic!("{point:?} {found:?}"));
+            assert!(
+                (same.absorber_amplitudes[0] / point.absorber_amplitude / clearance - 1.0).abs()
+                    < 1e-9
+            );
+            assert!((same.eta - point.eta).abs() < 1e-8, "{same:?} {point:?}");
+            // Both do not depend on the variables.
+            assert!((same.trace - point.trace).abs() < 1e-8, "{same:?} {point:?}");
+            assert!((same.determinant - point.determinant).abs() < 1e-8, "{same:?} {point:?}");
+            assert_eq!(same.stable, point.stable);
+        }
+        let collision = known.boundaries.saddle_node;
+        let nodes = group.saddle_nodes();
+        if let (Some(known), Some([_, forcing])) = (collision, nodes.first()) {
+            let known = known.forcing_over_clearance * clearance;
+            assert!((forcing / known - 1.0).abs() < 1e-9, "{forcing} {known}");
+        }
+    }
+}
+
+/// Where the two detunings of an amplitude are, that amplitude is a fixed point.
+#[test]
+fn the_response_is_that_of_the_fixed_points() {
+    let group = AbsorberGroup::of(&two_by_two('B'), 0).expect("seen");
+    let [from, to] = group.range().expect("all at once");
+    for n in 1..20 {
+        let amplitude = from + (to - from) * f64::from(n) / 20.0;
+        let Some(detunings) = group.detunings(amplitude) else { continue };
+        for detuning in detunings {
+            let there = AbsorberGroup { detuning, ..group.clone() };
+            let found = there.fixed_points();
+            let near = found.iter().any(|point| (point.amplitude / amplitude - 1.0).abs() < 1e-9);
+            assert!(near, "{amplitude} {detuning} {found:?}");
+        }
+        // The derivative in closed form against a difference.
+        let [_, slope] = group.forcing_squared(amplitude).expect("above the folds");
+        let step = 1e-5 * amplitude;
+        let [more, less] =
+            [step, -step].map(|by| group.forcing_squared(amplitude + by).expect("above")[0]);
+        assert!((slope / ((more - less) / (2.0 * step)) - 1.0).abs() < 1e-5);
+    }
+}
+
+/// Case B with smaller mass ratios at the same detuning, damping and forcing of the slow flow.
+#[test]
+fn the_theory_is_of_first_order_in_the_mass_ratio() {
+    let whole = AbsorberGroup::of(&two_by_two('B'), 0).expect("seen");
+    let errors = [1.0, 0.25, 0.0625].map(|scale| {
+        let mut parameters = two_by_two('B').parameters().clone();
+        let eps = whole.mass_ratio * scale;
+        parameters.absorbers.iter_mut().for_each(|absorber| absorber.mass *= scale);
+        parameters.frequency_ratio = 1.0 + eps * whole.detuning;
+        parameters.modes[0].damping_ratio *= scale;
+        parameters.modes.iter_mut().for_each(|mode| mode.forcing *= scale);
+        let system = ModalSystem::new(parameters).expect("valid");
+        let amplitude = stable(&system).amplitude;
+        assert!((amplitude - 4.0).abs() < 1e-9);
+        amplitude / attracting(&system).harmonics[0] - 1.0
+    });
+    for (found, expected) in errors.iter().zip([0.0173, 0.0043, 0.0011]) {
+        assert!((found - expected).abs() < 6e-5, "{errors:?}");
+    }
+}
