@@ -3,7 +3,8 @@
 //! Between events the motion is closed form ([`flow`]); events are found by a search that cannot
 //! step over one, in panels of two phasors (`phasor`), as the root of a series where a flight comes
 //! back to its wall at once (`returns`), or step by step (`numerics/crossing.rs`); what happens at a
-//! wall is in [`contact`]; [`Simulation`] strings it together and tells observers. Nothing here knows
+//! wall is in [`contact`]; [`Simulation`] strings it together and tells observers. Several modes and several absorbers
+//! move by [`ModalSimulation`], with the same proof for each absorber. Nothing here knows
 //! of the asymptotic theory.
 
 pub mod batch;

@@ -9,7 +9,7 @@
 
 use super::flight::{LARGEST_TOUCH, clear_of_wall};
 use super::motion::{Gap, View, sine_and_cosine};
-use super::{All, Course, Detail, MOST, ModalObserver, ModalSegment, ModalSimulation, Told};
+use super::{All, Course, Detail, MOST, ModalObserver, ModalSegment, ModalSimulation, STILL, Told};
 use crate::numerics::crossing::{CrossingBand, Edge, Sample, Search, first_of};
 use crate::simulation::Stop;
 use crate::simulation::contact::{AtWall, ContactTolerance};
@@ -293,7 +293,7 @@ impl ModalSimulation {
             time,
             event.is_none() && time == self.all.constants.left(self.at.phase),
         );
-        if self.at.phase == 0.0 && event.is_none() {
+        if detail > Detail::Nothing && self.at.phase == 0.0 && event.is_none() {
             Told { all: &self.all, detail, observer: &mut *observer }.period(&self.at);
         }
         match event {
@@ -307,8 +307,10 @@ impl ModalSimulation {
                 let wall = if edge == Edge::Upper { 1.0 } else { -1.0 };
                 let before = self.at;
                 self.all.constants.collide(&mut self.at, j, wall);
-                Told { all: &self.all, detail, observer: &mut *observer }
-                    .impact(&before, &self.at, j, wall);
+                if detail > Detail::Nothing {
+                    Told { all: &self.all, detail, observer: &mut *observer }
+                        .impact(&before, &self.at, j, wall);
+                }
                 self.settle(observer);
             }
             None => {}
@@ -338,9 +340,8 @@ impl ModalSimulation {
 
     /// Puts what rests on a wall where that is.
     fn carry(&mut self) {
-        let still = StraightLine { y: 0.0, velocity: 0.0 };
         for j in (0..self.all.absorbers).filter(|j| self.stuck[*j] != 0.0) {
-            let Gap { gap, slope, .. } = self.all.constants.gap(j, &self.at.phasors, still);
+            let Gap { gap, slope, .. } = self.all.constants.gap(j, &self.at.phasors, STILL);
             self.at.lines[j] = StraightLine { y: gap - self.stuck[j], velocity: slope };
         }
     }
