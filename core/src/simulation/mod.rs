@@ -37,7 +37,7 @@ pub use contact::ContactTolerance;
 pub use events::{AbsorberMotion, Detail, Impact, Observer, Reversal, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use modal::{
-    Doing, ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation, ModalStartError,
+    ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation, ModalStartError,
     PlaceMotion,
 };
 pub use run::{Simulation, Stop};

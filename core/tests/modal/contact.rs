@@ -1,8 +1,7 @@
 //! Absorbers that rest on walls.
 
 use vinesink_core::simulation::{
-    AbsorberMotion, Doing, ModalObserver, ModalSegment, ModalSimulation, Observer, Segment,
-    Simulation,
+    AbsorberMotion, ModalObserver, ModalSegment, ModalSimulation, Observer, Segment, Simulation,
 };
 use vinesink_core::system::{ModalState, State};
 
@@ -36,7 +35,7 @@ impl Observer for Rests {
 
 impl ModalObserver for Rests {
     fn segment(&mut self, segment: &ModalSegment<'_>) {
-        let rests = segment.doing(0) != Doing::Flies;
+        let rests = segment.rests(0).is_some();
         self.add(Self::begin(segment.turns, segment.phase, self.1), segment.duration, rests);
     }
 }
@@ -94,11 +93,11 @@ fn a_mass_that_rests_couples_the_modes() {
     state.modes[1][0] = tiny;
     state.absorbers[0][0] = -2.0 * tiny - 50.0;
     let mut simulation = ModalSimulation::new(&several, &state, 0.0).expect("on a wall");
-    assert_ne!(simulation.doing(0), Doing::Flies);
+    assert!(simulation.rests(0).is_some());
     struct First(Vec<[f64; 2]>);
     impl ModalObserver for First {
         fn segment(&mut self, segment: &ModalSegment<'_>) {
-            if segment.doing(0) == Doing::Flies || segment.phase > 0.05 * 1.0 {
+            if segment.rests(0).is_none() || segment.phase > 0.05 * 1.0 {
                 return;
             }
             let tau = segment.phase / 0.05;

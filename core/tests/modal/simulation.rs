@@ -1,7 +1,7 @@
 //! The engine for several modes and absorbers.
 
 use vinesink_core::simulation::{
-    Detail, Doing, Impact, ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation,
+    Detail, Impact, ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation,
     Observer, Simulation, Stop,
 };
 use vinesink_core::system::{ModalAbsorber, ModalParameters, ModalState, ModalSystem, Mode, State};
@@ -156,7 +156,7 @@ impl ModalObserver for Balance {
                 }
             }
         }
-        let rests = (0..self.system.absorbers().len()).any(|j| segment.doing(j) != Doing::Flies);
+        let rests = (0..self.system.absorbers().len()).any(|j| segment.rests(j).is_some());
         self.resting += if rests { segment.duration } else { 0.0 };
     }
     fn impact(&mut self, impact: &ModalImpact) {

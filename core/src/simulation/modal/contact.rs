@@ -167,14 +167,14 @@ impl ModalSimulation {
             if self.at.walls[j] == 0.0 || self.stuck[j] != 0.0 {
                 continue;
             }
-            if let Some(loss) = self.rests(j) {
+            if let Some(loss) = self.comes_to_rest(j) {
                 observer.sticks(j, loss);
             }
         }
     }
 
     /// Whether an absorber on its wall rests there from now on, and the energy that it loses then.
-    fn rests(&mut self, j: usize) -> Option<f64> {
+    fn comes_to_rest(&mut self, j: usize) -> Option<f64> {
         let (all, wall) = (&self.all, self.at.walls[j]);
         let (constants, view) = (&all.constants, &all.constants.views[j]);
         let sizes = constants.sizes(&self.at.phasors);

@@ -1,7 +1,7 @@
 //! Flights of all absorbers from event to event: each one's first root is proven by itself, and the least is the event.
 
 use super::motion::{Constants, Gap, Phasors};
-use super::{Doing, Limits, STILL, Told};
+use super::{Limits, STILL, Told};
 use crate::numerics::crossing::{
     Crossing, CrossingBand, Curve, Edge, Sample, Search, first_crossing,
 };
@@ -416,7 +416,7 @@ impl<const N: usize, const M: usize> Standing<N, M> {
     };
 }
 
-/// What an absorber does.
-pub(super) fn doing(stuck: f64) -> Doing {
-    if stuck == 0.0 { Doing::Flies } else { Doing::Rests(side(stuck)) }
+/// The wall that an absorber rests on, if it does.
+pub(super) fn resting(stuck: f64) -> Option<Side> {
+    (stuck != 0.0).then(|| side(stuck))
 }

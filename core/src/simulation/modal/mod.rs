@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use self::contact::{HeldPanel, Inverse};
-use self::flight::{FlightEnd, Standing, doing, side};
+use self::flight::{FlightEnd, Standing, resting, side};
 use self::motion::{Constants, Gap, Phasors, View, sine_and_cosine};
 use super::events::{Detail, Side};
 use super::path::{Path, StraightLine};
@@ -71,15 +71,6 @@ pub struct ModalImpact {
     pub loss: f64,
 }
 
-/// What one absorber does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub enum Doing {
-    /// It flies on a straight line.
-    Flies,
-    /// It rests on a wall.
-    Rests(Side),
-}
-
 /// A stretch of motion without events.
 #[derive(Debug)]
 pub struct ModalSegment<'a> {
@@ -123,9 +114,9 @@ impl ModalSegment<'_> {
         state
     }
 
-    /// What an absorber does.
-    pub fn doing(&self, absorber: usize) -> Doing {
-        doing(self.stuck[absorber])
+    /// The wall that an absorber rests on, if it does.
+    pub fn rests(&self, absorber: usize) -> Option<Side> {
+        resting(self.stuck[absorber])
     }
 
     /// The free phasors after any time.
@@ -448,9 +439,9 @@ impl ModalSimulation {
         self.at.evaluations
     }
 
-    /// What an absorber does.
-    pub fn doing(&self, absorber: usize) -> Doing {
-        doing(self.stuck[absorber])
+    /// The wall that an absorber rests on, if it does.
+    pub fn rests(&self, absorber: usize) -> Option<Side> {
+        resting(self.stuck[absorber])
     }
 
     /// Kinetic and potential energy of modes and absorbers, in masses times squared lengths over time.
