@@ -21,6 +21,11 @@ const ANGLE: f64 = 0.5;
 /// Last power of the series: the next is below `0.5^18/18! = 6e-22`, and so is what a fourth derivative leaves out, `1e-17`.
 const LAST: usize = 17;
 
+/// Acceleration by a wall, over the largest that there is, that is none.
+const NO_FORCE: f64 = 1e-12;
+/// Most steps of a relaxation.
+const RELAXATIONS: usize = 2000;
+
 type Vector = [f64; MOST];
 
 fn dot(a: &Vector, b: &Vector) -> f64 {
@@ -171,6 +176,68 @@ impl ModalSimulation {
                 observer.sticks(j, loss);
             }
         }
+        self.share_out();
+    }
+
+    /// Of several absorbers that stand on their walls and move with them, lets those rest which a wall pushes, and the others
+    /// leave: no wall pulls, and none runs into what it does not push. The forces are the one solution of a complementarity
+    /// problem with a positive matrix, by projected relaxation (Gauss and Seidel).
+    fn share_out(&mut self) {
+        let (all, constants) = (&self.all, &self.all.constants);
+        let sizes = constants.sizes(&self.at.phasors);
+        let mut walls = self.stuck;
+        for j in (0..all.absorbers).filter(|j| self.stuck[*j] == 0.0) {
+            let line = self.at.lines[j];
+            let rounding = constants.touch(&constants.views[j], &sizes, line) * self.roughness();
+            if constants.gap(j, &self.at.phasors, line).slope.abs() <= rounding {
+                walls[j] = self.at.walls[j];
+            }
+        }
+        let on = |j: &usize| walls[*j] != 0.0;
+        if (0..MOST).filter(on).count() < 2 {
+            return;
+        }
+        let free = Inverse::of(all, &[0.0; MOST]);
+        let panel = HeldPanel::of(all, &self.state(), self.at.phase, &free);
+        let (mut closing, mut forces, mut largest) = ([0.0; MOST], [0.0_f64; MOST], 0.0_f64);
+        for j in (0..MOST).filter(on) {
+            let view = &constants.views[j];
+            closing[j] = walls[j] * panel.seen(view, 0.0, 2) * all.clearances[j];
+            largest = largest.max(panel.bound(view, 2) * all.clearances[j]);
+        }
+        let yields = |i: usize, j: usize| {
+            let own = if i == j { 1.0 / all.absorber_masses[j] } else { 0.0 };
+            own + walls[i] * walls[j] * dot(&all.shape(i), &free.times(&all.shape(j)))
+        };
+        let matrix: [Vector; MOST] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| if on(&i) && on(&j) { yields(i, j) } else { 0.0 })
+        });
+        for _ in 0..RELAXATIONS {
+            let mut changed = 0.0_f64;
+            for j in (0..MOST).filter(on) {
+                let left = closing[j] - dot(&matrix[j], &forces);
+                let force = (forces[j] + left / matrix[j][j]).max(0.0);
+                changed = changed.max((force - forces[j]).abs() * matrix[j][j]);
+                forces[j] = force;
+            }
+            if changed <= f64::EPSILON * largest {
+                break;
+            }
+        }
+        for j in (0..MOST).filter(on) {
+            let pushed = forces[j] * matrix[j][j] > NO_FORCE * largest;
+            self.stuck[j] = if pushed { walls[j] } else { 0.0 };
+            self.at.walls[j] = if pushed { 0.0 } else { walls[j] };
+            let line = &mut self.at.lines[j];
+            let Gap { gap, slope, .. } = constants.gap(j, &self.at.phasors, STILL);
+            *line = StraightLine { y: gap - walls[j], velocity: slope };
+        }
+        self.inverse = Inverse::of(&self.all, &self.stuck);
+    }
+
+    /// By how much more velocities are rounded than places.
+    fn roughness(&self) -> f64 {
+        1.0 + self.all.constants.fastest
     }
 
     /// Whether an absorber on its wall rests there from now on, and the energy that it loses then.
@@ -185,6 +252,7 @@ impl ModalSimulation {
         let inelastic = ((1.0 - r) * (1.0 + r)).max(f64::MIN_POSITIVE);
         let excursion = ContactTolerance::default().excursion.max(touch / inelastic);
         // What still comes has its impact first.
+        let opening = if opening.abs() <= touch * self.roughness() { 0.0 } else { opening };
         if opening < 0.0 || opening * opening > 2.0 * excursion * bend.max(f64::MIN_POSITIVE) {
             return None;
         }
@@ -249,7 +317,8 @@ impl ModalSimulation {
                 bands[j] = CrossingBand { lower: -1.0, upper: 1.0, touch };
                 bounds[j] = panel.bound(view, 2);
                 let [v, a, jerk] = [1, 2, 3].map(|order| panel.seen(view, 0.0, order));
-                if wall != 0.0 && v == at.lines[j].velocity {
+                let rounding = touch * self.roughness();
+                if wall != 0.0 && (v - at.lines[j].velocity).abs() <= rounding {
                     let further = [3, 4].map(|order| panel.bound(view, order));
                     let clear = clear_of_wall([a * wall, jerk * wall], bounds[j], further, touch);
                     from[j] = clear.min(panel.length);
@@ -351,5 +420,6 @@ impl ModalSimulation {
         self.carry();
         (self.at.walls[j], self.stuck[j]) = (self.stuck[j], 0.0);
         self.inverse = Inverse::of(&self.all, &self.stuck);
+        self.share_out();
     }
 }
