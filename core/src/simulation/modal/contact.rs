@@ -168,12 +168,18 @@ impl HeldPanel {
 impl ModalSimulation {
     /// Lets each absorber that stands on its wall, and is not thrown off, rest there.
     pub(super) fn settle(&mut self, observer: &mut dyn ModalObserver) {
-        for j in 0..self.all.absorbers {
-            if self.at.walls[j] == 0.0 || self.stuck[j] != 0.0 {
-                continue;
-            }
-            if let Some(loss) = self.comes_to_rest(j) {
-                observer.sticks(j, loss);
+        // What comes to rest changes how the walls of the others accelerate.
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for j in 0..self.all.absorbers {
+                if self.at.walls[j] == 0.0 || self.stuck[j] != 0.0 {
+                    continue;
+                }
+                if let Some(loss) = self.comes_to_rest(j) {
+                    observer.sticks(j, loss);
+                    changed = true;
+                }
             }
         }
         self.share_out();
