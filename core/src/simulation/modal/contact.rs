@@ -182,21 +182,26 @@ impl ModalSimulation {
                 }
             }
         }
-        self.share_out();
+        self.share_out(Some(observer));
     }
 
     /// Of several absorbers that stand on their walls and move with them, lets those rest which a wall pushes, and the others
     /// leave: no wall pulls, and none runs into what it does not push. The forces are the one solution of a complementarity
     /// problem with a positive matrix, by projected relaxation (Gauss and Seidel).
-    fn share_out(&mut self) {
+    /// Where somebody is there to be told of the loss, also those whose gaps open by no more than chattering may leave.
+    fn share_out(&mut self, observer: Option<&mut dyn ModalObserver>) {
         let (all, constants) = (&self.all, &self.all.constants);
         let sizes = constants.sizes(&self.at.phasors);
-        let mut walls = self.stuck;
+        let (mut walls, mut opens) = (self.stuck, [false; MOST]);
         for j in (0..all.absorbers).filter(|j| self.stuck[*j] == 0.0) {
-            let line = self.at.lines[j];
-            let rounding = constants.touch(&constants.views[j], &sizes, line) * self.roughness();
-            if constants.gap(j, &self.at.phasors, line).slope.abs() <= rounding {
-                walls[j] = self.at.walls[j];
+            let (view, line, wall) = (&constants.views[j], self.at.lines[j], self.at.walls[j]);
+            let touch = constants.touch(view, &sizes, line);
+            let opening = -wall * constants.gap(j, &self.at.phasors, line).slope;
+            opens[j] = opening.abs() > touch * self.roughness();
+            let excursion = ContactTolerance::default().excursion.max(touch);
+            let little = opening * opening <= 2.0 * excursion * constants.slack(view, &sizes).1;
+            if !opens[j] || (observer.is_some() && opening > 0.0 && little) {
+                walls[j] = wall;
             }
         }
         let on = |j: &usize| walls[*j] != 0.0;
@@ -230,15 +235,24 @@ impl ModalSimulation {
                 break;
             }
         }
+        let mut pushed = [false; MOST];
         for j in (0..MOST).filter(on) {
-            let pushed = forces[j] * matrix[j][j] > NO_FORCE * largest;
-            self.stuck[j] = if pushed { walls[j] } else { 0.0 };
-            self.at.walls[j] = if pushed { 0.0 } else { walls[j] };
-            let line = &mut self.at.lines[j];
-            let Gap { gap, slope, .. } = constants.gap(j, &self.at.phasors, STILL);
-            *line = StraightLine { y: gap - walls[j], velocity: slope };
+            pushed[j] = forces[j] * matrix[j][j] > NO_FORCE * largest;
+            if opens[j] {
+                continue;
+            }
+            self.stuck[j] = if pushed[j] { walls[j] } else { 0.0 };
+            self.at.walls[j] = if pushed[j] { 0.0 } else { walls[j] };
+            let Gap { gap, slope, .. } = self.all.constants.gap(j, &self.at.phasors, STILL);
+            self.at.lines[j] = StraightLine { y: gap - walls[j], velocity: slope };
         }
         self.inverse = Inverse::of(&self.all, &self.stuck);
+        if let Some(observer) = observer {
+            for j in (0..MOST).filter(|j| opens[*j] && pushed[*j]) {
+                let loss = self.stick(j, walls[j]);
+                observer.sticks(j, loss);
+            }
+        }
     }
 
     /// By how much more velocities are rounded than places.
@@ -262,10 +276,7 @@ impl ModalSimulation {
         if opening < 0.0 || opening * opening > 2.0 * excursion * bend.max(f64::MIN_POSITIVE) {
             return None;
         }
-        let mut state = self.state();
-        let panel = HeldPanel::of(all, &state, self.at.phase, &self.inverse);
-        let shape = all.shape(j);
-        let seen = 1.0 / all.absorber_masses[j] + dot(&shape, &self.inverse.times(&shape));
+        let panel = HeldPanel::of(all, &self.state(), self.at.phase, &self.inverse);
         // By how much what an absorber takes along turns the phasors, and these the jerk.
         let kicked = (0..all.modes).map(|k| {
             let (mode, phi) = (&constants.modes[k], view.shape[k] * all.clearances[j]);
@@ -286,14 +297,23 @@ impl ModalSimulation {
         if !(unresolved || tolerance.sticks(r, &at_wall)) {
             return None;
         }
-        let speed = slope * all.clearances[j];
-        let impulse = speed / seen;
+        Some(self.stick(j, wall))
+    }
+
+    /// An impact without rebound on a wall, with what rests already: the energy lost.
+    fn stick(&mut self, j: usize, wall: f64) -> f64 {
+        let (all, mut state, shape) = (&self.all, self.state(), self.all.shape(j));
         let moved = self.inverse.times(&shape);
+        let seen = 1.0 / all.absorber_masses[j] + dot(&shape, &moved);
+        let gap = all.constants.gap(j, &self.at.phasors, self.at.lines[j]);
+        let speed = gap.slope * all.clearances[j];
+        let impulse = speed / seen;
         state.modes.iter_mut().zip(&moved).for_each(|(mode, by)| mode[1] -= by * impulse);
         self.at.phasors = all.phasors(&state, sine_and_cosine(self.at.phase));
         (self.stuck[j], self.at.walls[j]) = (wall, 0.0);
         self.inverse = Inverse::of(&self.all, &self.stuck);
-        Some(0.5 * speed * impulse)
+        self.carry();
+        0.5 * speed * impulse
     }
 
     /// Takes absorbers along to the next event, the end of the period, or for a panel.
@@ -426,6 +446,6 @@ impl ModalSimulation {
         self.carry();
         (self.at.walls[j], self.stuck[j]) = (self.stuck[j], 0.0);
         self.inverse = Inverse::of(&self.all, &self.stuck);
-        self.share_out();
+        self.share_out(None);
     }
 }
