@@ -182,14 +182,14 @@ impl ModalSimulation {
                 }
             }
         }
-        self.share_out(Some(observer));
+        self.solve_contacts(Some(observer));
     }
 
     /// Of several absorbers that stand on their walls and move with them, lets those rest which a wall pushes, and the others
     /// leave: no wall pulls, and none runs into what it does not push. The forces are the one solution of a complementarity
     /// problem with a positive matrix, by projected relaxation (Gauss and Seidel).
     /// Where somebody is there to be told of the loss, also those whose gaps open by no more than chattering may leave.
-    fn share_out(&mut self, observer: Option<&mut dyn ModalObserver>) {
+    fn solve_contacts(&mut self, observer: Option<&mut dyn ModalObserver>) {
         let (all, constants) = (&self.all, &self.all.constants);
         let sizes = constants.sizes(&self.at.phasors);
         let (mut walls, mut opens) = (self.stuck, [false; MOST]);
@@ -446,6 +446,6 @@ impl ModalSimulation {
         self.carry();
         (self.at.walls[j], self.stuck[j]) = (self.stuck[j], 0.0);
         self.inverse = Inverse::of(&self.all, &self.stuck);
-        self.share_out(None);
+        self.solve_contacts(None);
     }
 }

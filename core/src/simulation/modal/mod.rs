@@ -5,8 +5,9 @@
 //! wall move with the structure, whose modes they couple: a series in short panels, with bounds that are proven ([`contact`]).
 //!
 //! Rules where the order matters: impacts at one instant, to rounding, take place in the order of the absorbers, one by one;
-//! an impact finds those that rest on a wall free to leave it, and they stay if the speed that it gives them is what the end
-//! of a chattering sequence may leave.
+//! an impact finds those that rest on a wall free to leave it. A chattering sequence ends where its rest is below the
+//! tolerances of [`ContactTolerance`](super::ContactTolerance), as for one absorber; where several stand on their walls, those
+//! rest that the walls push, by the one solution of a complementarity problem.
 
 mod contact;
 mod flight;
