@@ -6,7 +6,7 @@
 //! cavity of any kind are roots of one function ([`two_impact_orbits`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
 //! bifurcations. Where the symmetric ones begin and end is [`SymmetricFamily`]; with the asymmetric ones that
-//! follow them, [`boundaries`]. Nothing here knows of the
+//! follow them, [`boundaries`]. Those of several modes with several absorbers are [`antiperiodic_orbits`]. Nothing here knows of the
 //! asymptotic theory, or of simulation.
 
 mod admissibility;

@@ -3,7 +3,8 @@
 //! Between events the motion is closed form ([`flow`]); events are found by a search that cannot
 //! step over one, in panels of two phasors (`phasor`), as the root of a series where a flight comes
 //! back to its wall at once (`returns`), or step by step (`numerics/crossing.rs`); what happens at a
-//! wall is in [`contact`]; [`Simulation`] strings it together and tells observers. Nothing here knows
+//! wall is in [`contact`]; [`Simulation`] strings it together and tells observers. Several modes and several absorbers
+//! move by [`ModalSimulation`], with the same proof for each absorber. Nothing here knows
 //! of the asymptotic theory.
 
 pub mod batch;
@@ -36,7 +37,7 @@ pub use contact::ContactTolerance;
 pub use events::{AbsorberMotion, Detail, Impact, Observer, Reversal, Segment, Side, StartError};
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use modal::{
-    Doing, ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation, ModalStartError,
+    ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation, ModalStartError,
     PlaceMotion,
 };
 pub use run::{Simulation, Stop};

@@ -1,12 +1,13 @@
 //! Absorbers that rest on walls.
 
 use vinesink_core::simulation::{
-    AbsorberMotion, Doing, ModalObserver, ModalSegment, ModalSimulation, Observer, Segment,
-    Simulation,
+    AbsorberMotion, ModalObserver, ModalSegment, ModalSimulation, Observer, Segment, Simulation,
+    Stop,
 };
 use vinesink_core::system::{ModalState, State};
 
 use super::cases::{mode, one_by_one, system};
+use super::simulation::{Balance, Noise};
 
 /// Stretches on a wall, from the beginning of the first to that of the next flight: times since phase 0 of the first period.
 #[derive(Default)]
@@ -36,7 +37,7 @@ impl Observer for Rests {
 
 impl ModalObserver for Rests {
     fn segment(&mut self, segment: &ModalSegment<'_>) {
-        let rests = segment.doing(0) != Doing::Flies;
+        let rests = segment.rests(0).is_some();
         self.add(Self::begin(segment.turns, segment.phase, self.1), segment.duration, rests);
     }
 }
@@ -94,11 +95,11 @@ fn a_mass_that_rests_couples_the_modes() {
     state.modes[1][0] = tiny;
     state.absorbers[0][0] = -2.0 * tiny - 50.0;
     let mut simulation = ModalSimulation::new(&several, &state, 0.0).expect("on a wall");
-    assert_ne!(simulation.doing(0), Doing::Flies);
+    assert!(simulation.rests(0).is_some());
     struct First(Vec<[f64; 2]>);
     impl ModalObserver for First {
         fn segment(&mut self, segment: &ModalSegment<'_>) {
-            if segment.doing(0) == Doing::Flies || segment.phase > 0.05 * 1.0 {
+            if segment.rests(0).is_none() || segment.phase > 0.05 * 1.0 {
                 return;
             }
             let tau = segment.phase / 0.05;
@@ -124,4 +125,53 @@ fn a_mass_that_rests_couples_the_modes() {
         let exact: f64 = (0..2).map(|i| amplitudes[i] * libm::cos(squares[i].sqrt() * t)).sum();
         assert!((b - exact).abs() < 1e-13 * tiny.max(1.0), "{t}: {b} {exact}");
     }
+}
+
+/// Heavy absorbers, plastic, elastic and others, up to eight on up to eight modes: whatever chatters and rests, energy is kept,
+/// no wall is passed, and no sequence of touches goes on without end.
+#[test]
+fn walls_are_kept_and_no_sequence_is_endless() {
+    let mut noise = Noise(77);
+    let (mut impacts, mut sticks) = (0, 0);
+    for _ in 0..200 {
+        let count = |noise: &mut Noise| 1 + noise.between(0.0, 8.0) as usize;
+        let (modes, absorbers) = (count(&mut noise), count(&mut noise));
+        let size = libm::pow(10.0, noise.between(-3.0, 1.0));
+        let mut frequency = 1.0;
+        let modes = (0..modes).map(|_| {
+            let numbers = [
+                frequency,
+                noise.between(0.0, 0.2) * noise.next(),
+                noise.between(0.3, 3.0),
+                size * noise.between(-1.0, 1.0),
+            ];
+            frequency *= noise.between(1.0, 1.7);
+            let mut value = || if noise.next() < 0.15 { 0.0 } else { noise.between(-1.0, 1.0) };
+            mode(numbers, &(0..absorbers).map(|_| value()).collect::<Vec<_>>())
+        });
+        let modes: Vec<_> = modes.collect();
+        let numbers = (0..absorbers).map(|_| {
+            let restitution = [0.0, 1.0, 0.3, 0.6, 0.9, 0.99][(noise.next() * 6.0) as usize];
+            let mass = libm::pow(10.0, noise.between(-4.0, 0.3));
+            [mass, libm::pow(10.0, noise.between(-1.0, 0.5)), restitution]
+        });
+        let numbers: Vec<_> = numbers.collect();
+        let system = system(noise.between(0.3, 2.5), modes, &numbers);
+        let mut state = ModalState::AT_REST;
+        for (j, [_, clearance, _]) in numbers.iter().enumerate() {
+            let y = noise.between(-0.99, 0.99) * clearance;
+            state.absorbers[j] = [y, size * noise.between(-1.0, 1.0)];
+        }
+        let phase = noise.between(0.0, 6.0);
+        let mut simulation = ModalSimulation::new(&system, &state, phase).expect("inside");
+        let begin = simulation.energy();
+        let mut balance = Balance::of(&system);
+        let stop = simulation.run(6, 30_000, &mut balance);
+        assert_eq!(stop, Stop::EndTime, "{system:?}");
+        let off = (simulation.energy() - begin - balance.added).abs();
+        assert!(off < 1e-10 * (begin + balance.turned_over), "{off:e} {system:?}");
+        assert!(balance.beyond < 1e-10, "{:e} {system:?}", balance.beyond);
+        (impacts, sticks) = (impacts + simulation.impacts(), sticks + balance.sticks);
+    }
+    assert!(impacts > 10_000 && sticks > 5_000, "{impacts} {sticks}");
 }

@@ -1,7 +1,7 @@
 //! The engine for several modes and absorbers.
 
 use vinesink_core::simulation::{
-    Detail, Doing, Impact, ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation,
+    Detail, Impact, ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation,
     Observer, Simulation, Stop,
 };
 use vinesink_core::system::{ModalAbsorber, ModalParameters, ModalState, ModalSystem, Mode, State};
@@ -9,15 +9,15 @@ use vinesink_core::system::{ModalAbsorber, ModalParameters, ModalState, ModalSys
 use super::cases::{EPS, mode, one_by_one, system, table1, two_by_two};
 
 /// A number from 0 to 1 that looks random.
-pub struct Noise(u64);
+pub struct Noise(pub u64);
 
 impl Noise {
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
-    fn between(&mut self, from: f64, to: f64) -> f64 {
+    pub fn between(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.next()
     }
 }
@@ -123,30 +123,41 @@ fn one_mode_and_one_absorber_move_as_in_the_engine_for_these() {
 }
 
 /// Work of the forces, loss of the dampers, and losses of impacts and of what comes to rest on walls.
-struct Balance {
+pub struct Balance {
     system: ModalSystem,
     rule: Vec<(f64, f64)>,
-    added: f64,
-    turned_over: f64,
+    pub added: f64,
+    pub turned_over: f64,
     resting: f64,
+    /// How far beyond a wall, over the clearance.
+    pub beyond: f64,
+    pub sticks: u64,
 }
 
 impl Balance {
-    fn of(system: &ModalSystem) -> Self {
+    pub fn of(system: &ModalSystem) -> Self {
         let rule = vinesink_core::numerics::gauss::uniform(10);
-        Self { system: system.clone(), rule, added: 0.0, turned_over: 0.0, resting: 0.0 }
+        let [added, turned_over, resting, beyond] = [0.0; 4];
+        Self { system: system.clone(), rule, added, turned_over, resting, beyond, sticks: 0 }
     }
 }
 
 impl ModalObserver for Balance {
     fn segment(&mut self, segment: &ModalSegment<'_>) {
         let frequencies = self.system.modes().iter().map(|mode| mode.frequency);
-        let pieces = (segment.duration * 1.5 * frequencies.fold(1.0, f64::max)).ceil();
+        let fastest = frequencies.fold(self.system.frequency_ratio().max(1.0), f64::max);
+        let pieces = (segment.duration * 1.5 * fastest).ceil();
         let h = segment.duration / pieces;
         for piece in 0..pieces as u32 {
             for (node, weight) in &self.rule {
                 let s = h * (f64::from(piece) + 0.5 * (1.0 + node));
                 let state = segment.at(s);
+                for (j, absorber) in self.system.absorbers().iter().enumerate() {
+                    let modes = self.system.modes().iter().zip(&state.modes);
+                    let x: f64 = modes.map(|(mode, [q, _])| mode.shape[j] * q).sum();
+                    let gap = (x - state.absorbers[j][0]).abs() / absorber.clearance;
+                    self.beyond = self.beyond.max(gap - 1.0);
+                }
                 let force = libm::sin(segment.phase + self.system.frequency_ratio() * s);
                 for (mode, [_, v]) in self.system.modes().iter().zip(&state.modes) {
                     let damping = 2.0 * mode.damping_ratio * mode.frequency * v * v;
@@ -156,7 +167,7 @@ impl ModalObserver for Balance {
                 }
             }
         }
-        let rests = (0..self.system.absorbers().len()).any(|j| segment.doing(j) != Doing::Flies);
+        let rests = (0..self.system.absorbers().len()).any(|j| segment.rests(j).is_some());
         self.resting += if rests { segment.duration } else { 0.0 };
     }
     fn impact(&mut self, impact: &ModalImpact) {
@@ -164,6 +175,7 @@ impl ModalObserver for Balance {
         self.turned_over += impact.loss;
     }
     fn sticks(&mut self, _: usize, loss: f64) {
+        self.sticks += 1;
         self.added -= loss;
         self.turned_over += loss;
     }

@@ -3,7 +3,7 @@
 use vinesink_core::analysis::{AbsorberGroup, Analysis, Grading, GroupFixedPoint};
 use vinesink_core::system::{ModalSystem, System};
 
-use super::cases::{EPS, one_by_one, table1, two_by_two};
+use super::cases::{EPS, mode, one_by_one, system, table1, two_by_two};
 use super::orbits::attracting;
 
 fn stable(system: &ModalSystem) -> GroupFixedPoint {
@@ -128,4 +128,50 @@ fn the_theory_is_of_first_order_in_the_mass_ratio() {
     for (found, expected) in errors.iter().zip([0.0173, 0.0043, 0.0011]) {
         assert!((found - expected).abs() < 6e-5, "{errors:?}");
     }
+}
+
+/// The same two forces in a balance of first harmonics at a finite mass ratio, as a published program has it: the structure has
+/// the mass `1 - m`, stiffness 1 and the damping `2 D`, and `q_ref = F/(2 D)`. On the backbone
+/// `w^2 = 1/(1 - m - m K/q)` and `F = 2 D w q + m w^2 S`; the best clearance is the largest
+/// that has a motion there.
+#[test]
+fn a_published_backbone_has_these_forces() {
+    let (m, damping) = (0.02, 1e-3);
+    let structure = vec![mode([1.0, damping, 1.0 - m, 1.0], &[1.0])];
+    let group = AbsorberGroup::of(&system(0.99, structure, &[[m, 1.0, 0.8]]), 0).expect("seen");
+    // Amplitude over the clearance; clearance and amplitude over `q_ref`; frequency.
+    let backbone = |xi: f64| {
+        let forces = group.forces(xi).expect("above the fold");
+        let w = 1.0 / (1.0 - m - m * forces.reactance / xi).sqrt();
+        let gamma = 1.0 / (w * xi + m * w * w * forces.resistance / (2.0 * damping));
+        [gamma, xi * gamma, w]
+    };
+    let [mut from, mut to] = group.range().expect("one");
+    for _ in 0..200 {
+        let third = (to - from) / 3.0;
+        if backbone(from + third)[0] > backbone(to - third)[0] {
+            to -= third
+        } else {
+            from += third
+        }
+    }
+    // A maximum is flat: its place is known to fewer digits than its value.
+    assert!((from - 0.570270).abs() < 3e-6 && (backbone(from)[0] - 0.338665).abs() < 5.1e-7);
+    let [gamma, amplitude, w] = backbone(0.570270);
+    assert!((gamma - 0.338665).abs() < 5.1e-7 && (amplitude - 0.193130).abs() < 5.1e-7);
+    assert!((w - 0.988455).abs() < 5.1e-7, "{w}");
+    let wide = bisect([1.0, 20.0], |xi| backbone(xi)[0] - 0.07);
+    let [_, amplitude, _] = backbone(wide);
+    assert!(
+        (wide - 8.3158).abs() < 5.1e-5 && (amplitude - 0.58210).abs() < 5.6e-6,
+        "{wide} {amplitude}"
+    );
+}
+
+fn bisect([mut from, mut to]: [f64; 2], falls: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..100 {
+        let middle = 0.5 * (from + to);
+        if falls(middle) > 0.0 { from = middle } else { to = middle }
+    }
+    from
 }

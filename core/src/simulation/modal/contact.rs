@@ -9,7 +9,7 @@
 
 use super::flight::{LARGEST_TOUCH, clear_of_wall};
 use super::motion::{Gap, View, sine_and_cosine};
-use super::{All, Course, Detail, MOST, ModalObserver, ModalSegment, ModalSimulation, Told};
+use super::{All, Course, Detail, MOST, ModalObserver, ModalSegment, ModalSimulation, STILL, Told};
 use crate::numerics::crossing::{CrossingBand, Edge, Sample, Search, first_of};
 use crate::simulation::Stop;
 use crate::simulation::contact::{AtWall, ContactTolerance};
@@ -20,6 +20,11 @@ use crate::system::ModalState;
 const ANGLE: f64 = 0.5;
 /// Last power of the series: the next is below `0.5^18/18! = 6e-22`, and so is what a fourth derivative leaves out, `1e-17`.
 const LAST: usize = 17;
+
+/// Acceleration by a wall, over the largest that there is, that is none.
+const NO_FORCE: f64 = 1e-12;
+/// Most steps of a relaxation.
+const RELAXATIONS: usize = 2000;
 
 type Vector = [f64; MOST];
 
@@ -163,18 +168,100 @@ impl HeldPanel {
 impl ModalSimulation {
     /// Lets each absorber that stands on its wall, and is not thrown off, rest there.
     pub(super) fn settle(&mut self, observer: &mut dyn ModalObserver) {
-        for j in 0..self.all.absorbers {
-            if self.at.walls[j] == 0.0 || self.stuck[j] != 0.0 {
+        // What comes to rest changes how the walls of the others accelerate.
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for j in 0..self.all.absorbers {
+                if self.at.walls[j] == 0.0 || self.stuck[j] != 0.0 {
+                    continue;
+                }
+                if let Some(loss) = self.comes_to_rest(j) {
+                    observer.sticks(j, loss);
+                    changed = true;
+                }
+            }
+        }
+        self.solve_contacts(Some(observer));
+    }
+
+    /// Of several absorbers that stand on their walls and move with them, lets those rest which a wall pushes, and the others
+    /// leave: no wall pulls, and none runs into what it does not push. The forces are the one solution of a complementarity
+    /// problem with a positive matrix, by projected relaxation (Gauss and Seidel).
+    /// Where somebody is there to be told of the loss, also those whose gaps open by no more than chattering may leave.
+    fn solve_contacts(&mut self, observer: Option<&mut dyn ModalObserver>) {
+        let (all, constants) = (&self.all, &self.all.constants);
+        let sizes = constants.sizes(&self.at.phasors);
+        let (mut walls, mut opens) = (self.stuck, [false; MOST]);
+        for j in (0..all.absorbers).filter(|j| self.stuck[*j] == 0.0) {
+            let (view, line, wall) = (&constants.views[j], self.at.lines[j], self.at.walls[j]);
+            let touch = constants.touch(view, &sizes, line);
+            let opening = -wall * constants.gap(j, &self.at.phasors, line).slope;
+            opens[j] = opening.abs() > touch * self.roughness();
+            let excursion = ContactTolerance::default().excursion.max(touch);
+            let little = opening * opening <= 2.0 * excursion * constants.slack(view, &sizes).1;
+            if !opens[j] || (observer.is_some() && opening > 0.0 && little) {
+                walls[j] = wall;
+            }
+        }
+        let on = |j: &usize| walls[*j] != 0.0;
+        if (0..MOST).filter(on).count() < 2 {
+            return;
+        }
+        let free = Inverse::of(all, &[0.0; MOST]);
+        let panel = HeldPanel::of(all, &self.state(), self.at.phase, &free);
+        let (mut closing, mut forces, mut largest) = ([0.0; MOST], [0.0_f64; MOST], 0.0_f64);
+        for j in (0..MOST).filter(on) {
+            let view = &constants.views[j];
+            closing[j] = walls[j] * panel.seen(view, 0.0, 2) * all.clearances[j];
+            largest = largest.max(panel.bound(view, 2) * all.clearances[j]);
+        }
+        let yields = |i: usize, j: usize| {
+            let own = if i == j { 1.0 / all.absorber_masses[j] } else { 0.0 };
+            own + walls[i] * walls[j] * dot(&all.shape(i), &free.times(&all.shape(j)))
+        };
+        let matrix: [Vector; MOST] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| if on(&i) && on(&j) { yields(i, j) } else { 0.0 })
+        });
+        for _ in 0..RELAXATIONS {
+            let mut changed = 0.0_f64;
+            for j in (0..MOST).filter(on) {
+                let left = closing[j] - dot(&matrix[j], &forces);
+                let force = (forces[j] + left / matrix[j][j]).max(0.0);
+                changed = changed.max((force - forces[j]).abs() * matrix[j][j]);
+                forces[j] = force;
+            }
+            if changed <= f64::EPSILON * largest {
+                break;
+            }
+        }
+        let mut pushed = [false; MOST];
+        for j in (0..MOST).filter(on) {
+            pushed[j] = forces[j] * matrix[j][j] > NO_FORCE * largest;
+            if opens[j] {
                 continue;
             }
-            if let Some(loss) = self.rests(j) {
+            self.stuck[j] = if pushed[j] { walls[j] } else { 0.0 };
+            self.at.walls[j] = if pushed[j] { 0.0 } else { walls[j] };
+            let Gap { gap, slope, .. } = self.all.constants.gap(j, &self.at.phasors, STILL);
+            self.at.lines[j] = StraightLine { y: gap - walls[j], velocity: slope };
+        }
+        self.inverse = Inverse::of(&self.all, &self.stuck);
+        if let Some(observer) = observer {
+            for j in (0..MOST).filter(|j| opens[*j] && pushed[*j]) {
+                let loss = self.stick(j, walls[j]);
                 observer.sticks(j, loss);
             }
         }
     }
 
+    /// By how much more velocities are rounded than places.
+    fn roughness(&self) -> f64 {
+        1.0 + self.all.constants.fastest
+    }
+
     /// Whether an absorber on its wall rests there from now on, and the energy that it loses then.
-    fn rests(&mut self, j: usize) -> Option<f64> {
+    fn comes_to_rest(&mut self, j: usize) -> Option<f64> {
         let (all, wall) = (&self.all, self.at.walls[j]);
         let (constants, view) = (&all.constants, &all.constants.views[j]);
         let sizes = constants.sizes(&self.at.phasors);
@@ -185,13 +272,11 @@ impl ModalSimulation {
         let inelastic = ((1.0 - r) * (1.0 + r)).max(f64::MIN_POSITIVE);
         let excursion = ContactTolerance::default().excursion.max(touch / inelastic);
         // What still comes has its impact first.
+        let opening = if opening.abs() <= touch * self.roughness() { 0.0 } else { opening };
         if opening < 0.0 || opening * opening > 2.0 * excursion * bend.max(f64::MIN_POSITIVE) {
             return None;
         }
-        let mut state = self.state();
-        let panel = HeldPanel::of(all, &state, self.at.phase, &self.inverse);
-        let shape = all.shape(j);
-        let seen = 1.0 / all.absorber_masses[j] + dot(&shape, &self.inverse.times(&shape));
+        let panel = HeldPanel::of(all, &self.state(), self.at.phase, &self.inverse);
         // By how much what an absorber takes along turns the phasors, and these the jerk.
         let kicked = (0..all.modes).map(|k| {
             let (mode, phi) = (&constants.modes[k], view.shape[k] * all.clearances[j]);
@@ -212,14 +297,23 @@ impl ModalSimulation {
         if !(unresolved || tolerance.sticks(r, &at_wall)) {
             return None;
         }
-        let speed = slope * all.clearances[j];
-        let impulse = speed / seen;
+        Some(self.stick(j, wall))
+    }
+
+    /// An impact without rebound on a wall, with what rests already: the energy lost.
+    fn stick(&mut self, j: usize, wall: f64) -> f64 {
+        let (all, mut state, shape) = (&self.all, self.state(), self.all.shape(j));
         let moved = self.inverse.times(&shape);
+        let seen = 1.0 / all.absorber_masses[j] + dot(&shape, &moved);
+        let gap = all.constants.gap(j, &self.at.phasors, self.at.lines[j]);
+        let speed = gap.slope * all.clearances[j];
+        let impulse = speed / seen;
         state.modes.iter_mut().zip(&moved).for_each(|(mode, by)| mode[1] -= by * impulse);
         self.at.phasors = all.phasors(&state, sine_and_cosine(self.at.phase));
         (self.stuck[j], self.at.walls[j]) = (wall, 0.0);
         self.inverse = Inverse::of(&self.all, &self.stuck);
-        Some(0.5 * speed * impulse)
+        self.carry();
+        0.5 * speed * impulse
     }
 
     /// Takes absorbers along to the next event, the end of the period, or for a panel.
@@ -249,7 +343,8 @@ impl ModalSimulation {
                 bands[j] = CrossingBand { lower: -1.0, upper: 1.0, touch };
                 bounds[j] = panel.bound(view, 2);
                 let [v, a, jerk] = [1, 2, 3].map(|order| panel.seen(view, 0.0, order));
-                if wall != 0.0 && v == at.lines[j].velocity {
+                let rounding = touch * self.roughness();
+                if wall != 0.0 && (v - at.lines[j].velocity).abs() <= rounding {
                     let further = [3, 4].map(|order| panel.bound(view, order));
                     let clear = clear_of_wall([a * wall, jerk * wall], bounds[j], further, touch);
                     from[j] = clear.min(panel.length);
@@ -293,7 +388,7 @@ impl ModalSimulation {
             time,
             event.is_none() && time == self.all.constants.left(self.at.phase),
         );
-        if self.at.phase == 0.0 && event.is_none() {
+        if detail > Detail::Nothing && self.at.phase == 0.0 && event.is_none() {
             Told { all: &self.all, detail, observer: &mut *observer }.period(&self.at);
         }
         match event {
@@ -307,8 +402,10 @@ impl ModalSimulation {
                 let wall = if edge == Edge::Upper { 1.0 } else { -1.0 };
                 let before = self.at;
                 self.all.constants.collide(&mut self.at, j, wall);
-                Told { all: &self.all, detail, observer: &mut *observer }
-                    .impact(&before, &self.at, j, wall);
+                if detail > Detail::Nothing {
+                    Told { all: &self.all, detail, observer: &mut *observer }
+                        .impact(&before, &self.at, j, wall);
+                }
                 self.settle(observer);
             }
             None => {}
@@ -338,9 +435,8 @@ impl ModalSimulation {
 
     /// Puts what rests on a wall where that is.
     fn carry(&mut self) {
-        let still = StraightLine { y: 0.0, velocity: 0.0 };
         for j in (0..self.all.absorbers).filter(|j| self.stuck[*j] != 0.0) {
-            let Gap { gap, slope, .. } = self.all.constants.gap(j, &self.at.phasors, still);
+            let Gap { gap, slope, .. } = self.all.constants.gap(j, &self.at.phasors, STILL);
             self.at.lines[j] = StraightLine { y: gap - self.stuck[j], velocity: slope };
         }
     }
@@ -350,5 +446,6 @@ impl ModalSimulation {
         self.carry();
         (self.at.walls[j], self.stuck[j]) = (self.stuck[j], 0.0);
         self.inverse = Inverse::of(&self.all, &self.stuck);
+        self.solve_contacts(None);
     }
 }

@@ -1,7 +1,7 @@
 //! Flights of all absorbers from event to event: each one's first root is proven by itself, and the least is the event.
 
 use super::motion::{Constants, Gap, Phasors};
-use super::{Doing, Limits, Told};
+use super::{Limits, STILL, Told};
 use crate::numerics::crossing::{
     Crossing, CrossingBand, Curve, Edge, Sample, Search, first_crossing,
 };
@@ -11,7 +11,7 @@ use crate::simulation::landing::CORRECTIONS;
 use crate::simulation::path::{Path, StraightLine};
 use crate::simulation::phasor::{Rates, Slack};
 use crate::simulation::roots::reverted;
-use crate::simulation::{Side, Stop};
+use crate::simulation::{Detail, Side, Stop};
 
 /// Part of a panel below which it is not halved further: the slow search takes over.
 const SHORTEST: f64 = 1e-3;
@@ -84,7 +84,9 @@ impl<const N: usize, const M: usize> Constants<N, M> {
         loop {
             let begin = *at;
             let (landing, may_stick) = self.flight(at, slow)?;
-            told.flown(&begin, landing.time);
+            if told.detail == Detail::Flights && landing.time > 0.0 {
+                told.flown(&begin, landing.time);
+            }
             for line in &mut at.lines {
                 *line = line.from(landing.time);
             }
@@ -92,7 +94,9 @@ impl<const N: usize, const M: usize> Constants<N, M> {
             let Some((j, wall)) = landing.wall else {
                 (at.phase, at.turns, at.walls) = (0.0, at.turns + 1, [0.0; M]);
                 at.phasors.rotor = [0.0, 1.0];
-                told.period(at);
+                if told.detail > Detail::Nothing {
+                    told.period(at);
+                }
                 if limits.reached(at.turns, at.impacts) {
                     return Ok(FlightEnd::Limit);
                 }
@@ -104,7 +108,9 @@ impl<const N: usize, const M: usize> Constants<N, M> {
             }
             let before = *at;
             let opening = self.collide(at, j, wall);
-            told.impact(&before, at, j, wall);
+            if told.detail > Detail::Nothing {
+                told.impact(&before, at, j, wall);
+            }
             // Opened by what it leaves the wall with: the rest is looked at where it is rare.
             let [excursion, bend] = may_stick[j];
             let largest = bend + self.kicks[j].bend * opening / self.kicks[j].restitution.max(1e-3);
@@ -124,8 +130,7 @@ impl<const N: usize, const M: usize> Constants<N, M> {
         let x = gap + at.lines[j].y;
         self.strike(j, slope, &mut at.phasors, &mut at.lines[j].velocity);
         if self.kicks[j].restitution == 0.0 {
-            let still = StraightLine { y: 0.0, velocity: 0.0 };
-            at.lines[j].velocity = self.gap(j, &at.phasors, still).slope;
+            at.lines[j].velocity = self.gap(j, &at.phasors, STILL).slope;
         }
         at.lines[j].y = x - wall;
         at.walls[j] = wall;
@@ -384,8 +389,9 @@ pub(super) fn side(wall: f64) -> Side {
 }
 
 impl<const N: usize, const M: usize> Standing<N, M> {
-    /// Copies what a part of the modes and absorbers has come to.
-    pub fn take<const K: usize, const L: usize>(&mut self, from: &Standing<K, L>) {
+    /// With what the modes and absorbers of another one have come to, as far as there are any here.
+    #[must_use]
+    pub fn with<const K: usize, const L: usize>(mut self, from: &Standing<K, L>) -> Self {
         for k in 0..N.min(K) {
             self.phasors.z[k] = from.phasors.z[k];
         }
@@ -395,12 +401,13 @@ impl<const N: usize, const M: usize> Standing<N, M> {
         self.phasors.rotor = from.phasors.rotor;
         (self.phase, self.turns) = (from.phase, from.turns);
         (self.impacts, self.evaluations) = (from.impacts, from.evaluations);
+        self
     }
 
     /// At rest in the middle, at phase 0.
     pub const START: Self = Self {
         phasors: Phasors { z: [[0.0; 2]; N], rotor: [0.0, 1.0] },
-        lines: [StraightLine { y: 0.0, velocity: 0.0 }; M],
+        lines: [STILL; M],
         walls: [0.0; M],
         phase: 0.0,
         turns: 0,
@@ -409,7 +416,7 @@ impl<const N: usize, const M: usize> Standing<N, M> {
     };
 }
 
-/// What an absorber does.
-pub(super) fn doing(stuck: f64) -> Doing {
-    if stuck == 0.0 { Doing::Flies } else { Doing::Rests(side(stuck)) }
+/// The wall that an absorber rests on, if it does.
+pub(super) fn resting(stuck: f64) -> Option<Side> {
+    (stuck != 0.0).then(|| side(stuck))
 }

@@ -5,18 +5,21 @@
 //! wall move with the structure, whose modes they couple: a series in short panels, with bounds that are proven ([`contact`]).
 //!
 //! Rules where the order matters: impacts at one instant, to rounding, take place in the order of the absorbers, one by one;
-//! an impact finds those that rest on a wall free to leave it, and they stay if the speed that it gives them is what the end
-//! of a chattering sequence may leave.
+//! an impact finds those that rest on a wall free to leave it. A chattering sequence ends where its rest is below the
+//! tolerances of [`ContactTolerance`](super::ContactTolerance), as for one absorber; where several stand on their walls, those
+//! rest that the walls push, by the one solution of a complementarity problem.
 
 mod contact;
 mod flight;
 mod meter;
 mod motion;
 
+use std::f64::consts::TAU;
+
 use serde::Serialize;
 
 use self::contact::{HeldPanel, Inverse};
-use self::flight::{FlightEnd, Standing, doing, side};
+use self::flight::{FlightEnd, Standing, resting, side};
 use self::motion::{Constants, Gap, Phasors, View, sine_and_cosine};
 use super::events::{Detail, Side};
 use super::path::{Path, StraightLine};
@@ -26,6 +29,8 @@ use crate::system::{MOST_MODES, ModalState, ModalSystem};
 pub use meter::{ModalMeter, PlaceMotion};
 
 const MOST: usize = MOST_MODES;
+/// What is seen from a place at rest.
+const STILL: StraightLine<f64> = StraightLine { y: 0.0, velocity: 0.0 };
 
 /// A start that no motion can have.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -65,15 +70,6 @@ pub struct ModalImpact {
     pub y_velocity: [f64; 2],
     /// Energy lost.
     pub loss: f64,
-}
-
-/// What one absorber does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub enum Doing {
-    /// It flies on a straight line.
-    Flies,
-    /// It rests on a wall.
-    Rests(Side),
 }
 
 /// A stretch of motion without events.
@@ -119,15 +115,15 @@ impl ModalSegment<'_> {
         state
     }
 
-    /// What an absorber does.
-    pub fn doing(&self, absorber: usize) -> Doing {
-        doing(self.stuck[absorber])
+    /// The wall that an absorber rests on, if it does.
+    pub fn rests(&self, absorber: usize) -> Option<Side> {
+        resting(self.stuck[absorber])
     }
 
     /// The free phasors after any time.
     fn turned(&self, begin: &Phasors<MOST>, s: f64) -> [[f64; 2]; MOST] {
         let mut z = begin.z;
-        for (z, mode) in z.iter_mut().zip(&self.all.constants.modes) {
+        for (z, mode) in z.iter_mut().zip(&self.all.constants.modes).take(self.all.modes) {
             let ([sin, cos], envelope) =
                 (sine_and_cosine(mode.ringing * s), libm::exp(-mode.decay * s));
             *z = super::phasor::multiply(*z, [envelope * cos, envelope * sin]);
@@ -281,21 +277,9 @@ struct Told<'a> {
 }
 
 impl Told<'_> {
-    #[inline(always)]
-    fn flown<const N: usize, const M: usize>(&mut self, begin: &Standing<N, M>, duration: f64) {
-        if self.detail == Detail::Flights && duration > 0.0 {
-            self.tell_flight(begin, duration);
-        }
-    }
-
     #[inline(never)]
-    fn tell_flight<const N: usize, const M: usize>(
-        &mut self,
-        begin: &Standing<N, M>,
-        duration: f64,
-    ) {
-        let mut at = Standing::<MOST, MOST>::START;
-        at.take(begin);
+    fn flown<const N: usize, const M: usize>(&mut self, begin: &Standing<N, M>, duration: f64) {
+        let at = Standing::<MOST, MOST>::START.with(begin);
         self.observer.segment(&ModalSegment {
             all: self.all,
             course: Course::Free(at.phasors),
@@ -307,7 +291,7 @@ impl Told<'_> {
         });
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn impact<const N: usize, const M: usize>(
         &mut self,
         before: &Standing<N, M>,
@@ -315,46 +299,26 @@ impl Told<'_> {
         j: usize,
         wall: f64,
     ) {
-        if self.detail > Detail::Nothing {
-            self.tell_impact(before, after, j, wall);
-        }
+        let (constants, b) = (&self.all.constants, self.all.clearances[j]);
+        let [before, after] = [before, after].map(|one| Standing::<MOST, MOST>::START.with(one));
+        let [from, to] = [&before, &after].map(|at| constants.gap(j, &at.phasors, STILL));
+        let velocities = [before.lines[j].velocity, after.lines[j].velocity];
+        self.observer.impact(&ModalImpact {
+            tau: (before.turns as f64 * TAU + before.phase) / constants.frequency,
+            phase: before.phase,
+            absorber: j,
+            side: side(wall),
+            x: from.gap * b,
+            x_velocity: [from.slope * b, to.slope * b],
+            y_velocity: velocities.map(|velocity| velocity * b),
+            loss: constants.loss(j, from.slope - velocities[0]),
+        });
     }
 
     #[inline(never)]
-    fn tell_impact<const N: usize, const M: usize>(
-        &mut self,
-        before: &Standing<N, M>,
-        after: &Standing<N, M>,
-        j: usize,
-        wall: f64,
-    ) {
-        let (c, b) = (&self.all.constants, self.all.clearances[j]);
-        let [from, to] = [before, after].map(|one| {
-            let mut at = Standing::<MOST, MOST>::START;
-            at.take(one);
-            let still = StraightLine { y: 0.0, velocity: 0.0 };
-            (c.gap(j, &at.phasors, still), at.lines[j].velocity, at.phase)
-        });
-        let loss = c.loss(j, from.0.slope - from.1);
-        self.observer.impact(&ModalImpact {
-            tau: (before.turns as f64 * std::f64::consts::TAU + from.2) / c.frequency,
-            phase: from.2,
-            absorber: j,
-            side: side(wall),
-            x: from.0.gap * b,
-            x_velocity: [from.0.slope * b, to.0.slope * b],
-            y_velocity: [from.1 * b, to.1 * b],
-            loss,
-        });
-    }
-
-    #[inline(always)]
     fn period<const N: usize, const M: usize>(&mut self, at: &Standing<N, M>) {
-        if self.detail > Detail::Nothing {
-            let mut all = Standing::<MOST, MOST>::START;
-            all.take(at);
-            self.observer.period(at.turns, &state_of(self.all, &all));
-        }
+        let at = Standing::START.with(at);
+        self.observer.period(at.turns, &state_of(self.all, &at));
     }
 }
 
@@ -417,7 +381,7 @@ impl ModalSimulation {
         if !(phase.is_finite() && numbers.into_iter().all(|number| number.is_finite())) {
             return Err(ModalStartError::NotFinite);
         }
-        let phase = phase.rem_euclid(std::f64::consts::TAU);
+        let phase = phase.rem_euclid(TAU);
         let mut at = Standing::START;
         at.phase = phase;
         at.phasors = all.phasors(start, sine_and_cosine(phase));
@@ -476,9 +440,9 @@ impl ModalSimulation {
         self.at.evaluations
     }
 
-    /// What an absorber does.
-    pub fn doing(&self, absorber: usize) -> Doing {
-        doing(self.stuck[absorber])
+    /// The wall that an absorber rests on, if it does.
+    pub fn rests(&self, absorber: usize) -> Option<Side> {
+        resting(self.stuck[absorber])
     }
 
     /// Kinetic and potential energy of modes and absorbers, in masses times squared lengths over time.
@@ -540,11 +504,10 @@ impl ModalSimulation {
         observer: &mut dyn ModalObserver,
     ) -> Result<(), Stop> {
         let constants: Constants<N, M> = self.all.constants.first();
-        let mut at = Standing::<N, M>::START;
-        at.take(&self.at);
+        let mut at = Standing::<N, M>::START.with(&self.at);
         let mut told = Told { all: &self.all, detail: observer.detail(), observer: &mut *observer };
         let end = constants.fly(&mut at, limits, self.slow, &mut told);
-        self.at.take(&at);
+        self.at = self.at.with(&at);
         if end? == FlightEnd::MayStick {
             self.settle(observer);
         }

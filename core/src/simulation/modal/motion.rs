@@ -59,7 +59,7 @@ pub(super) struct Kick<const N: usize> {
 /// The constants of `N` modes and `M` absorbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Constants<const N: usize, const M: usize> {
-    /// The fastest of the modes that an absorber sees, and of the excitation.
+    /// The fastest of modes and excitation.
     pub fastest: f64,
     /// Length of a panel.
     pub step: f64,
@@ -114,7 +114,7 @@ impl Constants<MOST_MODES, MOST_MODES> {
     pub(super) fn of(system: &ModalSystem) -> Self {
         let frequency = system.frequency_ratio();
         let modes = system.modes();
-        // What no absorber sees is left out of the length of a panel by being turned by less.
+        // Also of modes that no absorber sees: all are turned by the same series.
         let fastest = modes.iter().map(|mode| mode.frequency).fold(frequency, f64::max);
         let step = LARGEST_ANGLE / fastest;
         let still = ModeRates {
