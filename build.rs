@@ -23,7 +23,7 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 24] = [
+const NOT_IN_A_BROWSER: [&str; 25] = [
     "analyze",
     "check.github",
     "check.txt",
@@ -36,6 +36,7 @@ const NOT_IN_A_BROWSER: [&str; 24] = [
     "index",
     "jobs",
     "live",
+    "modal",
     "optimize",
     "page",
     "paper",

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::case::{Case, CaseError, Recording};
+use crate::case::{Case, CaseError, ModalCase, Recording, is_modal};
 use crate::store::{self, CaseText, Reach, StoreError};
 
 /// Why a case could not be read from its file.
@@ -26,15 +26,45 @@ pub enum CaseInputError {
     Case(#[from] CaseError),
 }
 
+/// A case of either kind.
+#[derive(Debug, Clone)]
+pub enum AnyCase {
+    /// One mode and one absorber.
+    One(Box<Case>),
+    /// Several modes or absorbers.
+    Several(Box<ModalCase>),
+}
+
 /// Reads a case file and the record that it names; its text beside the case.
 ///
 /// # Errors
-/// [`CaseInputError`].
+/// [`CaseInputError`]; also for a case of several modes or absorbers.
 pub fn read(path: &Path, reach: Reach) -> Result<(Case, String), CaseInputError> {
+    read_text(path, reach, |name, text, folder| parse(name, text, folder, reach))
+}
+
+/// The same of a case of either kind.
+///
+/// # Errors
+/// [`CaseInputError`].
+pub fn read_any(path: &Path, reach: Reach) -> Result<(AnyCase, String), CaseInputError> {
+    read_text(path, reach, |name, text, folder| {
+        if is_modal(text) {
+            return Ok(AnyCase::Several(Box::new(ModalCase::parse(name, text)?)));
+        }
+        Ok(AnyCase::One(Box::new(parse(name, text, folder, reach)?)))
+    })
+}
+
+fn read_text<T>(
+    path: &Path,
+    reach: Reach,
+    parse: impl Fn(&str, &str, &Path) -> Result<T, CaseInputError>,
+) -> Result<(T, String), CaseInputError> {
     let CaseText { text, quotable } = store::read_case(path, reach)?;
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or(Path::new(""));
-    let case = parse(&name, &text, folder, reach).map_err(|error| match error {
+    let case = parse(&name, &text, folder).map_err(|error| match error {
         CaseInputError::Case(error) if !quotable && error.name() == name => {
             let advice =
                 "a link leads to it, so its lines are not shown; --allow-outside shows them";

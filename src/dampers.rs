@@ -47,44 +47,50 @@ pub fn best(
     if how.damping.is_none() {
         best.push(libm::log(from.damping_ratio));
     }
-    let of = Cost { damping: how.damping, cost: &cost };
-    for _ in 0..how.restarts {
+    let damper = |logarithms: &[f64]| {
+        let damping = logarithms.get(1).map(|one| libm::exp(*one));
+        TunedMassDamper {
+            tuning: libm::exp(logarithms[0]),
+            damping_ratio: damping.or(how.damping).unwrap_or_default(),
+        }
+    };
+    let sizes = &SIMPLEX[..best.len()];
+    damper(&simplex(best, sizes, how.steps, how.restarts, |logarithms| cost(&damper(logarithms))))
+}
+
+/// Where a simplex that begins at a place, with these sizes along each axis, finds the smallest cost; it begins so many times
+/// again where it ended.
+pub(crate) fn simplex(
+    mut best: Vec<f64>,
+    sizes: &[f64],
+    steps: u64,
+    restarts: u32,
+    cost: impl Fn(&[f64]) -> f64,
+) -> Vec<f64> {
+    let of = Cost(cost);
+    for _ in 0..restarts {
         let mut simplex = vec![best.clone(); best.len() + 1];
         for k in 0..best.len() {
-            simplex[k + 1][k] += SIMPLEX[k];
+            simplex[k + 1][k] += sizes[k];
         }
         let run = Executor::new(&of, NelderMead::new(simplex))
-            .configure(|state| state.max_iters(how.steps))
+            .configure(|state| state.max_iters(steps))
             .timer(false)
             .run();
         let found = run.ok().and_then(|run| run.state().get_best_param().cloned());
         best = found.unwrap_or(best);
     }
-    of.damper(&best)
+    best
 }
 
 /// What a simplex makes small.
-struct Cost<'a, F> {
-    damping: Option<f64>,
-    cost: &'a F,
-}
+struct Cost<F>(F);
 
-impl<F> Cost<'_, F> {
-    /// A damper of the logarithms of its tuning and damping ratio.
-    fn damper(&self, logarithms: &[f64]) -> TunedMassDamper {
-        let damping = logarithms.get(1).map(|one| libm::exp(*one));
-        TunedMassDamper {
-            tuning: libm::exp(logarithms[0]),
-            damping_ratio: damping.or(self.damping).unwrap_or_default(),
-        }
-    }
-}
-
-impl<F: Fn(&TunedMassDamper) -> f64> CostFunction for &Cost<'_, F> {
+impl<F: Fn(&[f64]) -> f64> CostFunction for &Cost<F> {
     type Param = Vec<f64>;
     type Output = f64;
-    fn cost(&self, logarithms: &Vec<f64>) -> Result<f64, Error> {
-        Ok((self.cost)(&self.damper(logarithms)))
+    fn cost(&self, place: &Vec<f64>) -> Result<f64, Error> {
+        Ok((self.0)(place))
     }
 }
 

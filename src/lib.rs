@@ -30,6 +30,7 @@ pub mod dampers;
 pub mod diff;
 pub mod digest;
 pub mod measure;
+pub mod modal;
 pub mod operating_range;
 pub mod optimize;
 #[cfg(feature = "cli")]

@@ -17,6 +17,7 @@ mod document;
 mod error;
 mod excitation;
 mod inputs;
+mod modal;
 mod number;
 mod optimize;
 mod parameter;
@@ -49,6 +50,9 @@ pub(crate) use criteria::AREAS_ARE_IDEAL;
 pub use criteria::{Criterion, Relation};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
+pub use modal::{
+    ActsOn, Load, ModalCase, PlaceCriterion, PlacedAbsorber, StructuralMode, is_modal,
+};
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;
 pub use quantity::QuantityError;
@@ -225,14 +229,7 @@ impl Case {
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |problems, more| CaseError::new(name, visible, problems, more);
         let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
-        let mut reader = Reader {
-            text: visible,
-            problems: Vec::new(),
-            more: 0,
-            inputs: Vec::new(),
-            design: None,
-            recording: None,
-        };
+        let mut reader = Reader::of(visible);
         match read(&mut reader, &document, sha256(text.as_bytes())) {
             Some(mut case) if reader.problems.is_empty() => {
                 case.text = Arc::from(visible);
@@ -318,6 +315,14 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
             "expected a title, a source and a design",
             help,
         );
+        return None;
+    }
+    if let Some(key) = modal::tells_several(document) {
+        let message =
+            "the case is of several modes or absorbers, of which this command knows nothing";
+        let expected = "expected [oscillator], [absorber] and [excitation], or [reduced]";
+        let help = "`vinesink check`, `report` and `simulate` read it";
+        reader.report(key, message, expected, help);
         return None;
     }
     let root = reader.root::<Heading, Tables>(document);

@@ -33,6 +33,12 @@ pub(super) struct Reader<'t> {
 }
 
 impl<'t> Reader<'t> {
+    /// One that has read nothing.
+    pub fn of(text: &'t str) -> Self {
+        let (problems, inputs) = (Vec::new(), Vec::new());
+        Self { text, problems, more: 0, inputs, design: None, recording: None }
+    }
+
     /// The bytes of the first line, to point at when there is nothing better.
     pub fn first_line(&self) -> usize {
         self.text.lines().next().map_or(0, str::len)
@@ -68,8 +74,27 @@ impl<'t> Reader<'t> {
         &mut self,
         entries: &'d DeTable<'d>,
     ) -> Table<'d> {
-        let keys = [fields::<Keys>(), fields::<Tables>()].concat();
+        self.root_of::<Keys>(entries, fields::<Tables>())
+    }
+
+    /// The same with tables of these names.
+    pub fn root_of<'d, Keys: DeserializeOwned + JsonSchema>(
+        &mut self,
+        entries: &'d DeTable<'d>,
+        tables: &[&'static str],
+    ) -> Table<'d> {
+        let keys = [fields::<Keys>(), tables].concat();
         self.open(String::new(), of_table::<Keys>(), keys, 0..self.first_line(), entries)
+    }
+
+    /// Opens one of a list of tables.
+    pub fn listed<'d, T: DeserializeOwned + JsonSchema>(
+        &mut self,
+        name: &str,
+        span: Range<usize>,
+        entries: &'d DeTable<'d>,
+    ) -> Table<'d> {
+        self.open(name.to_owned(), of_table::<T>(), fields::<T>().to_vec(), span, entries)
     }
 
     /// Opens a table, reporting every unknown key in it; `None` when there is no such table. It is read by its

@@ -3,6 +3,7 @@
 use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 use vinesink::answer::{Answer, Asked};
+use vinesink::case_input::AnyCase;
 use vinesink::method::Method;
 use vinesink::program::case_file;
 use vinesink::program::parallel::Parallel;
@@ -12,6 +13,7 @@ use vinesink::study::fidelity::LayerPlan;
 
 use super::budget::{self, Work};
 use super::one_case::{self, OneCase};
+use super::several;
 
 /// Print what the theory and the exact orbits say of a case
 ///
@@ -38,7 +40,10 @@ Examples:
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
-    let case = case_file::read(path, *reading)?;
+    let case = match case_file::read_any(path, *reading)?.0 {
+        AnyCase::One(case) => *case,
+        AnyCase::Several(case) => return several::analyze(&arguments.one, &case),
+    };
     if case.design.release().is_none() {
         one_case::steady(&case, path, "an analysis")?;
     }

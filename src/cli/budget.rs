@@ -89,6 +89,20 @@ impl Long {
         self.refused(path, case, seconds, what)
     }
 
+    /// The same of other work, so many seconds.
+    pub fn allows_seconds(self, path: &Path, seconds: f64, what: &str) -> Result<()> {
+        if self.long || seconds <= ORDINARY {
+            return Ok(());
+        }
+        Err(miette!(
+            help = "to do it all the same, add --long",
+            "{} would take about {}: {}",
+            path.display(),
+            duration(seconds),
+            what
+        ))
+    }
+
     fn refused(self, path: &Path, case: &Case, seconds: f64, what: &str) -> Result<()> {
         let slips = case.warnings().iter().filter_map(|warning| {
             Some(format!("line {}: {}; ", warning.line, warning.help.as_ref()?))

@@ -7,6 +7,7 @@ use miette::{IntoDiagnostic, Report, Result};
 use serde_json::json;
 use vinesink::answer::{Answer, Asked, Decided};
 use vinesink::case::{Case, CaseError};
+use vinesink::case_input::AnyCase;
 use vinesink::operating_range::{Together, Varied};
 use vinesink::program::case_file::{self, Reading};
 use vinesink::program::output;
@@ -16,6 +17,7 @@ use vinesink::report::document::place::FilePlace;
 use vinesink::report::render::RenderError;
 
 use super::budget::{self, Long, Work};
+use super::several;
 
 /// Hold each case against its criteria
 ///
@@ -95,8 +97,8 @@ pub fn run(arguments: Arguments) -> Result<bool> {
 fn checked(path: &Path, arguments: &Arguments, failures: &mut Vec<Report>) -> Checked {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let place = path.display().to_string();
-    match judged(path, arguments) {
-        Ok((case, answer)) => Checked::judged(&place, &stem, &case, &answer),
+    match judged(path, &place, &stem, arguments) {
+        Ok(checked) => checked,
         Err(error) => {
             let problems =
                 error.downcast_ref::<CaseError>().into_iter().flat_map(CaseError::problems);
@@ -108,9 +110,29 @@ fn checked(path: &Path, arguments: &Arguments, failures: &mut Vec<Report>) -> Ch
     }
 }
 
-fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
-    let Arguments { long, reading, .. } = *arguments;
-    let case = case_file::read(path, reading)?;
+fn judged(path: &Path, place: &str, stem: &str, arguments: &Arguments) -> Result<Checked> {
+    match case_file::read_any(path, arguments.reading)?.0 {
+        AnyCase::One(case) => {
+            let answer = answered(path, &case, arguments)?;
+            without_criteria(path, case.criteria.is_empty());
+            Ok(Checked::judged(place, stem, &case, &answer))
+        }
+        AnyCase::Several(case) => {
+            let answer = several::answered(path, &case, arguments.long)?;
+            without_criteria(path, case.criteria.is_empty());
+            Ok(Checked::of_several(place, stem, &case, &answer))
+        }
+    }
+}
+
+fn without_criteria(path: &Path, none: bool) {
+    if none {
+        output::complain(&format!("{}: there is no table [criteria]", path.display()));
+    }
+}
+
+fn answered(path: &Path, case: &Case, arguments: &Arguments) -> Result<Answer> {
+    let long = &arguments.long;
     // What no format tells is not looked for.
     let (asked, told) = match arguments.format {
         CheckFormat::Json if !arguments.criteria_only => (Asked::Decision, Decided::CHECKED),
@@ -120,15 +142,11 @@ fn judged(path: &Path, arguments: &Arguments) -> Result<(Case, Answer)> {
         }
         _ => (Asked::Criteria, Decided::NOTHING),
     };
-    let work = Work::of(&case, asked, None);
-    long.allows(path, &case, &work)?;
-    let decides = long.decides(path, &case, &work, told);
-    let besides = budget::of_decision(&case, decides);
-    let _progress = budget::progress("check", &case, &work, besides);
-    let answer = Answer::of(&case, asked, None, &Parallel).into_diagnostic()?;
-    let answer = answer.decided(&case, decides, &Parallel).into_diagnostic()?;
-    if case.criteria.is_empty() {
-        output::complain(&format!("{}: there is no table [criteria]", path.display()));
-    }
-    Ok((case, answer))
+    let work = Work::of(case, asked, None);
+    long.allows(path, case, &work)?;
+    let decides = long.decides(path, case, &work, told);
+    let besides = budget::of_decision(case, decides);
+    let _progress = budget::progress("check", case, &work, besides);
+    let answer = Answer::of(case, asked, None, &Parallel).into_diagnostic()?;
+    answer.decided(case, decides, &Parallel).into_diagnostic()
 }

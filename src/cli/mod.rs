@@ -13,6 +13,7 @@ mod one_case;
 mod optimize;
 mod report;
 mod schema;
+mod several;
 mod simulate;
 mod sweep;
 mod tradeoff;

@@ -7,6 +7,7 @@ use clap::Args;
 use miette::{Context as _, IntoDiagnostic, Result, miette};
 use vinesink::answer::{Asked, Decided};
 use vinesink::case::Case;
+use vinesink::case_input::AnyCase;
 use vinesink::case_report::Report;
 use vinesink::excitation::Scene;
 use vinesink::method::Method;
@@ -19,7 +20,7 @@ use vinesink::store::{self, Output};
 use vinesink::study::fidelity::LayerPlan;
 
 use super::budget::{self, Long, Work};
-use super::one_case;
+use super::{one_case, several};
 
 /// Write the design report of each case
 ///
@@ -112,7 +113,16 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
 fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
-    let (case, text) = case_file::read_with_text(path, arguments.reading)?;
+    let (case, text) = case_file::read_any(path, arguments.reading)?;
+    let case = match case {
+        AnyCase::One(case) => *case,
+        AnyCase::Several(case) => {
+            let files = several::report(path, name, &case, arguments.long)?;
+            Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
+            output::print_path(&folder.join("report.md"))?;
+            return Ok(true);
+        }
+    };
     let live =
         arguments.live.as_ref().map(|page| live_page(page.as_deref(), path, &case)).transpose()?;
     let (mut files, holds) = rendered(path, name, &case, arguments)?;
@@ -147,8 +157,10 @@ fn live_page(page: Option<&Path>, path: &Path, case: &Case) -> Result<(String, S
 /// Says which files of a report are not as [`write()`] would leave them.
 fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
     let is_checked = |file: &Path| render::is_of_report(file) && file != Path::new("report.html");
-    let case = case_file::read(path, arguments.reading)?;
-    let (mut files, _) = rendered(path, name, &case, arguments)?;
+    let mut files = match case_file::read_any(path, arguments.reading)?.0 {
+        AnyCase::One(case) => rendered(path, name, &case, arguments)?.0,
+        AnyCase::Several(case) => several::report(path, name, &case, arguments.long)?,
+    };
     files.retain(|file, _| is_checked(file));
     let there = store::read_folder(folder, is_checked)?;
     if there.is_empty() {

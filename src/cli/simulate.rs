@@ -8,6 +8,7 @@ use miette::{IntoDiagnostic, Result, miette};
 use vinesink::answer::trajectory::{Impact, ImpactLog, followed};
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
+use vinesink::case_input::AnyCase;
 use vinesink::excitation::Scene;
 use vinesink::motions::{Effort, Measured};
 use vinesink::program::parallel::Parallel;
@@ -22,6 +23,7 @@ use vinesink::transient::OneFlight;
 use super::budget;
 use super::budget::Work;
 use super::one_case::{self, OneCase};
+use super::several;
 
 /// Simulate a case directly, impact by impact
 ///
@@ -63,7 +65,10 @@ lengths over the clearance, tau counted from the start of the run, side +1 where
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
-    let case = case_file::read(path, *reading)?;
+    let case = match case_file::read_any(path, *reading)?.0 {
+        AnyCase::One(case) => *case,
+        AnyCase::Several(case) => return several::simulate(&arguments.one, &case),
+    };
     let Arguments { periods, discard, initial, impacts, .. } = &arguments;
     one_case::without(&case, path, &[("--discard", discard.is_some())])?;
     let one_flight = periods.is_some() || initial.is_some() || impacts.is_some();

@@ -10,7 +10,6 @@ mod scope;
 
 use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Relation};
-use crate::excitation::Scene;
 use crate::linear::{BandSystems, bare_amplitude};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
@@ -111,7 +110,7 @@ pub fn kept_without_absorber(case: &Case) -> bool {
         }
     };
     let kept: Vec<bool> = case.criteria.iter().filter_map(keeps).collect();
-    case.design.scene() == Scene::Steady && !kept.is_empty() && !kept.contains(&false)
+    case.design.transient().is_none() && !kept.is_empty() && !kept.contains(&false)
 }
 
 /// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst

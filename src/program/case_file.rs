@@ -7,7 +7,7 @@ use miette::{NamedSource, Report, Result, miette};
 
 use super::output;
 use crate::case::{Case, nearest};
-use crate::case_input::{self, CaseInputError};
+use crate::case_input::{self, AnyCase, CaseInputError};
 use crate::store::{self, Reach};
 
 /// What may be read.
@@ -57,9 +57,27 @@ fn beside(path: &Path) -> Option<String> {
     without_ending.or_else(|| nearest(&name, &names)).map(str::to_owned)
 }
 
-/// Reads a case file; its text beside the case. What is probably a slip in it is said on standard error.
+/// Reads a case file of either kind; its text beside the case. What is probably a slip in it is said on standard error.
+pub fn read_any(path: &Path, reading: Reading) -> Result<(AnyCase, String)> {
+    let read = case_input::read_any(path, reading.reach());
+    let (case, text) = read.map_err(|error| refused(path, error))?;
+    if let AnyCase::One(case) = &case {
+        warn(path, case, &text);
+    }
+    Ok((case, text))
+}
+
+/// The same of a case of one mode and one absorber.
 pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
-    let (case, text) = case_input::read(path, reading.reach()).map_err(|error| match error {
+    let read = case_input::read(path, reading.reach());
+    let (case, text) = read.map_err(|error| refused(path, error))?;
+    warn(path, &case, &text);
+    Ok((case, text))
+}
+
+/// Why a case file could not be read.
+fn refused(path: &Path, error: CaseInputError) -> Report {
+    match error {
         CaseInputError::Case(error) => Report::new(error),
         CaseInputError::Record { source, .. } => Report::new(source)
             .wrap_err(format!("{}: the record of its excitation cannot be read", path.display())),
@@ -70,13 +88,16 @@ pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
             }
             None => Report::new(error),
         },
-    })?;
+    }
+}
+
+/// Says what is probably a slip.
+fn warn(path: &Path, case: &Case, text: &str) {
     let name = path.display().to_string();
-    let visible = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
     for warning in case.warnings() {
         let source = NamedSource::new(&name, visible.to_owned());
         let shown = Report::new(warning.clone()).with_source_code(source);
         output::complain_of(&shown);
     }
-    Ok((case, text))
 }

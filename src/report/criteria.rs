@@ -5,11 +5,13 @@ use serde_json::{Value, json};
 use super::document::criteria::{criteria, place};
 use super::document::{self, Scale, motions, place::FilePlace};
 use super::error::RenderError;
+use super::modal;
 use super::template::render;
 use crate::answer::Answer;
-use crate::case::Case;
+use crate::case::{Case, ModalCase};
 use crate::criteria::{Judged, all_hold};
 use crate::measure::Device;
+use crate::modal::ModalAnswer;
 use crate::motions::Motions;
 use crate::quantity::Units;
 
@@ -57,6 +59,12 @@ impl Checked {
             "combined": document["combined"],
             "reliability": document["reliability"],
         });
+        Self { document, page, units }
+    }
+
+    /// A case of several modes or absorbers.
+    pub fn of_several(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -> Self {
+        let (document, page, units) = modal::checked(path, name, case, answer);
         Self { document, page, units }
     }
 

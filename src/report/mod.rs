@@ -14,6 +14,7 @@ pub mod html;
 pub mod index;
 pub mod live;
 pub mod mathml;
+pub mod modal;
 pub mod optimize;
 pub mod proposal;
 pub mod render;

@@ -54,8 +54,19 @@ const ROOMS: &[(&str, &[&str])] = &[
     // One search, one rule of identity: every command reads what this room has found.
     (
         "motions",
-        &["executor", "numerics", "operation_count", "orbits", "regimes", "simulation", "system"],
+        &[
+            "executor",
+            "linear",
+            "numerics",
+            "operation_count",
+            "orbits",
+            "regimes",
+            "simulation",
+            "system",
+        ],
     ),
+    // The same of structures of several modes with several absorbers.
+    ("modal", &["case", "dampers", "executor", "linear", "motions", "simulation", "system"]),
     // What all commands know of a case: the only way from them to a trajectory or a branch of orbits of their own.
     (
         "alternatives",
@@ -332,6 +343,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "linear",
             "measure",
             "method",
+            "modal",
             "motions",
             "numerics",
             "optimize",

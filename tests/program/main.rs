@@ -29,6 +29,7 @@ mod index;
 mod layers;
 mod live;
 mod metadata;
+mod modal;
 mod optimize;
 mod proposal;
 mod readers;

@@ -7,6 +7,7 @@
 
 mod along;
 mod damper;
+mod modal;
 mod motion;
 mod passage;
 mod response;
@@ -15,6 +16,7 @@ mod settling;
 pub use along::BandSystems;
 pub use along::{Damped, bare_along};
 pub use damper::TunedMassDamper;
+pub use modal::{ModalAmplitudes, ModalDamper};
 pub use motion::{Linear, driven, released, released_between, swept};
 pub use passage::Passage;
 pub use response::Meter;

@@ -3,6 +3,7 @@
 
 mod cases;
 mod contact;
+mod motions;
 mod orbits;
 mod simulation;
 mod theory;

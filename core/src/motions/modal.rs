@@ -1,0 +1,360 @@
+//! Long-term motions of a structure of several modes with several absorbers at one excitation.
+//!
+//! Exact orbits that attract are solved for. Each start is flown until its states at the ends of periods are those of such an
+//! orbit, or repeat. Where they do not, what it does is measured in blocks once the slowest mode has died out.
+
+use serde::Serialize;
+
+use crate::linear::ModalAmplitudes;
+use crate::numerics::scatter::{
+    drifts, error_of_largest, error_of_largest_of, twice_standard_error,
+};
+use crate::orbits::{antiperiodic_orbits, orbit_state};
+use crate::simulation::{
+    Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, ModalStartError, PlaceMotion,
+};
+use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
+
+/// What one place does in a long-term motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PlaceExtent {
+    /// Largest absolute displacement that was seen.
+    pub peak: f64,
+    /// By how much a run ten times as long may exceed it, at odds of 19 to 1; 0 of what repeats.
+    pub error: f64,
+    /// Root mean square of the displacement, and twice its standard error by the scatter between blocks.
+    pub rms: [f64; 2],
+}
+
+/// A long-term motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModalMotion {
+    /// What each place does that was asked for.
+    pub places: Vec<PlaceExtent>,
+    /// Impacts of each absorber per excitation period, and twice their standard error.
+    pub impacts_per_period: Vec<[f64; 2]>,
+    /// Excitation periods after which it repeats; none where that was not seen.
+    pub repeats_after: Option<u32>,
+    /// Whether it has settled: it repeats, or the slowest mode has died out and no mean square drifts.
+    pub settled: bool,
+    /// Largest Floquet multiplier of an excitation period, where an exact orbit is known.
+    pub largest_multiplier: Option<f64>,
+    /// Starts that led to it; none of an orbit that attracts all the same.
+    pub starts: u32,
+    /// The largest displacement of each place in each block, over all starts.
+    #[serde(skip)]
+    block_peaks: Vec<Vec<f64>>,
+}
+
+/// Times in which the slowest mode decays to `1/e` that are left out before a motion that does not repeat is measured, and most
+/// excitation periods of such a time.
+const DECAYS: u32 = 8;
+const LONGEST: f64 = 8192.0;
+/// Blocks that it is measured for then, as parts of that time, and their shortest length in excitation periods.
+const BLOCKS: usize = 8;
+const OF_DECAY: f64 = 0.25;
+const SHORTEST: f64 = 128.0;
+/// Most periods after which a motion is seen to repeat, and the difference of its states, over their size, up to which they
+/// are the same.
+const MOST_REPEATS: usize = 6;
+const SAME_STATE: f64 = 1e-9;
+/// The same up to which a state is that of an orbit that attracts.
+const NEAR_ORBIT: f64 = 1e-3;
+/// Most impacts in a period, of all absorbers: more are of chatter that does not end.
+const MOST_IMPACTS: u64 = 2000;
+/// Relative difference up to which root mean squares and impacts of two motions that do not repeat are the same, beside their
+/// errors.
+const SAME: f64 = 0.02;
+/// The same of those that do.
+const SAME_REPEATING: f64 = 1e-6;
+
+/// The long-term motions at places with these values of each mode, from so many starts, that from rest among them; the most
+/// common first. Where every absorber can rest, that motion is the last, with no starts.
+///
+/// # Errors
+/// [`ModalStartError`] where the structure's own motion is not finite.
+pub fn modal_motions(
+    system: &ModalSystem,
+    places: &[Vec<f64>],
+    starts: u32,
+) -> Result<Vec<ModalMotion>, ModalStartError> {
+    let orbits = attracting(system, places)?;
+    let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
+    for k in 0..starts {
+        let motion = from_start(system, places, &start(system, k), &orbits)?;
+        match found.iter_mut().find(|known| known.is_same(&motion)) {
+            Some(known) => known.join(&motion),
+            None => found.push(motion),
+        }
+    }
+    found.sort_by(|a, b| b.starts.cmp(&a.starts));
+    found.extend(resting(system, places));
+    Ok(found)
+}
+
+/// An exact orbit that attracts.
+struct Attracting {
+    state: ModalState,
+    motion: ModalMotion,
+}
+
+/// The exact orbits that attract, each measured over a period of its own.
+fn attracting(
+    system: &ModalSystem,
+    places: &[Vec<f64>],
+) -> Result<Vec<Attracting>, ModalStartError> {
+    let stable = antiperiodic_orbits(system).into_iter().filter(|orbit| orbit.stable());
+    let each = stable.map(|orbit| {
+        let state = orbit_state(system, &orbit);
+        let mut simulation = ModalSimulation::new(system, &state, 0.0)?;
+        let block = Block::fly(&mut simulation, system, places, 1);
+        let radius = orbit.spectral_radius();
+        let multiplier = Some(radius * radius);
+        let motion = ModalMotion {
+            largest_multiplier: multiplier,
+            starts: 0,
+            ..ModalMotion::of(&[block], Some(1), true)
+        };
+        Ok(Attracting { state, motion })
+    });
+    each.collect()
+}
+
+/// Every absorber at rest where no wall reaches it: in closed form.
+fn resting(system: &ModalSystem, places: &[Vec<f64>]) -> Option<ModalMotion> {
+    let reach = |j: usize| system.steady_motion_at(j).amplitude();
+    let rests = |(j, one): (usize, &ModalAbsorber)| reach(j) < one.clearance;
+    if !system.absorbers().iter().enumerate().all(rests) {
+        return None;
+    }
+    let amplitudes = ModalAmplitudes::of(system, &[], places).places;
+    let extent = |peak: &f64| PlaceExtent {
+        peak: *peak,
+        error: 0.0,
+        rms: [peak * std::f64::consts::FRAC_1_SQRT_2, 0.0],
+    };
+    Some(ModalMotion {
+        places: amplitudes.iter().map(extent).collect(),
+        impacts_per_period: vec![[0.0; 2]; system.absorbers().len()],
+        repeats_after: Some(1),
+        settled: true,
+        largest_multiplier: None,
+        starts: 0,
+        block_peaks: Vec::new(),
+    })
+}
+
+/// The `k`-th start: from rest, each absorber half way to a wall; then with a share of the structure's own steady motion and
+/// the absorbers anywhere in their cavities, evenly spread (Richtmyer's sequence).
+fn start(system: &ModalSystem, k: u32) -> ModalState {
+    const ROOTS: [f64; MOST_MODES + 1] = [
+        std::f64::consts::SQRT_2,
+        1.732_050_807_568_877_2,
+        2.236_067_977_499_79,
+        2.645_751_311_064_590_7,
+        3.316_624_790_355_4,
+        3.605_551_275_463_989_6,
+        4.123_105_625_617_661,
+        4.358_898_943_540_674,
+        4.795_831_523_312_719_6,
+    ];
+    let mut start = ModalState::AT_REST;
+    let part = |axis: usize| (0.5 + ROOTS[axis] * f64::from(k)).fract();
+    let share = if k == 0 { 0.0 } else { 1.2 * part(0) };
+    for mode in 0..system.modes().len() {
+        let steady = system.steady_motion(mode);
+        let velocity = system.frequency_ratio() * steady.sine;
+        start.modes[mode] = [share * steady.cosine, share * velocity];
+    }
+    for (j, absorber) in system.absorbers().iter().enumerate() {
+        let each = system.modes().iter().zip(&start.modes);
+        let [x, v] = each.fold([0.0, 0.0], |[x, v], (mode, [q, p])| {
+            [x + mode.shape[j] * q, v + mode.shape[j] * p]
+        });
+        let place = if k == 0 { 0.5 } else { 1.98 * part(1 + j) - 0.99 };
+        start.absorbers[j] = [x - place * absorber.clearance, v];
+    }
+    start
+}
+
+/// States at the ends of the last periods, and impacts.
+#[derive(Default)]
+struct Seen {
+    states: Vec<ModalState>,
+    impacts: [u64; MOST_MODES],
+}
+
+impl ModalObserver for Seen {
+    fn detail(&self) -> Detail {
+        Detail::Events
+    }
+    fn impact(&mut self, impact: &ModalImpact) {
+        self.impacts[impact.absorber] += 1;
+    }
+    fn period(&mut self, _turns: u64, state: &ModalState) {
+        if self.states.len() > MOST_REPEATS {
+            self.states.remove(0);
+        }
+        self.states.push(*state);
+    }
+}
+
+impl Seen {
+    /// After how many periods the last state was there before.
+    fn repeats_after(&self) -> Option<u32> {
+        let (last, before) = self.states.split_last()?;
+        let found = before.iter().rev().position(|other| distance(last, other) <= SAME_STATE)?;
+        u32::try_from(found + 1).ok()
+    }
+}
+
+/// Largest difference of two states, over the largest number of the first.
+fn distance(of: &ModalState, other: &ModalState) -> f64 {
+    let numbers = |state: &ModalState| -> Vec<f64> {
+        state.modes.iter().chain(&state.absorbers).flatten().copied().collect()
+    };
+    let (of, other) = (numbers(of), numbers(other));
+    let size = of.iter().fold(0.0, |most: f64, one| most.max(one.abs()));
+    let off = of.iter().zip(&other).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+    off / size
+}
+
+/// What a block of periods came to.
+struct Block {
+    places: Vec<PlaceMotion>,
+    impacts: Vec<f64>,
+}
+
+impl Block {
+    /// Flies so many periods.
+    fn fly(
+        simulation: &mut ModalSimulation,
+        system: &ModalSystem,
+        places: &[Vec<f64>],
+        periods: u64,
+    ) -> Self {
+        let mut observer = (ModalMeter::new(system, places), Seen::default());
+        simulation.run(periods, periods * MOST_IMPACTS, &mut observer);
+        let (meter, seen) = observer;
+        let counts = &seen.impacts[..system.absorbers().len()];
+        let impacts = counts.iter().map(|all| *all as f64 / periods as f64).collect();
+        Self { places: meter.places(), impacts }
+    }
+}
+
+/// Excitation periods in which the slowest mode decays to `1/e`.
+fn decay_periods(system: &ModalSystem) -> f64 {
+    let decays = system.modes().iter().map(|mode| mode.damping_ratio * mode.frequency);
+    let slowest = decays.fold(f64::INFINITY, f64::min);
+    system.frequency_ratio() / (std::f64::consts::TAU * slowest)
+}
+
+/// Excitation periods of a time in which the slowest mode decays, and of a block.
+fn lengths(system: &ModalSystem) -> [u64; 2] {
+    let decay = decay_periods(system).min(LONGEST);
+    [decay, OF_DECAY * decay].map(|length| length.max(SHORTEST).ceil() as u64)
+}
+
+/// Excitation periods that a start is flown for where its motion does not repeat.
+pub fn longest_flight(system: &ModalSystem) -> f64 {
+    let [decay, block] = lengths(system);
+    f64::from(DECAYS) * decay as f64 + BLOCKS as f64 * block as f64
+}
+
+/// The motion that a start leads to.
+fn from_start(
+    system: &ModalSystem,
+    places: &[Vec<f64>],
+    start: &ModalState,
+    orbits: &[Attracting],
+) -> Result<ModalMotion, ModalStartError> {
+    let mut simulation = ModalSimulation::new(system, start, 0.0)?;
+    let [decay, block] = lengths(system);
+    for _ in 0..DECAYS {
+        let mut seen = Seen::default();
+        simulation.run(decay, decay * MOST_IMPACTS, &mut seen);
+        let state = simulation.state();
+        if let Some(near) = orbits.iter().find(|one| distance(&one.state, &state) < NEAR_ORBIT) {
+            return Ok(ModalMotion { starts: 1, ..near.motion.clone() });
+        }
+        if let Some(after) = seen.repeats_after() {
+            let period = Block::fly(&mut simulation, system, places, after.into());
+            return Ok(ModalMotion::of(&[period], Some(after), true));
+        }
+    }
+    let blocks: Vec<Block> =
+        (0..BLOCKS).map(|_| Block::fly(&mut simulation, system, places, block)).collect();
+    let drifting = (0..places.len()).any(|p| {
+        let rms: Vec<f64> = blocks.iter().map(|one| one.places[p].mean_square.sqrt()).collect();
+        drifts(&rms)
+    });
+    Ok(ModalMotion::of(&blocks, None, !drifting && decay_periods(system) <= LONGEST))
+}
+
+impl ModalMotion {
+    fn of(blocks: &[Block], repeats_after: Option<u32>, settled: bool) -> Self {
+        let known = |values: &[f64]| {
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let error = if values.len() > 1 { twice_standard_error(values) } else { 0.0 };
+            [mean, error]
+        };
+        let extent = |p: usize| {
+            let peaks: Vec<f64> = blocks.iter().map(|one| one.places[p].peak).collect();
+            let squares: Vec<f64> = blocks.iter().map(|one| one.places[p].mean_square).collect();
+            let [square, error] = known(&squares);
+            let rms = square.sqrt();
+            PlaceExtent {
+                peak: peaks.iter().copied().fold(0.0, f64::max),
+                error: error_of_largest(&peaks),
+                rms: [rms, if rms > 0.0 { 0.5 * error / rms } else { 0.0 }],
+            }
+        };
+        let impacts =
+            |j: usize| known(&blocks.iter().map(|one| one.impacts[j]).collect::<Vec<_>>());
+        let (places, absorbers) = (blocks[0].places.len(), blocks[0].impacts.len());
+        Self {
+            places: (0..places).map(extent).collect(),
+            impacts_per_period: (0..absorbers).map(impacts).collect(),
+            repeats_after,
+            settled,
+            largest_multiplier: None,
+            starts: 1,
+            block_peaks: (0..places)
+                .map(|p| blocks.iter().map(|one| one.places[p].peak).collect())
+                .collect(),
+        }
+    }
+
+    /// Whether no absorber impacts.
+    pub fn rests(&self) -> bool {
+        self.impacts_per_period.iter().all(|[count, _]| *count == 0.0)
+    }
+
+    /// Whether it is another flight of the same motion.
+    fn is_same(&self, other: &Self) -> bool {
+        let repeats = self.repeats_after.is_some();
+        let share = if repeats { SAME_REPEATING } else { SAME };
+        let near = |[a, of_a]: [f64; 2], [b, of_b]: [f64; 2]| {
+            (a - b).abs() <= share * a.max(b) + of_a + of_b
+        };
+        let peaks =
+            |a: &PlaceExtent, b: &PlaceExtent| !repeats || near([a.peak, 0.0], [b.peak, 0.0]);
+        let places = self.places.iter().zip(&other.places);
+        let impacts = self.impacts_per_period.iter().zip(&other.impacts_per_period);
+        repeats == other.repeats_after.is_some()
+            && places.into_iter().all(|(a, b)| peaks(a, b) && near(a.rms, b.rms))
+            && impacts.into_iter().all(|(a, b)| near(*a, *b))
+    }
+
+    /// Adds another flight of it.
+    fn join(&mut self, other: &Self) {
+        self.starts += other.starts;
+        self.settled &= other.settled;
+        let peaks = self.block_peaks.iter_mut().zip(&other.block_peaks);
+        for (place, (own, of)) in self.places.iter_mut().zip(peaks) {
+            own.extend(of);
+            place.peak = own.iter().copied().fold(place.peak, f64::max);
+            place.error = error_of_largest(own) * error_of_largest_of(self.starts);
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! Tuned mass dampers beside the absorbers of a structure of several modes.
+
+use super::{largest, linear_places};
+use crate::case::{ActsOn, Load, ModalCase};
+use crate::dampers::simplex;
+use crate::linear::{ModalAmplitudes, ModalDamper};
+
+/// Dampers of equal mass, together as heavy as the absorbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DamperChoice {
+    /// The dampers; lengths in m, masses in kg, frequencies over the first mode's.
+    pub dampers: Vec<ModalDamper>,
+    /// Where each is.
+    pub places: Vec<usize>,
+    /// The largest displacement under each load, of any place, in m.
+    pub worst: Vec<f64>,
+    /// The largest stroke of each damper under any load, in m.
+    pub strokes: Vec<f64>,
+}
+
+/// Steps of a simplex, and how often it begins again where it ended.
+const STEPS: u64 = 150;
+const RESTARTS: u32 = 3;
+/// Its first size in the logarithms of frequency and damping ratio.
+const SIMPLEX: [f64; 2] = [0.02, 0.3];
+
+/// The best one damper and, of structures that several modes drive, one for each of these modes: tuned and damped so that the
+/// largest displacement of any place under any load is smallest. Each is where its mode moves most.
+pub fn choices(case: &ModalCase) -> Vec<DamperChoice> {
+    let driven = driven_modes(case);
+    let mut counts = vec![1];
+    if driven.len() > 1 {
+        counts.push(driven.len());
+    }
+    counts.into_iter().map(|count| best(case, &driven, count)).collect()
+}
+
+/// The modes that a load is resonant with, the one that moves farthest first.
+fn driven_modes(case: &ModalCase) -> Vec<usize> {
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for load in &case.loads {
+        for (k, mode) in case.modes.iter().enumerate() {
+            let [from, to] = load.range_hz;
+            let near = mode.frequency_hz.clamp(from, to);
+            let driven = !matches!(load.on, ActsOn::Mode(other) if other != k);
+            // Within a twentieth of its frequency.
+            if !driven || (near / mode.frequency_hz - 1.0).abs() > 0.05 {
+                continue;
+            }
+            let most = amplitudes(case, load, near, &[]).places.into_iter().fold(0.0, f64::max);
+            match found.iter_mut().find(|(known, _)| *known == k) {
+                Some((_, known)) => *known = known.max(most),
+                None => found.push((k, most)),
+            }
+        }
+    }
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let modes: Vec<usize> = found.into_iter().map(|(k, _)| k).collect();
+    if modes.is_empty() { vec![0] } else { modes }
+}
+
+pub(super) fn amplitudes(
+    case: &ModalCase,
+    load: &Load,
+    at: f64,
+    dampers: &[ModalDamper],
+) -> ModalAmplitudes {
+    match case.system(load, at) {
+        Ok(system) => ModalAmplitudes::of(&system, dampers, &case.shapes()),
+        Err(_) => ModalAmplitudes {
+            places: vec![f64::INFINITY; case.places.len()],
+            strokes: vec![f64::INFINITY; dampers.len()],
+        },
+    }
+}
+
+fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
+    let mass = case.absorbers.iter().map(|one| one.mass_kg).sum::<f64>() / count as f64;
+    let first = case.modes[0].frequency_hz;
+    let (mut start, mut places, mut shapes) = (Vec::new(), Vec::new(), Vec::new());
+    for k in &modes[..count] {
+        let mode = &case.modes[*k];
+        let size = |p: &usize| mode.shape[*p].abs();
+        let place =
+            (0..case.places.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
+        let ratio = mass * mode.shape[place] * mode.shape[place] / mode.mass_kg;
+        // Den Hartog's.
+        let tuned = mode.frequency_hz / first / (1.0 + ratio);
+        let damping = (3.0 * ratio / (8.0 * (1.0 + ratio))).sqrt();
+        start.extend([libm::log(tuned), libm::log(damping)]);
+        shapes.push(case.modes.iter().map(|one| one.shape[place]).collect::<Vec<f64>>());
+        places.push(place);
+    }
+    let built = |logarithms: &[f64]| -> Vec<ModalDamper> {
+        let pairs = logarithms.chunks(2).zip(&shapes);
+        let damper = |(pair, shape): (&[f64], &Vec<f64>)| ModalDamper {
+            mass,
+            frequency: libm::exp(pair[0]),
+            damping_ratio: libm::exp(pair[1]),
+            shape: shape.clone(),
+        };
+        pairs.map(damper).collect()
+    };
+    let along: Vec<(&Load, Vec<f64>)> =
+        case.loads.iter().map(|load| (load, linear_places(load.range_hz, case))).collect();
+    let cost = |logarithms: &[f64]| {
+        let dampers = built(logarithms);
+        let each = along.iter().flat_map(|(load, all)| all.iter().map(move |at| (load, at)));
+        each.map(|(load, at)| {
+            amplitudes(case, load, *at, &dampers).places.into_iter().fold(0.0, f64::max)
+        })
+        .fold(0.0, f64::max)
+    };
+    let sizes: Vec<f64> = (0..start.len()).map(|k| SIMPLEX[k % 2]).collect();
+    let dampers = built(&simplex(start, &sizes, STEPS, RESTARTS, cost));
+    let most = |load: &Load, of: &dyn Fn(&ModalAmplitudes) -> f64| {
+        largest(load.range_hz, case, |at| of(&amplitudes(case, load, at, &dampers)))[0]
+    };
+    let worst = |load: &Load| {
+        let places = 0..case.places.len();
+        places.map(|p| most(load, &|found| found.places[p])).fold(0.0, f64::max)
+    };
+    let stroke = |d: usize| {
+        case.loads.iter().map(|load| most(load, &|found| found.strokes[d])).fold(0.0, f64::max)
+    };
+    DamperChoice {
+        worst: case.loads.iter().map(worst).collect(),
+        strokes: (0..count).map(stroke).collect(),
+        dampers,
+        places,
+    }
+}
