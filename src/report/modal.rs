@@ -149,6 +149,8 @@ fn motion_row(motion: &ModalMotion) -> Value {
         "starts": motion.starts,
         "repeats_after": motion.repeats_after,
         "settled": motion.settled,
+        // Whether every absorber rests where no wall reaches it.
+        "rests": motion.rests(),
         "impacts_per_period": motion.impacts_per_period.iter().map(|[count, _]| count).collect::<Vec<_>>(),
         "largest_multiplier": motion.largest_multiplier,
         "places": places.collect::<Vec<_>>(),
@@ -179,6 +181,8 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
                 "peak": closed(&of::BARE_PEAK, *most), "at": given(&of::EXCITATION_FREQUENCY, *at),
             })),
             "worst": worst.map(|worst| worst_row(case, &worst)),
+            // Starts at that frequency.
+            "searched": here.map(|one| one.motions.iter().map(|motion| motion.starts).sum::<u32>()),
             "motions": here.map(|one| one.motions.iter().map(motion_row).collect::<Vec<_>>()),
             "alone": beside.alone.get(k).and_then(|one| one.as_ref()).map(|one| {
                 simulated(&of::PEAK, one.peak).with_error(one.error)

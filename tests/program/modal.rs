@@ -115,7 +115,8 @@ fn modes_together_move_farther_than_each_alone() {
     let folder = tempfile::tempdir().expect("a folder");
     let (path, out) = (folder.path().join("mast.toml"), folder.path().join("reports"));
     // The third mode's load, narrow around the worst place.
-    let (before, _) = before_loads(&text(MAST));
+    let whole = text(MAST);
+    let (before, _) = before_loads(&whole);
     let load = "[[excitation]]\nkind = \"force\"\nmode = 3\namplitude = \"110.3 N\"\nfrom = \"18.4 Hz\"\nto = \"18.6 Hz\"\n\n\
                 [criteria]\npeak_displacement = { limit = \"<= 4 mm\", place = \"tip\" }\n";
     fs::write(&path, format!("{before}{load}")).expect("written");
@@ -159,6 +160,7 @@ fn modes_together_move_farther_than_each_alone() {
     assert!(page.contains("A tuned mass damper of the same mass has up to"), "{page}");
     assert!(report("report.html").contains("<svg") && out.join("mast/figures/loads.svg").exists());
     // An index and a comparison read it as any other.
+    assert!(vinesink(&["index", out.to_str().expect("UTF-8")]).status.success());
     assert!(fs::read_to_string(out.join("README.md")).expect("an index").contains("mast"));
     let folder = out.join("mast");
     let folder = folder.to_str().expect("UTF-8");

@@ -69,7 +69,7 @@ const SAME: f64 = 0.02;
 const SAME_REPEATING: f64 = 1e-6;
 
 /// The long-term motions at places with these values of each mode, from so many starts, that from rest among them; the most
-/// common first. Where every absorber can rest, that motion is the last, with no starts.
+/// common first. Where every absorber can rest, that motion is the last.
 ///
 /// # Errors
 /// [`ModalStartError`] where the structure's own motion is not finite.
@@ -80,15 +80,21 @@ pub fn modal_motions(
 ) -> Result<Vec<ModalMotion>, ModalStartError> {
     let orbits = attracting(system, places)?;
     let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
+    let mut rest = resting(system, places);
     for k in 0..starts {
         let motion = from_start(system, places, &start(system, k), &orbits)?;
+        // What is left of a transient then is no other motion.
+        if let Some(rest) = rest.as_mut().filter(|_| motion.rests()) {
+            rest.starts += 1;
+            continue;
+        }
         match found.iter_mut().find(|known| known.is_same(&motion)) {
             Some(known) => known.join(&motion),
             None => found.push(motion),
         }
     }
     found.sort_by(|a, b| b.starts.cmp(&a.starts));
-    found.extend(resting(system, places));
+    found.extend(rest);
     Ok(found)
 }
 
