@@ -93,7 +93,7 @@ pub fn modal_motions(
             None => found.push(motion),
         }
     }
-    found.sort_by(|a, b| b.starts.cmp(&a.starts));
+    found.sort_by_key(|one| std::cmp::Reverse(one.starts));
     found.extend(rest);
     Ok(found)
 }
@@ -162,7 +162,7 @@ fn start(system: &ModalSystem, k: u32) -> ModalState {
         3.605_551_275_463_989_6,
         4.123_105_625_617_661,
         4.358_898_943_540_674,
-        4.795_831_523_312_719_6,
+        4.795_831_523_312_72,
     ];
     let mut start = ModalState::AT_REST;
     let part = |axis: usize| (0.5 + ROOTS[axis] * f64::from(k)).fract();

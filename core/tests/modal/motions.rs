@@ -49,7 +49,7 @@ fn dampers_of_one_mode_are_those_of_the_closed_form() {
         let places = [vec![1.0]];
         let bare = ModalAmplitudes::of(&modal, &[], &places).places[0];
         assert!((bare / bare_amplitude(&system) - 1.0).abs() < 1e-12, "{omega}");
-        let found = ModalAmplitudes::of(&modal, &[own.clone()], &places);
+        let found = ModalAmplitudes::of(&modal, std::slice::from_ref(&own), &places);
         assert!((found.places[0] / damper.amplitude(&system) - 1.0).abs() < 1e-12, "{omega}");
         assert!((found.strokes[0] / damper.stroke(&system) - 1.0).abs() < 1e-12, "{omega}");
         // Two halves side by side are one.
