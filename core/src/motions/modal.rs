@@ -12,6 +12,7 @@ use crate::numerics::scatter::{
 use crate::orbits::{antiperiodic_orbits, orbit_state};
 use crate::simulation::{
     Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, ModalStartError, PlaceMotion,
+    Stop,
 };
 use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
 
@@ -62,6 +63,9 @@ const SAME_STATE: f64 = 1e-9;
 const NEAR_ORBIT: f64 = 1e-3;
 /// Most impacts in a period, of all absorbers: more are of chatter that does not end.
 const MOST_IMPACTS: u64 = 2000;
+/// Most impacts of a start until its slowest mode has died out: one that chatters on is given up, and measured for so many periods.
+const MOST_OF_START: u64 = 400_000;
+const GIVEN_UP: u64 = 16;
 /// Relative difference up to which root mean squares and impacts of two motions that do not repeat are the same, beside their
 /// errors.
 const SAME: f64 = 0.02;
@@ -278,7 +282,11 @@ fn from_start(
     let [decay, block] = lengths(system);
     for _ in 0..DECAYS {
         let mut seen = Seen::default();
-        simulation.run(decay, decay * MOST_IMPACTS, &mut seen);
+        let left = MOST_OF_START.saturating_sub(simulation.impacts());
+        if simulation.run(decay, left, &mut seen) != Stop::EndTime {
+            let seen = Block::fly(&mut simulation, system, places, GIVEN_UP);
+            return Ok(ModalMotion::of(&[seen], None, false));
+        }
         let state = simulation.state();
         if let Some(near) = orbits.iter().find(|one| distance(&one.state, &state) < NEAR_ORBIT) {
             return Ok(ModalMotion { starts: 1, ..near.motion.clone() });
