@@ -2,11 +2,11 @@
 //! of a page and what an absorber is chosen for are each a measure of a device.
 
 use crate::excitation::Scene;
-use crate::linear::reduction;
+use crate::linear::{BandSystems, reduction};
 use crate::motions::{Fact, Motion, Value};
 use crate::quantity::catalogue as of;
 use crate::quantity::{ErrorKind, Kind, Units};
-use crate::system::Shaking;
+use crate::system::{Shaking, System};
 
 /// Which structure a measure is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -251,6 +251,17 @@ impl Measure {
             Self::Rms => Some(amplitude * std::f64::consts::FRAC_1_SQRT_2),
             _ => self.fact()?.of_shaking(&Shaking::of_sine(amplitude, frequency)),
         }
+    }
+
+    /// The largest of that along a band, over the clearance and in fast time, of sines with these amplitudes; infinite where
+    /// nothing limits them.
+    pub fn largest_of_sines(
+        self,
+        along: &BandSystems<'_>,
+        amplitude: impl Fn(&System) -> f64,
+    ) -> f64 {
+        let of = |one: &System| self.of_sine(amplitude(one), one.frequency_ratio());
+        along.largest(|system| of(system).unwrap_or(f64::INFINITY)).1
     }
 
     /// What a long-term motion has of it, with its error, in SI or the units of a reduced case; `peak` is its peak with the

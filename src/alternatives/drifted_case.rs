@@ -102,10 +102,8 @@ impl DriftedCase {
     /// The largest value and stroke along the band.
     fn along(&self, damper: Option<&TunedMassDamper>) -> [f64; 2] {
         let along = BandSystems::of(&self.band);
-        let largest = |amplitude: &dyn Fn(&System) -> f64| {
-            let of = |one: &System| self.measure.of_sine(amplitude(one), one.frequency_ratio());
-            along.largest(|system| of(system).unwrap_or(f64::INFINITY)).1
-        };
+        let largest =
+            |amplitude: &dyn Fn(&System) -> f64| self.measure.largest_of_sines(&along, amplitude);
         match damper {
             Some(damper) => {
                 let stroke = along.largest(|system| damper.stroke(system)).1;

@@ -84,7 +84,7 @@ pub struct Criterion {
 }
 
 impl Criterion {
-    /// That a measure is at most so much, which nobody has written; none of a measure that has no key.
+    /// That a measure is at most so much, as nobody has written it yet; none of a measure that has no key.
     pub(crate) fn at_most(measure: Measure, limit: f64) -> Option<Self> {
         let subject = Subject::ALL.into_iter().find(|one| one.measure() == measure)?;
         let relation = Relation::AtMost;
@@ -333,7 +333,7 @@ fn relation_of(text: &str) -> Option<(Relation, usize)> {
 }
 
 /// What is wrong with a limit that no value of its kind can have.
-fn possible(limit: f64, written: &str, of: Dimension) -> Result<(), String> {
+pub(super) fn possible(limit: f64, written: &str, of: Dimension) -> Result<(), String> {
     let number = written.trim_start_matches(['>', '<', '=', '≥', '≤', ' ']);
     let why = match of {
         Dimension::Share if limit > 1.0 && limit <= 100.0 && !written.ends_with('%') => {

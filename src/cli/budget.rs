@@ -94,27 +94,26 @@ impl Long {
         if self.long || seconds <= ORDINARY {
             return Ok(());
         }
-        Err(miette!(
-            help = "to do it all the same, add --long",
-            "{} would take about {}: {}",
-            path.display(),
-            duration(seconds),
-            what
-        ))
+        refused(path, "", seconds, what)
     }
 
     fn refused(self, path: &Path, case: &Case, seconds: f64, what: &str) -> Result<()> {
         let slips = case.warnings().iter().filter_map(|warning| {
             Some(format!("line {}: {}; ", warning.line, warning.help.as_ref()?))
         });
-        Err(miette!(
-            help = format!("{}to do it all the same, add --long", slips.collect::<String>()),
-            "{} would take about {}: {}",
-            path.display(),
-            duration(seconds),
-            what
-        ))
+        refused(path, &slips.collect::<String>(), seconds, what)
     }
+}
+
+/// That work would take too long, behind what may be wrong with the case.
+fn refused(path: &Path, slips: &str, seconds: f64, what: &str) -> Result<()> {
+    Err(miette!(
+        help = format!("{slips}to do it all the same, add --long"),
+        "{} would take about {}: {}",
+        path.display(),
+        duration(seconds),
+        what
+    ))
 }
 
 /// Designs that are looked at for the ranges of a case.

@@ -14,6 +14,7 @@ use vinesink::program::output;
 use vinesink::program::parallel::Parallel;
 use vinesink::report::criteria::{Checked, junit};
 use vinesink::report::document::place::FilePlace;
+use vinesink::report::modal;
 use vinesink::report::render::RenderError;
 
 use super::budget::{self, Long, Work};
@@ -120,7 +121,7 @@ fn judged(path: &Path, place: &str, stem: &str, arguments: &Arguments) -> Result
         AnyCase::Several(case) => {
             let answer = several::answered(path, &case, arguments.long)?;
             without_criteria(path, case.criteria.is_empty());
-            Ok(Checked::of_several(place, stem, &case, &answer))
+            Ok(modal::checked(place, stem, &case, &answer))
         }
     }
 }

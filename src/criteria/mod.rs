@@ -14,7 +14,6 @@ use crate::linear::{BandSystems, bare_amplitude};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
-use crate::system::System;
 use crate::transient::Study;
 
 use scope::Scope;
@@ -97,17 +96,15 @@ pub fn needs_simulation(criteria: &[Criterion]) -> bool {
 pub fn kept_without_absorber(case: &Case) -> bool {
     let (range, units) = (case.range(), case.units());
     let along = BandSystems::of(&range);
-    let keeps = |one: &Criterion| {
-        let of =
-            |system: &System| one.measure.of_sine(bare_amplitude(system), system.frequency_ratio());
-        match (one.measure, one.measure.kind(Device::Without)) {
-            (Measure::ImpactSpeed | Measure::ImpactsPerPeriod | Measure::NoCoexistence, _) => None,
-            (_, Some(kind)) if of(&range.base).is_some() && one.relation == Relation::AtMost => {
-                let (_, largest) = along.largest(|system| of(system).unwrap_or(f64::INFINITY));
-                Some(units.number(kind.dimension, largest) <= one.limit)
-            }
-            _ => Some(false),
+    let keeps = |one: &Criterion| match (one.measure, one.measure.kind(Device::Without)) {
+        (Measure::ImpactSpeed | Measure::ImpactsPerPeriod | Measure::NoCoexistence, _) => None,
+        (measure, Some(kind))
+            if measure.of_sine(1.0, 1.0).is_some() && one.relation == Relation::AtMost =>
+        {
+            let largest = measure.largest_of_sines(&along, bare_amplitude);
+            Some(units.number(kind.dimension, largest) <= one.limit)
         }
+        _ => Some(false),
     };
     let kept: Vec<bool> = case.criteria.iter().filter_map(keeps).collect();
     case.design.transient().is_none() && !kept.is_empty() && !kept.contains(&false)
@@ -209,6 +206,16 @@ impl Criterion {
 }
 
 impl Judged {
+    /// That of the worst of many motions, with an error that covers the others; `undecided` as [`Self::undecided`].
+    pub fn of_worst(
+        criterion: &Criterion,
+        [found, error]: [f64; 2],
+        decided_by: Method,
+        undecided: Option<u64>,
+    ) -> Self {
+        criterion.judged(Some(found), error, decided_by).or_undecided(undecided)
+    }
+
     /// What it came to: it may be so close to its limit that its error could turn it.
     pub const fn outcome(&self) -> Outcome {
         match (self.holds, self.near_limit) {

@@ -160,7 +160,7 @@ fn is_open(motion: &Motion) -> bool {
 
 impl Judged {
     /// The same where a motion still settles after so many periods that could decide otherwise.
-    fn or_undecided(self, undecided: Option<u64>) -> Self {
+    pub(super) fn or_undecided(self, undecided: Option<u64>) -> Self {
         let holds = if undecided.is_some() { Some(false) } else { self.holds };
         Self { undecided, holds, near_limit: self.near_limit && undecided.is_none(), ..self }
     }

@@ -1,6 +1,6 @@
 //! Tuned mass dampers beside the absorbers of a structure of several modes.
 
-use super::{largest, linear_places};
+use super::linear::{amplitudes, largest, linear_peak, linear_places};
 use crate::case::{ActsOn, Load, ModalCase};
 use crate::dampers::simplex;
 use crate::linear::{ModalAmplitudes, ModalDamper};
@@ -47,7 +47,7 @@ fn driven_modes(case: &ModalCase) -> Vec<usize> {
             if !driven || (near / mode.frequency_hz - 1.0).abs() > 0.05 {
                 continue;
             }
-            let most = amplitudes(case, load, near, &[]).places.into_iter().fold(0.0, f64::max);
+            let most = linear_peak(case, load, near, &[]);
             match found.iter_mut().find(|(known, _)| *known == k) {
                 Some((_, known)) => *known = known.max(most),
                 None => found.push((k, most)),
@@ -57,21 +57,6 @@ fn driven_modes(case: &ModalCase) -> Vec<usize> {
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let modes: Vec<usize> = found.into_iter().map(|(k, _)| k).collect();
     if modes.is_empty() { vec![0] } else { modes }
-}
-
-pub(super) fn amplitudes(
-    case: &ModalCase,
-    load: &Load,
-    at: f64,
-    dampers: &[ModalDamper],
-) -> ModalAmplitudes {
-    match case.system(load, at) {
-        Ok(system) => ModalAmplitudes::of(&system, dampers, &case.shapes()),
-        Err(_) => ModalAmplitudes {
-            places: vec![f64::INFINITY; case.places.len()],
-            strokes: vec![f64::INFINITY; dampers.len()],
-        },
-    }
 }
 
 fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
@@ -106,10 +91,7 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
     let cost = |logarithms: &[f64]| {
         let dampers = built(logarithms);
         let each = along.iter().flat_map(|(load, all)| all.iter().map(move |at| (load, at)));
-        each.map(|(load, at)| {
-            amplitudes(case, load, *at, &dampers).places.into_iter().fold(0.0, f64::max)
-        })
-        .fold(0.0, f64::max)
+        each.map(|(load, at)| linear_peak(case, load, *at, &dampers)).fold(0.0, f64::max)
     };
     let sizes: Vec<f64> = (0..start.len()).map(|k| SIMPLEX[k % 2]).collect();
     let dampers = built(&simplex(start, &sizes, STEPS, RESTARTS, cost));

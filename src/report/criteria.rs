@@ -5,15 +5,13 @@ use serde_json::{Value, json};
 use super::document::criteria::{criteria, place};
 use super::document::{self, Scale, motions, place::FilePlace};
 use super::error::RenderError;
-use super::modal;
 use super::template::render;
 use crate::answer::Answer;
-use crate::case::{Case, ModalCase};
+use crate::case::Case;
 use crate::criteria::{Judged, all_hold};
 use crate::measure::Device;
-use crate::modal::ModalAnswer;
 use crate::motions::Motions;
-use crate::quantity::Units;
+use crate::quantity::{Quantity, Units};
 
 /// What became of one case of several.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +38,7 @@ impl Checked {
             "title": case.title,
             "holds": all_hold(judged),
             "count_inactive": case.count_inactive,
-            "criteria": judged.iter().map(|one| row(case, &units, one)).collect::<Vec<_>>(),
+            "criteria": judged.iter().map(|one| row(&units, one, place(case, one))).collect::<Vec<_>>(),
             // At the case's own excitation, and at the places of its band that were looked at.
             "motions": answer.motions.as_ref().map(|found| motions::listed(&scale, found, counts)),
             "places": survey.map(|survey| motions::places(&scale, &survey.motions, counts)),
@@ -62,9 +60,8 @@ impl Checked {
         Self { document, page, units }
     }
 
-    /// A case of several modes or absorbers.
-    pub fn of_several(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -> Self {
-        let (document, page, units) = modal::checked(path, name, case, answer);
+    /// A case that was judged, by its document, the facts of its templates and the units of its page.
+    pub(super) const fn of(document: Value, page: Value, units: Units) -> Self {
         Self { document, page, units }
     }
 
@@ -154,9 +151,8 @@ pub fn junit(cases: &[Checked]) -> Result<String, RenderError> {
 
 /// A criterion in SI, or in the units of a reduced case: 1 and 0 for true and false, null where nothing could be
 /// measured; where in the band it is worst as a text, empty where that says nothing, and as a number.
-fn row(case: &Case, units: &Units, judged: &Judged) -> Value {
+pub(super) fn row(units: &Units, judged: &Judged, at: Option<Quantity>) -> Value {
     let kind = judged.criterion.measure.kind(Device::Absorber);
-    let at = place(case, judged);
     let unit = at.map(|at| at.kind.dimension.symbol(units.physical));
     let mut row = json!({
         "name": judged.criterion.key,

@@ -66,7 +66,22 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     // The same of structures of several modes with several absorbers.
-    ("modal", &["case", "dampers", "executor", "linear", "motions", "simulation", "system"]),
+    (
+        "modal",
+        &[
+            "case",
+            "criteria",
+            "dampers",
+            "executor",
+            "linear",
+            "method",
+            "motions",
+            "numerics",
+            "orbits",
+            "simulation",
+            "system",
+        ],
+    ),
     // What all commands know of a case: the only way from them to a trajectory or a branch of orbits of their own.
     (
         "alternatives",

@@ -173,27 +173,37 @@ fn before_loads(text: &str) -> (&str, &str) {
     text.split_at(text.find("# Vortices").expect("the loads"))
 }
 
-/// Absorbers at one place of one mode at rest: the peak is that of the structure alone, F/(2 zeta k) at resonance.
+/// Absorbers at one place of one mode at rest: the peak is that of the structure alone, F/(2 zeta k) at resonance. Another start
+/// keeps both moving, with less vibration that is known less well: the error covers it too.
 #[test]
 fn absorbers_that_rest_leave_the_structure_alone() {
     let case = "title = 't'\nsource = 's'\n[mode]\nfrequency = \"5 Hz\"\ndamping_ratio = 0.02\nmass = \"10 kg\"\n\
                 shape = { top = 2.0 }\n[[absorber]]\nmass = \"0.1 kg\"\nclearance = \"50 mm\"\nrestitution = 0.5\n\
                 [[absorber]]\nmass = \"0.1 kg\"\nclearance = \"60 mm\"\nrestitution = 0.5\n\
                 [excitation]\nkind = \"force\"\namplitude = \"1 N\"\nfrequency = \"5 Hz\"\n\
-                [criteria]\npeak_displacement = \"<= 11 mm\"\n";
+                [criteria]\npeak_displacement = \"LIMIT\"\n";
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("rest.toml");
-    fs::write(&path, case).expect("written");
-    let output = vinesink(&["check", path.to_str().expect("UTF-8"), "--format", "json"]);
-    let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    let criterion = &document["cases"][0]["criteria"][0];
+    let judged = |limit: &str| {
+        fs::write(&path, case.replace("LIMIT", limit)).expect("written");
+        let output = vinesink(&["check", path.to_str().expect("UTF-8"), "--format", "json"]);
+        let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        document["cases"][0]["criteria"][0].clone()
+    };
     // The force acts where the shape is 2, and so does the displacement count.
     let stiffness = 10.0 * libm::pow(std::f64::consts::TAU * 5.0, 2.0);
     let expected = 2.0 * 2.0 / (2.0 * 0.02 * stiffness);
-    let found = criterion["found"].as_f64().expect("a peak");
-    assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
-    assert_eq!(
-        (&criterion["holds"], &criterion["decided_by"]),
-        (&Value::Bool(true), &"closed-form".into())
-    );
+    for (limit, holds, near) in
+        [("<= 13 mm", true, false), ("<= 11 mm", false, true), ("<= 10 mm", false, false)]
+    {
+        let criterion = judged(limit);
+        let found = criterion["found"].as_f64().expect("a peak");
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+        assert_eq!(criterion["decided_by"], "closed-form", "{criterion}");
+        assert_eq!(
+            (&criterion["holds"], &criterion["near_limit"]),
+            (&holds.into(), &near.into()),
+            "{criterion}"
+        );
+    }
 }

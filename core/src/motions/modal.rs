@@ -5,6 +5,7 @@
 
 use serde::Serialize;
 
+use super::starts::position;
 use crate::linear::ModalAmplitudes;
 use crate::numerics::scatter::{
     drifts, error_of_largest, error_of_largest_of, twice_standard_error,
@@ -154,22 +155,14 @@ fn resting(system: &ModalSystem, places: &[Vec<f64>]) -> Option<ModalMotion> {
     })
 }
 
+/// One prime for the share of the steady motion, and for the place of each absorber.
+const PRIMES: [f64; MOST_MODES + 1] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0];
+
 /// The `k`-th start: from rest, each absorber half way to a wall; then with a share of the structure's own steady motion and
-/// the absorbers anywhere in their cavities, evenly spread (Richtmyer's sequence).
+/// the absorbers anywhere in their cavities, evenly spread.
 fn start(system: &ModalSystem, k: u32) -> ModalState {
-    const ROOTS: [f64; MOST_MODES + 1] = [
-        std::f64::consts::SQRT_2,
-        1.732_050_807_568_877_2,
-        2.236_067_977_499_79,
-        2.645_751_311_064_590_7,
-        3.316_624_790_355_4,
-        3.605_551_275_463_989_6,
-        4.123_105_625_617_661,
-        4.358_898_943_540_674,
-        4.795_831_523_312_72,
-    ];
     let mut start = ModalState::AT_REST;
-    let part = |axis: usize| (0.5 + ROOTS[axis] * f64::from(k)).fract();
+    let part = |axis: usize| position(PRIMES[axis], k.saturating_sub(1));
     let share = if k == 0 { 0.0 } else { 1.2 * part(0) };
     for mode in 0..system.modes().len() {
         let steady = system.steady_motion(mode);

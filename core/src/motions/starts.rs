@@ -14,6 +14,11 @@ const PRIMES: [f64; 4] = [2.0, 3.0, 5.0, 7.0];
 /// says nothing about where motions begin.
 const LARGEST: f64 = 10.0;
 
+/// The `index`-th place of the sequence on the axis of a prime, from 0 to 1.
+pub(super) fn position(prime: f64, index: u32) -> f64 {
+    (0.5 + prime.sqrt() * f64::from(index + 1)).fract()
+}
+
 /// A start from rest: the absorber lies halfway between the middle of its cavity and a wall, as it does
 /// on average if it may lie anywhere. Exactly in the middle the slightest push would wake it.
 pub const FROM_REST: State = State { y: 0.5, ..State::AT_REST };
@@ -40,10 +45,7 @@ impl StartBox {
 
     /// The `index`-th start: oscillator anywhere in the box, absorber anywhere in its cavity.
     pub fn start(&self, index: u32) -> State {
-        let coordinates = PRIMES.map(|prime| {
-            let position = (0.5 + prime.sqrt() * f64::from(index + 1)).fract();
-            2.0 * position - 1.0
-        });
+        let coordinates = PRIMES.map(|prime| 2.0 * position(prime, index) - 1.0);
         let x = self.reach * coordinates[0];
         State {
             x,

@@ -22,7 +22,7 @@
 //! Any other panel is halved, which divides `S` by 64; below a thousandth of a panel the search of
 //! [`crate::numerics::crossing`] takes over.
 
-use super::phasor::Slack;
+use super::phasor::{FlightState, Slack};
 use crate::numerics::lanes::Real;
 
 /// Steps of Newton towards a level place: from the secant, off by some percent of a panel, two leave less
@@ -33,6 +33,13 @@ const LEVELLING: u32 = 2;
 pub(super) trait Jet<R> {
     /// Value, slope and second derivative.
     fn jet(&self) -> [R; 3];
+}
+
+impl<R: Real> Jet<R> for FlightState<R> {
+    #[inline(always)]
+    fn jet(&self) -> [R; 3] {
+        [self.gap, self.slope, self.a]
+    }
 }
 
 /// A polynomial in the part of a panel, lowest power first.

@@ -11,7 +11,6 @@ use std::f64::consts::TAU;
 
 use fearless_simd::Simd;
 
-use super::certificate::Jet;
 use super::flow::Oscillator;
 use super::path::{Path, StraightLine};
 use super::small::{LARGEST_ANGLE, small_angles, small_exponential};
@@ -182,13 +181,6 @@ impl<R> Rates<R> {
             swing: [of(|one| one.swing[0]), of(|one| one.swing[1]), of(|one| one.swing[2])],
             origin: Steady { x: of(|one| one.origin.x), v: of(|one| one.origin.v) },
         }
-    }
-}
-
-impl<R: Real> Jet<R> for FlightState<R> {
-    #[inline(always)]
-    fn jet(&self) -> [R; 3] {
-        [self.gap, self.slope, self.a]
     }
 }
 

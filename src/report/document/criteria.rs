@@ -37,6 +37,18 @@ fn outcome(judged: &Judged) -> &'static str {
 
 /// All criteria of a case, one for each line of `[criteria]`; none where the case asks for nothing.
 pub fn criteria(case: &Case, judged: &[Judged]) -> Option<Value> {
+    let rows = judged.iter().map(|one| criterion(case, one)).collect();
+    counted(judged, rows).map(|mut counted| {
+        counted["count_inactive"] = json!(case.count_inactive);
+        let time = case.contact_time();
+        counted["contact_time"] =
+            json!(time.map(|time| Quantity::new(&of::CONTACT_TIME, time, Method::Given)));
+        counted
+    })
+}
+
+/// Criteria with their rows; none where there are none.
+pub fn counted(judged: &[Judged], rows: Vec<Value>) -> Option<Value> {
     let count = |of: &str| judged.iter().filter(|one| outcome(one) == of).count();
     badge(judged).map(|badge| {
         json!({
@@ -47,11 +59,9 @@ pub fn criteria(case: &Case, judged: &[Judged]) -> Option<Value> {
             "undecided": count("not-decided"),
             // Those that hold, and those that an error alone keeps from it.
             "too_close": count("too-close-to-call"),
-            "count_inactive": case.count_inactive,
-            "contact_time": case
-                .contact_time()
-                .map(|time| Quantity::new(&of::CONTACT_TIME, time, Method::Given)),
-            "all": judged.iter().map(|one| criterion(case, one)).collect::<Vec<_>>(),
+            "count_inactive": true,
+            "contact_time": null,
+            "all": rows,
         })
     })
 }
@@ -64,6 +74,11 @@ pub fn place(case: &Case, judged: &Judged) -> Option<Quantity> {
 
 /// A judged criterion.
 pub fn criterion(case: &Case, judged: &Judged) -> Value {
+    row(judged, place(case, judged))
+}
+
+/// The same, worst at a place.
+pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
     let Criterion { key, measure, relation, limit, as_written } = &judged.criterion;
     let kind = measure.kind(Device::Absorber);
     let quantity = |value: f64| kind.map(|kind| Quantity::new(kind, value, judged.decided_by));
@@ -90,7 +105,7 @@ pub fn criterion(case: &Case, judged: &Judged) -> Value {
         "margin": judged.margin.filter(|_| !counted).and_then(quantity),
         "outcome": outcome(judged),
         "holds": judged.holds,
-        "at": place(case, judged),
+        "at": at,
         // Share of the resting places from which the absorber stays inactive, where that motion decides.
         "inactive_share": judged.inactive.map(share),
         // The motion that decides, in the list of its place.

@@ -55,23 +55,35 @@ pub enum Content {
 
 /// A document of a case: what all have in common, and the fields of its own.
 pub fn answer(case: &Case, content: Content, fields: Value) -> Value {
+    let heading = [&case.title, &case.source, &case.text_hash];
+    let mut document = headed(heading.map(String::as_str), case.units().name(), content, fields);
+    if let Some(support) = scale::support(case) {
+        document["support"] = support;
+    }
+    document
+}
+
+/// The same of any case: its title, source and SHA-256, the name of its units, and the fields.
+pub fn headed(
+    [title, source, text_hash]: [&str; 3],
+    units: &str,
+    content: Content,
+    fields: Value,
+) -> Value {
     let mut document = json!({
         "format": FORMAT,
         "asked": content,
-        "title": case.title,
-        "source": case.source,
-        "units": case.units().name(),
+        "title": title,
+        "source": source,
+        "units": units,
         "provenance": {
             "program": env!("CARGO_PKG_NAME"),
             "version": env!("CARGO_PKG_VERSION"),
-            "case_sha256": case.text_hash,
+            "case_sha256": text_hash,
         },
     });
     if let (Some(all), Value::Object(own)) = (document.as_object_mut(), fields) {
         all.extend(own);
-    }
-    if let Some(support) = scale::support(case) {
-        document["support"] = support;
     }
     document
 }

@@ -1,0 +1,196 @@
+//! A case of several modes and absorbers: `[[mode]]`, `[[absorber]]` and `[excitation]`, or `[[excitation]]` where several
+//! may act, one at a time.
+
+mod read;
+
+use std::ops::Range;
+
+use toml::de::DeTable;
+
+use super::criteria::Criterion;
+use super::document;
+use super::error::CaseError;
+use super::reader::Reader;
+use crate::digest::sha256;
+use crate::system::{InvalidModalSystem, ModalAbsorber, ModalParameters, ModalSystem, Mode};
+
+/// A structure of several modes with absorbers, what drives it and what is asked of it, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalCase {
+    /// What the case is, in a line.
+    pub title: String,
+    /// Where its numbers come from.
+    pub source: String,
+    /// SHA-256 of the file's text, in hexadecimal.
+    pub text_hash: String,
+    /// Names of the places that shapes are given at, in the order of the file.
+    pub places: Vec<String>,
+    /// The modes; the first is that which frequencies are over.
+    pub modes: Vec<StructuralMode>,
+    /// The absorbers.
+    pub absorbers: Vec<PlacedAbsorber>,
+    /// What may drive it, one at a time.
+    pub loads: Vec<Load>,
+    /// Limits of the displacement.
+    pub criteria: Vec<PlaceCriterion>,
+    /// Starts at each frequency, that from rest among them.
+    pub starts: u32,
+}
+
+/// A mode of a structure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StructuralMode {
+    /// Natural frequency in Hz.
+    pub frequency_hz: f64,
+    /// Damping ratio.
+    pub damping_ratio: f64,
+    /// Modal mass in kg, by the scale of the shape.
+    pub mass_kg: f64,
+    /// Displacement at each place where the modal coordinate is 1.
+    pub shape: Vec<f64>,
+    /// Participation in the motion of the base.
+    pub participation: f64,
+}
+
+/// An absorber at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedAbsorber {
+    /// Which place.
+    pub place: usize,
+    /// Mass in kg.
+    pub mass_kg: f64,
+    /// Free distance to either wall in m.
+    pub clearance_m: f64,
+    /// Coefficient of restitution.
+    pub restitution: f64,
+}
+
+/// What a harmonic excitation acts on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ActsOn {
+    /// A force at a place.
+    Place(usize),
+    /// A force in one mode alone.
+    Mode(usize),
+    /// The base moves.
+    Base,
+}
+
+/// A harmonic excitation over a range of frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load {
+    /// What it acts on.
+    pub on: ActsOn,
+    /// Amplitude in N, or in m of the base.
+    pub amplitude: f64,
+    /// Frequencies in Hz, ascending; the same twice where there is one.
+    pub range_hz: [f64; 2],
+}
+
+impl Load {
+    /// The natural frequency of a mode in its range, of that which it acts on if it acts on one, in Hz; the middle of the range
+    /// where there is none.
+    pub fn centre(&self, case: &ModalCase) -> f64 {
+        let [from, to] = self.range_hz;
+        let modes = case.modes.iter().enumerate();
+        let acts = |k: usize| !matches!(self.on, ActsOn::Mode(mode) if mode != k);
+        let mut within =
+            modes.filter(|(k, mode)| acts(*k) && (from..=to).contains(&mode.frequency_hz));
+        within.next().map_or(0.5 * (from + to), |(_, mode)| mode.frequency_hz)
+    }
+}
+
+/// A limit of the peak displacement at a place, or at the worst one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaceCriterion {
+    /// Which place; none: every one.
+    pub place: Option<usize>,
+    /// What is asked of it, in m.
+    pub criterion: Criterion,
+}
+
+/// Whether a text is of several modes or absorbers: what does not parse is not.
+pub fn is_modal(text: &str) -> bool {
+    let Ok(document) = document::parse(text.strip_prefix('\u{feff}').unwrap_or(text)) else {
+        return false;
+    };
+    tells_several(&document).is_some()
+}
+
+/// Where a document says that it is of several modes or absorbers.
+pub(super) fn tells_several(document: &DeTable) -> Option<Range<usize>> {
+    let listed = |name: &str, list: bool| {
+        let (key, value) = document.get_key_value(name)?;
+        (value.get_ref().is_array() || !list).then(|| key.span())
+    };
+    listed("mode", false).or_else(|| listed("absorber", true))
+}
+
+impl ModalCase {
+    /// Reads a case from its text; `name`, usually the file's path, is for messages only.
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong.
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let refused = |problems, more| CaseError::new(name, visible, problems, more);
+        let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
+        let mut reader = Reader::of(visible);
+        match read::read(&mut reader, &document, sha256(text.as_bytes())) {
+            Some(case) if reader.problems.is_empty() => Ok(case),
+            _ => Err(refused(reader.problems, reader.more)),
+        }
+    }
+
+    /// For each place the value of each mode's shape.
+    pub fn shapes(&self) -> Vec<Vec<f64>> {
+        let places = 0..self.places.len();
+        places.map(|p| self.modes.iter().map(|mode| mode.shape[p]).collect()).collect()
+    }
+
+    /// Radians per unit of the dimensionless time: the first mode's natural frequency in rad/s.
+    pub fn omega(&self) -> f64 {
+        std::f64::consts::TAU * self.modes[0].frequency_hz
+    }
+
+    /// The structure with its absorbers under a load at a frequency in Hz: lengths in m, masses in kg, time `omega_1 t`. Shapes
+    /// are those at the absorbers.
+    ///
+    /// # Errors
+    /// [`InvalidModalSystem`] where the load has no steady motion.
+    pub fn system(
+        &self,
+        load: &Load,
+        frequency_hz: f64,
+    ) -> Result<ModalSystem, InvalidModalSystem> {
+        let first = self.modes[0].frequency_hz;
+        let omega = self.omega();
+        let modes = self.modes.iter().enumerate().map(|(k, mode)| {
+            let force = match load.on {
+                ActsOn::Place(place) => mode.shape[place] * load.amplitude,
+                ActsOn::Mode(driven) if driven == k => load.amplitude,
+                ActsOn::Mode(_) | ActsOn::Base => 0.0,
+            };
+            Mode {
+                frequency: mode.frequency_hz / first,
+                damping_ratio: mode.damping_ratio,
+                mass: mode.mass_kg,
+                forcing: force / (mode.mass_kg * omega * omega),
+                participation: if load.on == ActsOn::Base { mode.participation } else { 0.0 },
+                shape: self.absorbers.iter().map(|one| mode.shape[one.place]).collect(),
+            }
+        });
+        let absorbers = self.absorbers.iter().map(|one| ModalAbsorber {
+            mass: one.mass_kg,
+            clearance: one.clearance_m,
+            restitution: one.restitution,
+        });
+        let moves = if load.on == ActsOn::Base { load.amplitude } else { 0.0 };
+        ModalSystem::new(ModalParameters {
+            modes: modes.collect(),
+            absorbers: absorbers.collect(),
+            frequency_ratio: frequency_hz / first,
+            base_amplitude: moves,
+        })
+    }
+}

@@ -1,0 +1,62 @@
+//! The structure along a load without absorbers, alone or with tuned mass dampers.
+
+use crate::case::{Load, ModalCase};
+use crate::linear::{ModalAmplitudes, ModalDamper};
+use crate::numerics::scan;
+
+/// Pieces of a range in which the largest amplitude is looked for, beside ever closer ones around the modes.
+const PIECES: u32 = 256;
+const CLOSER: u32 = 16;
+
+/// Amplitudes at a frequency in Hz; infinite where nothing limits them.
+pub(super) fn amplitudes(
+    case: &ModalCase,
+    load: &Load,
+    at: f64,
+    dampers: &[ModalDamper],
+) -> ModalAmplitudes {
+    match case.system(load, at) {
+        Ok(system) => ModalAmplitudes::of(&system, dampers, &case.shapes()),
+        Err(_) => ModalAmplitudes {
+            places: vec![f64::INFINITY; case.places.len()],
+            strokes: vec![f64::INFINITY; dampers.len()],
+        },
+    }
+}
+
+/// The largest amplitude of any place at a frequency in Hz.
+pub fn linear_peak(case: &ModalCase, load: &Load, at: f64, dampers: &[ModalDamper]) -> f64 {
+    amplitudes(case, load, at, dampers).places.into_iter().fold(0.0, f64::max)
+}
+
+/// Frequencies in Hz at which it is looked at along a range, ascending.
+pub fn linear_places(range: [f64; 2], case: &ModalCase) -> Vec<f64> {
+    let around = case.modes.iter().flat_map(|mode| {
+        let width = mode.damping_ratio * mode.frequency_hz;
+        (0..=CLOSER).flat_map(move |k| {
+            let off = f64::from(k) / f64::from(CLOSER) * 2.0 * width;
+            [mode.frequency_hz - off, mode.frequency_hz + off]
+        })
+    });
+    let within = around.filter(|at| (range[0]..=range[1]).contains(at));
+    let mut all: Vec<f64> = scan::places(range, PIECES).chain(within).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
+/// The largest value along a range, narrowed down around the best place, and where.
+pub(super) fn largest(range: [f64; 2], case: &ModalCase, of: impl Fn(f64) -> f64) -> [f64; 2] {
+    let all = linear_places(range, case);
+    let best = (0..all.len()).map(|k| (of(all[k]), k)).max_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((mut most, k)) = best else { return [0.0, range[0]] };
+    let mut at = all[k];
+    scan::narrow([all[k.saturating_sub(1)], all[(k + 1).min(all.len() - 1)]], |place| {
+        let value = of(place);
+        if value > most {
+            (most, at) = (value, place);
+        }
+        Some(value)
+    });
+    [most, at]
+}

@@ -1,0 +1,309 @@
+//! The report of a structure of several modes with several absorbers, as data and files. The sentences are in
+//! `templates/modal*.tera`.
+
+mod analysis;
+mod figure;
+
+use serde_json::{Value, json};
+
+use super::criteria::{Checked, row as criteria_row};
+use super::document::criteria::{badge, counted, row};
+use super::document::{Content, Word, headed};
+use super::error::RenderError;
+use super::render::{Files, in_lines, page_files};
+use super::template::{render, worded};
+use crate::case::{ActsOn, Load, ModalCase, StructuralMode};
+use crate::method::Method;
+use crate::modal::{DamperChoice, JudgedPlace, ModalAnswer, WorstOfPlace};
+use crate::motions::ModalMotion;
+use crate::quantity::catalogue as of;
+use crate::quantity::{Kind, Quantity, Units};
+use crate::system::Scales;
+
+pub use analysis::{analysis, analysis_text};
+
+/// What else is known of its loads.
+#[derive(Debug, Clone, Copy)]
+pub struct Beside<'a> {
+    /// Tuned mass dampers.
+    pub dampers: &'a [DamperChoice],
+    /// For each load what a model of the driven mode alone would say; none where there is none.
+    pub alone: &'a [Option<WorstOfPlace>],
+}
+
+impl Beside<'_> {
+    /// Nothing.
+    pub const NOTHING: Self = Self { dampers: &[], alone: &[] };
+}
+
+/// Units of the pages of a case: lengths in that of the smallest clearance.
+fn units(case: &ModalCase) -> Units {
+    let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
+    Units::from(Scales {
+        physical: true,
+        clearance: least,
+        natural_frequency: case.omega(),
+        oscillator_mass: case.modes[0].mass_kg,
+    })
+}
+
+fn given(kind: &'static Kind, value: f64) -> Quantity {
+    Quantity::new(kind, value, Method::Given)
+}
+
+fn simulated(kind: &'static Kind, value: f64) -> Quantity {
+    Quantity::new(kind, value, Method::Simulation)
+}
+
+fn closed(kind: &'static Kind, value: f64) -> Quantity {
+    Quantity::new(kind, value, Method::ClosedForm)
+}
+
+/// The word of what all criteria come to; of a case without them whether it moves less than without absorbers.
+fn word(answer: &ModalAnswer) -> Word {
+    let without = || match answer.worst(None, None) {
+        Some(worst) if worst.peak + worst.error < bare(answer) => Word::Works,
+        Some(worst) if worst.peak > bare(answer) => Word::MakesItWorse,
+        Some(_) => Word::DoesNothing,
+        None => Word::NoAnswer,
+    };
+    badge(&answer.criteria()).unwrap_or_else(without)
+}
+
+/// The largest displacement of any place under any load without absorbers.
+fn bare(answer: &ModalAnswer) -> f64 {
+    let all = answer.along.iter().flat_map(|along| &along.bare);
+    all.map(|[most, _]| *most).fold(0.0, f64::max)
+}
+
+/// Where a criterion is worst.
+fn frequency(judged: &JudgedPlace) -> Quantity {
+    given(&of::EXCITATION_FREQUENCY, judged.worst.at)
+}
+
+/// A row about a criterion with the place that it is about, that which is worst, and under which load.
+fn placed(case: &ModalCase, one: &JudgedPlace, mut row: Value) -> Value {
+    row["place"] = json!(one.place.map(|place| &case.places[place]));
+    row["worst_place"] = json!(case.places[one.worst.place]);
+    row["load"] = json!(one.worst.load);
+    row
+}
+
+/// The criteria in the form of those of one mode.
+fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
+    let judged = &answer.judged;
+    let rows = judged.iter().map(|one| placed(case, one, row(&one.judged, Some(frequency(one)))));
+    let mut counted = json!(counted(&answer.criteria(), rows.collect()));
+    if counted.is_object() {
+        // No optimum is looked for.
+        counted["several"] = json!(true);
+    }
+    counted
+}
+
+fn load_row(case: &ModalCase, load: &Load) -> Value {
+    let kind = if load.on == ActsOn::Base { &of::BASE_AMPLITUDE } else { &of::FORCE_AMPLITUDE };
+    let (place, mode) = match load.on {
+        ActsOn::Place(place) => (Some(&case.places[place]), None),
+        ActsOn::Mode(mode) => (None, Some(mode + 1)),
+        ActsOn::Base => (None, None),
+    };
+    let [from, to] = load.range_hz.map(|at| given(&of::EXCITATION_FREQUENCY, at));
+    json!({ "amplitude": given(kind, load.amplitude), "place": place, "mode": mode, "from": from, "to": to })
+}
+
+fn motion_row(motion: &ModalMotion) -> Value {
+    let places = motion.places.iter().map(|one| {
+        json!({
+            "peak": simulated(&of::PEAK, one.peak).with_error(one.error),
+            "rms": simulated(&of::RMS, one.rms[0]).with_error(one.rms[1]),
+        })
+    });
+    json!({
+        "starts": motion.starts,
+        "repeats_after": motion.repeats_after,
+        "settled": motion.settled,
+        // Whether every absorber rests where no wall reaches it.
+        "rests": motion.rests(),
+        "impacts_per_period": motion.impacts_per_period.iter().map(|[count, _]| count).collect::<Vec<_>>(),
+        "largest_multiplier": motion.largest_multiplier,
+        "places": places.collect::<Vec<_>>(),
+    })
+}
+
+fn worst_row(case: &ModalCase, worst: &WorstOfPlace) -> Value {
+    json!({
+        "load": worst.load,
+        "place": case.places[worst.place],
+        "at": given(&of::EXCITATION_FREQUENCY, worst.at),
+        "peak": simulated(&of::PEAK, worst.peak).with_error(worst.error),
+        "most": simulated(&of::PEAK, worst.peak + worst.error),
+        "settled": worst.settled,
+        "rests": worst.rests,
+    })
+}
+
+/// What is known along each load.
+fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
+    let rows = answer.along.iter().enumerate().map(|(k, along)| {
+        let largest = along.bare.iter().max_by(|a, b| a[0].total_cmp(&b[0]));
+        let worst = answer.worst(None, Some(k));
+        let here = worst.and_then(|worst| along.places.iter().find(|one| one.at == worst.at));
+        json!({
+            "load": load_row(case, &along.load),
+            "bare": largest.map(|[most, at]| json!({
+                "peak": closed(&of::BARE_PEAK, *most), "at": given(&of::EXCITATION_FREQUENCY, *at),
+            })),
+            "worst": worst.map(|worst| worst_row(case, &worst)),
+            // Starts at that frequency.
+            "searched": here.map(|one| one.motions.iter().map(|motion| motion.starts).sum::<u32>()),
+            "motions": here.map(|one| one.motions.iter().map(motion_row).collect::<Vec<_>>()),
+            "alone": beside.alone.get(k).and_then(|one| one.as_ref()).map(|one| {
+                simulated(&of::PEAK, one.peak).with_error(one.error)
+            }),
+            "dampers": beside.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, one.worst[k])).collect::<Vec<_>>(),
+            "places": along.places.iter().map(|one| json!({
+                "at": one.at, "unit": "Hz", "motions": one.motions.iter().map(motion_row).collect::<Vec<_>>(),
+            })).collect::<Vec<_>>(),
+        })
+    });
+    rows.collect()
+}
+
+/// The report: `vinesink/answer@1` with the fields that an index and a comparison read, and those of several modes.
+pub fn document(
+    name: &str,
+    case: &ModalCase,
+    answer: &ModalAnswer,
+    beside: &Beside,
+    content: Content,
+) -> Value {
+    let word = word(answer);
+    let worst = answer.worst(None, None);
+    let (bare, peak) = (bare(answer), worst.map_or(f64::NAN, |one| one.peak));
+    let error = worst.map_or(0.0, |one| one.error);
+    let damper = beside.dampers.first().map(|one| one.worst.iter().copied().fold(0.0, f64::max));
+    let level = |peak: f64| 20.0 * libm::log10(peak / bare);
+    let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
+    let mut quantities = vec![
+        given(&of::CLEARANCE, least),
+        closed(&of::BARE_PEAK, bare),
+        simulated(&of::PEAK, peak).with_error(error),
+        simulated(&of::CHANGE_DB, level(peak)).with_error(level(peak + error) - level(peak)),
+    ];
+    quantities.extend(damper.map(|one| closed(&of::DAMPER_PEAK, one)));
+    let quantities: serde_json::Map<String, Value> =
+        quantities.into_iter().map(|one| (one.kind.id.to_owned(), json!(one))).collect();
+    let modes = case.modes.iter().map(|mode| {
+        json!({
+            "frequency": given(&of::NATURAL_FREQUENCY, mode.frequency_hz),
+            "damping_ratio": given(&of::DAMPING_RATIO, mode.damping_ratio),
+            "mass": given(&of::OSCILLATOR_MASS, mode.mass_kg),
+            "shape": mode.shape,
+        })
+    });
+    let absorbers = case.absorbers.iter().enumerate().map(|(j, one)| {
+        let ratio = |mode: &StructuralMode| {
+            one.mass_kg * mode.shape[one.place] * mode.shape[one.place] / mode.mass_kg
+        };
+        json!({
+            "number": j + 1,
+            "place": case.places[one.place],
+            "mass": given(&of::ABSORBER_MASS, one.mass_kg),
+            "clearance": given(&of::CLEARANCE, one.clearance_m),
+            "restitution": given(&of::RESTITUTION, one.restitution),
+            // Over the mass that its impacts see.
+            "mass_ratio": closed(&of::MASS_RATIO, case.modes.iter().map(ratio).sum()),
+        })
+    });
+    let dampers = beside.dampers.iter().map(|one| {
+        let each = one.dampers.iter().zip(&one.strokes).zip(&one.places);
+        let each = each.map(|((damper, stroke), place)| {
+            json!({
+                "place": case.places[*place],
+                "mass": given(&of::ABSORBER_MASS, damper.mass),
+                "frequency": closed(&of::DAMPER_FREQUENCY, damper.frequency * case.modes[0].frequency_hz),
+                "damping_ratio": closed(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio),
+                "stroke": closed(&of::DAMPER_STROKE, *stroke),
+            })
+        });
+        json!({
+            "count": one.dampers.len(),
+            "worst": closed(&of::DAMPER_PEAK, one.worst.iter().copied().fold(0.0, f64::max)),
+            "stroke": closed(&of::DAMPER_STROKE, one.strokes.iter().copied().fold(0.0, f64::max)),
+            "each": each.collect::<Vec<_>>(),
+        })
+    });
+    let fields = json!({
+        "name": name,
+        "verdict": { "tone": word.tone(), "word": word },
+        "quantities": quantities,
+        "criteria": criteria(case, answer),
+        "notes": [],
+        "band": null,
+        "places_of_shapes": case.places,
+        "modes": modes.collect::<Vec<_>>(),
+        "absorbers": absorbers.collect::<Vec<_>>(),
+        "worst": worst.map(|one| worst_row(case, &one)),
+        "loads": along(case, answer, beside),
+        "dampers": dampers.collect::<Vec<_>>(),
+        "starts": case.starts,
+        "figures": [],
+    });
+    headed([&case.title, &case.source, &case.text_hash], units(case).name(), content, fields)
+}
+
+/// The files of its report.
+///
+/// # Errors
+/// [`RenderError`] says which part cannot be rendered.
+pub fn files(
+    name: &str,
+    case: &ModalCase,
+    answer: &ModalAnswer,
+    beside: &Beside,
+) -> Result<Files, RenderError> {
+    let mut document = document(name, case, answer, beside, Content::Report);
+    let figure = figure::loads(case, answer, beside, &document);
+    let drawn = if figure.panels.is_empty() { Vec::new() } else { vec![figure] };
+    let figures = worded(drawn, &units(case))?;
+    document["figures"] = figures.iter().map(super::document::figure_row).collect();
+    let tone = document["verdict"]["tone"].as_str().unwrap_or_default().to_owned();
+    let mut files =
+        page_files("report", "modal.md", Some(&tone), &units(case), document.clone(), &figures)?;
+    files.insert("report.json".into(), format!("{}\n", in_lines(&document, 0)).into_bytes());
+    Ok(files)
+}
+
+/// What simulation says of it, with nothing beside: `vinesink/answer@1`.
+pub fn simulation(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Value {
+    document(name, case, answer, &Beside::NOTHING, Content::Simulation)
+}
+
+/// The same on a terminal.
+///
+/// # Errors
+/// [`RenderError::Template`] if the template does not fit.
+pub fn text(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Result<String, RenderError> {
+    render("modal.txt", &units(case), &simulation(name, case, answer))
+}
+
+/// What `check` says of it; `path` is that of its file.
+pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -> Checked {
+    let units = units(case);
+    let told = |one: &JudgedPlace| {
+        placed(case, one, criteria_row(&units, &one.judged, Some(frequency(one))))
+    };
+    let document = json!({
+        "case": name,
+        "title": case.title,
+        "holds": answer.all_hold(),
+        "criteria": answer.judged.iter().map(told).collect::<Vec<_>>(),
+        "loads": along(case, answer, &Beside::NOTHING),
+    });
+    let page = json!({
+        "path": path, "case": name, "warnings": [], "criteria": criteria(case, answer), "outside": null, "choice": null,
+        "alternatives": null, "ranges": null, "combined": null, "reliability": null,
+    });
+    Checked::of(document, page, units)
+}
