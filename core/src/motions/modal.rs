@@ -48,9 +48,10 @@ pub struct ModalMotion {
     block_peaks: Vec<Vec<f64>>,
 }
 
-/// Times in which the slowest mode decays to `1/e` that are left out before a motion that does not repeat is measured, and most
-/// excitation periods of such a time.
+/// Times in which the slowest mode decays to `1/e` that are left out before a motion that does not repeat is measured, and fewest
+/// and most excitation periods of such a time.
 const DECAYS: u32 = 8;
+const QUICKEST: f64 = 32.0;
 const LONGEST: f64 = 8192.0;
 /// Blocks that it is measured for then, as parts of that time, and their shortest length in excitation periods.
 const BLOCKS: usize = 8;
@@ -226,6 +227,8 @@ fn distance(of: &ModalState, other: &ModalState) -> f64 {
 struct Block {
     places: Vec<PlaceMotion>,
     impacts: Vec<f64>,
+    /// After how many periods the last state was there before.
+    repeats_after: Option<u32>,
 }
 
 impl Block {
@@ -241,7 +244,7 @@ impl Block {
         let (meter, seen) = observer;
         let counts = &seen.impacts[..system.absorbers().len()];
         let impacts = counts.iter().map(|all| *all as f64 / periods as f64).collect();
-        Self { places: meter.places(), impacts }
+        Self { places: meter.places(), impacts, repeats_after: seen.repeats_after() }
     }
 }
 
@@ -255,7 +258,7 @@ fn decay_periods(system: &ModalSystem) -> f64 {
 /// Excitation periods of a time in which the slowest mode decays, and of a block.
 fn lengths(system: &ModalSystem) -> [u64; 2] {
     let decay = decay_periods(system).min(LONGEST);
-    [decay, OF_DECAY * decay].map(|length| length.max(SHORTEST).ceil() as u64)
+    [decay.max(QUICKEST), (OF_DECAY * decay).max(SHORTEST)].map(|length| length.ceil() as u64)
 }
 
 /// Excitation periods that a start is flown for where its motion does not repeat.
@@ -273,6 +276,16 @@ fn from_start(
 ) -> Result<ModalMotion, ModalStartError> {
     let mut simulation = ModalSimulation::new(system, start, 0.0)?;
     let [decay, block] = lengths(system);
+    // What a known orbit attracts, or what repeats.
+    let known = |simulation: &mut ModalSimulation, repeats_after: Option<u32>| {
+        let state = simulation.state();
+        if let Some(near) = orbits.iter().find(|one| distance(&one.state, &state) < NEAR_ORBIT) {
+            return Some(ModalMotion { starts: 1, ..near.motion.clone() });
+        }
+        let after = repeats_after?;
+        let period = Block::fly(simulation, system, places, after.into());
+        Some(ModalMotion::of(&[period], Some(after), true))
+    };
     for _ in 0..DECAYS {
         let mut seen = Seen::default();
         let left = MOST_OF_START.saturating_sub(simulation.impacts());
@@ -280,17 +293,18 @@ fn from_start(
             let seen = Block::fly(&mut simulation, system, places, GIVEN_UP);
             return Ok(ModalMotion::of(&[seen], None, false));
         }
-        let state = simulation.state();
-        if let Some(near) = orbits.iter().find(|one| distance(&one.state, &state) < NEAR_ORBIT) {
-            return Ok(ModalMotion { starts: 1, ..near.motion.clone() });
-        }
-        if let Some(after) = seen.repeats_after() {
-            let period = Block::fly(&mut simulation, system, places, after.into());
-            return Ok(ModalMotion::of(&[period], Some(after), true));
+        if let Some(known) = known(&mut simulation, seen.repeats_after()) {
+            return Ok(known);
         }
     }
-    let blocks: Vec<Block> =
-        (0..BLOCKS).map(|_| Block::fly(&mut simulation, system, places, block)).collect();
+    let mut blocks = Vec::new();
+    for _ in 0..BLOCKS {
+        let block = Block::fly(&mut simulation, system, places, block);
+        if let Some(known) = known(&mut simulation, block.repeats_after) {
+            return Ok(known);
+        }
+        blocks.push(block);
+    }
     let drifting = (0..places.len()).any(|p| {
         let rms: Vec<f64> = blocks.iter().map(|one| one.places[p].mean_square.sqrt()).collect();
         drifts(&rms)

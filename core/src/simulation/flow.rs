@@ -374,19 +374,28 @@ const INVERSES: [f64; 15] = {
 /// `(e^z - 1) / z`, by its series for small `z`.
 pub(super) fn mean_of_exponential(z: Phasor) -> Phasor {
     let size = libm::hypot(z.re, z.im);
-    if let Some((_, last)) = TERMS.iter().find(|(below, _)| size < *below) {
-        let mut sum = Phasor::new(1.0, 0.0);
-        for inverse in INVERSES[..*last].iter().rev() {
-            let product = sum * z;
-            sum = Phasor::new(1.0 + product.re * inverse, product.im * inverse);
-        }
-        return sum;
+    by_series(z, size).unwrap_or_else(|| {
+        let (sin, cos) = libm::sincos(z.im);
+        let half = libm::sin(0.5 * z.im);
+        let (re, im) = (libm::expm1(z.re) * cos - 2.0 * half * half, libm::exp(z.re) * sin);
+        let scale = size * size;
+        Phasor::new((re * z.re + im * z.im) / scale, (im * z.re - re * z.im) / scale)
+    })
+}
+
+/// The same where `e^z` is known; its error is then that of rounding `1`, over `abs(z)`.
+pub(super) fn mean_to(z: Phasor, exponential: Phasor) -> Phasor {
+    by_series(z, z.norm_sqr().sqrt()).unwrap_or_else(|| (exponential - 1.0) / z)
+}
+
+fn by_series(z: Phasor, size: f64) -> Option<Phasor> {
+    let (_, last) = TERMS.iter().find(|(below, _)| size < *below)?;
+    let mut sum = Phasor::new(1.0, 0.0);
+    for inverse in INVERSES[..*last].iter().rev() {
+        let product = sum * z;
+        sum = Phasor::new(1.0 + product.re * inverse, product.im * inverse);
     }
-    let (sin, cos) = libm::sincos(z.im);
-    let half = libm::sin(0.5 * z.im);
-    let (re, im) = (libm::expm1(z.re) * cos - 2.0 * half * half, libm::exp(z.re) * sin);
-    let scale = size * size;
-    Phasor::new((re * z.re + im * z.im) / scale, (im * z.re - re * z.im) / scale)
+    Some(sum)
 }
 
 #[cfg(test)]

@@ -21,6 +21,17 @@ const ANGLE: f64 = 0.5;
 /// Last power of the series: the next is below `0.5^18/18! = 6e-22`, and so is what a fourth derivative leaves out, `1e-17`.
 const LAST: usize = 17;
 
+/// `1`, `1/2`, ...
+const INVERSES: [f64; LAST + 1] = {
+    let mut inverses = [1.0; LAST + 1];
+    let mut n = 0;
+    while n <= LAST {
+        inverses[n] = 1.0 / (n + 1) as f64;
+        n += 1;
+    }
+    inverses
+};
+
 /// Acceleration by a wall, over the largest that there is, that is none.
 const NO_FORCE: f64 = 1e-12;
 /// Most steps of a relaxation.
@@ -28,7 +39,7 @@ const RELAXATIONS: usize = 2000;
 
 type Vector = [f64; MOST];
 
-fn dot(a: &Vector, b: &Vector) -> f64 {
+pub(super) fn dot(a: &Vector, b: &Vector) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -76,6 +87,7 @@ impl All {
 pub(super) struct HeldPanel {
     /// Derivatives of the modes' coordinates at its beginning.
     derivatives: [Vector; LAST + 1],
+    modes: usize,
     phase: f64,
     frequency: f64,
     length: f64,
@@ -125,16 +137,23 @@ impl HeldPanel {
             work *= frequency;
             energy
         });
-        Self { derivatives, phase, frequency, length, energies, inverse: inverse.clone() }
+        let (modes, inverse) = (all.modes, inverse.clone());
+        Self { derivatives, modes, phase, frequency, length, energies, inverse }
     }
 
     /// A derivative of a mode's coordinate.
     fn mode(&self, k: usize, s: f64, order: usize) -> f64 {
         let mut sum = 0.0;
         for n in (order..=LAST).rev() {
-            sum = self.derivatives[n][k] + sum * s / (n - order + 1) as f64;
+            sum = self.derivatives[n][k] + sum * (s * INVERSES[n - order]);
         }
         sum
+    }
+
+    /// The modes' coordinates, and the sine of the phase.
+    pub(super) fn place(&self, s: f64) -> (Vector, f64) {
+        let [sin, _] = sine_and_cosine(self.phase + self.frequency * s);
+        (std::array::from_fn(|k| if k < self.modes { self.mode(k, s, 0) } else { 0.0 }), sin)
     }
 
     pub(super) fn state(&self, s: f64) -> ModalState {
@@ -155,6 +174,11 @@ impl HeldPanel {
             shape => shape * self.mode(k, s, order),
         });
         view.base * power * turned + modes.sum::<f64>()
+    }
+
+    /// What is seen, and its first two derivatives.
+    pub(super) fn moment(&self, view: &View<MOST>, s: f64) -> [f64; 3] {
+        [0, 1, 2].map(|order| self.seen(view, s, order))
     }
 
     /// What a derivative of what is seen, of order 1 to 6, does not exceed.

@@ -5,11 +5,12 @@
 //! part of [`PEAK_ERROR`]. The square of a flight is integrated in closed form; where absorbers rest on walls, by the rule of
 //! Gauss and Legendre with [`NODES`] nodes, whose error in panels of 0.5 rad is below `1e-15` of the squared amplitude.
 
-use super::motion::{Gap, Phasors, View};
+use super::contact::{HeldPanel, dot};
+use super::motion::{Constants, Gap, Phasors, View};
 use super::{All, Course, MOST, ModalObserver, ModalSegment, STILL};
 use crate::numerics::gauss;
 use crate::simulation::certificate::{Hull, Quintic};
-use crate::simulation::flow::{Phasor, mean_of_exponential};
+use crate::simulation::flow::{Phasor, mean_to};
 use crate::simulation::phasor::Slack;
 use crate::system::{LinearResponse, ModalSystem};
 
@@ -76,73 +77,129 @@ impl ModalObserver for ModalMeter {
         self.time += whole;
         match &segment.course {
             Course::Free(begin) => {
-                let (constants, sizes) = (&all.constants, all.constants.sizes(begin));
-                for (view, sum) in self.views.iter().zip(&mut self.squares) {
-                    *sum += square(all, view, begin, whole);
-                }
-                let (mut here, mut left) = (*begin, whole);
-                while left > 0.0 {
-                    let length = constants.step.min(left);
-                    let there = if length < constants.step {
-                        constants.after(&here, length)
-                    } else {
-                        constants.next(&here)
-                    };
-                    let ends = [&here, &there].map(|at| (constants.free(at), at.rotor));
-                    for (view, peak) in self.views.iter().zip(&mut self.peaks) {
-                        let [here_at, there_at] = ends.map(|(free, rotor)| {
-                            Gap::of(constants.seen(view, &free, rotor), STILL)
-                        });
-                        let slack = constants.slack(view, &sizes).0.part(length / constants.step);
-                        let moment = |s: f64| {
-                            let at = constants.after(&here, s);
-                            Gap::of(constants.seen(view, &constants.free(&at), at.rotor), STILL)
-                        };
-                        *peak = highest(moment, [here_at, there_at], length, slack, *peak);
-                    }
-                    (here, left) = (there, left - length);
+                self.add_squares(all, begin, whole);
+                match all.modes {
+                    1 => self.find_peaks::<1>(all, begin, whole),
+                    2 => self.find_peaks::<2>(all, begin, whole),
+                    3 => self.find_peaks::<3>(all, begin, whole),
+                    4 => self.find_peaks::<4>(all, begin, whole),
+                    _ => self.find_peaks::<MOST>(all, begin, whole),
                 }
             }
-            Course::Held(panel) => {
-                for (n, view) in self.views.iter().enumerate() {
-                    let moment = |s: f64| Gap::of(segment.place(view, s), STILL);
-                    let cube = whole * whole * whole;
-                    let coefficient = panel.bound(view, 6) * cube * cube / 7200.0;
-                    let slack = Slack { coefficient, slope_squared: 0.0 };
-                    let ends = [moment(0.0), moment(whole)];
-                    self.peaks[n] = highest(moment, ends, whole, slack, self.peaks[n]);
-                    let square = |(node, weight): &(f64, f64)| {
-                        let [x, ..] = segment.place(view, 0.5 * whole * (1.0 + node));
-                        weight * x * x
-                    };
-                    self.squares[n] += whole * self.rule.iter().map(square).sum::<f64>();
-                }
-            }
+            Course::Held(panel) => self.add_held(panel, whole),
         }
     }
 }
 
-/// The integral of the square of what is seen in a flight. It is the real part of a sum of exponentials `c_a e^{p_a s}`, and its
-/// square that of `c_a c_b e^{(p_a + p_b) s}/2` and `c_a conj(c_b) e^{(p_a + conj(p_b)) s}/2`.
-fn square(all: &All, view: &View<MOST>, begin: &Phasors<MOST>, duration: f64) -> f64 {
-    let ([sin, cos], [s, c]) = (begin.rotor, view.steady);
-    let mut terms = [[Phasor::new(0.0, 0.0); 2]; MOST + 1];
-    terms[all.modes] =
-        [Phasor::new(c, -s) * Phasor::new(cos, sin), Phasor::new(0.0, all.constants.frequency)];
-    for (k, term) in terms.iter_mut().enumerate().take(all.modes) {
-        let (mode, [re, im]) = (&all.constants.modes[k], begin.z[k]);
-        let rate = Phasor::new(-mode.decay, mode.ringing);
-        *term = [Phasor::new(re, im) * view.shape[k], rate];
-    }
-    let mut sum = 0.0;
-    for (n, [c_a, p_a]) in terms[..=all.modes].iter().enumerate() {
-        for (m, [c_b, p_b]) in terms[..=n].iter().enumerate() {
-            let together = c_a * c_b * mean_of_exponential((p_a + p_b) * duration);
-            let apart = c_a * c_b.conj() * mean_of_exponential((p_a + p_b.conj()) * duration);
-            sum += (together + apart).re * if m == n { 0.5 } else { 1.0 };
+impl ModalMeter {
+    /// Where a flight cannot go beyond what is known, by the sizes of its phasors or by the ends of a panel and a bound on the
+    /// acceleration between, nothing is looked at.
+    fn find_peaks<const N: usize>(&mut self, all: &All, begin: &Phasors<MOST>, whole: f64) {
+        let all_sizes = all.constants.sizes(begin);
+        let beyond = |view: &View<MOST>, peak: f64| {
+            let free = view.shape.iter().zip(&all_sizes).map(|(phi, size)| phi.abs() * size);
+            free.sum::<f64>() + view.steady_size > peak
+        };
+        let watched = self.views.iter().zip(&mut self.peaks);
+        let mut watched: Vec<_> = watched.filter(|(view, peak)| beyond(view, **peak)).collect();
+        if watched.is_empty() {
+            return;
+        }
+        let constants: Constants<N, 0> = all.constants.first();
+        let sizes = std::array::from_fn(|k| all_sizes[k]);
+        let mut watched: Vec<_> = watched
+            .iter_mut()
+            .map(|(view, peak)| {
+                let view: View<N> = view.first();
+                (view, constants.slack(&view, &sizes), &mut **peak)
+            })
+            .collect();
+        let first = Phasors { z: std::array::from_fn(|k| begin.z[k]), rotor: begin.rotor };
+        let (mut here, mut left) = (first, whole);
+        while left > 0.0 {
+            let length = constants.step.min(left);
+            let there = if length < constants.step {
+                constants.after(&here, length)
+            } else {
+                constants.next(&here)
+            };
+            for (view, (slack, bend), peak) in &mut watched {
+                let ends = view.at(&here).abs().max(view.at(&there).abs());
+                if ends + 0.125 * *bend * length * length <= **peak {
+                    continue;
+                }
+                let of = |at: &Phasors<N>| {
+                    Gap::of(constants.seen(view, &constants.free(at), at.rotor), STILL)
+                };
+                let moment = |s: f64| of(&constants.after(&here, s));
+                let slack = slack.part(length / constants.step);
+                **peak = highest(moment, [of(&here), of(&there)], length, slack, **peak);
+            }
+            (here, left) = (there, left - length);
         }
     }
-    sum * duration
+
+    /// The integral of the square of what is seen in a flight. It is the real part of a sum of exponentials `c_a e^{p_a s}`, and
+    /// its square that of `c_a c_b e^{(p_a + p_b) s}/2` and `c_a conj(c_b) e^{(p_a + conj(p_b)) s}/2`.
+    fn add_squares(&mut self, all: &All, begin: &Phasors<MOST>, duration: f64) {
+        let (constants, [sin, cos]) = (&all.constants, begin.rotor);
+        let rate = |a: usize| {
+            let own = || Phasor::new(-constants.modes[a].decay, constants.modes[a].ringing);
+            let rate = if a < all.modes { own() } else { Phasor::new(0.0, constants.frequency) };
+            rate * duration
+        };
+        let mut ends = [(Phasor::new(0.0, 0.0), Phasor::new(1.0, 0.0)); MOST + 1];
+        for (a, (turn, end)) in ends.iter_mut().enumerate().take(all.modes + 1) {
+            *turn = rate(a);
+            let ((sin, cos), size) = (libm::sincos(turn.im), libm::exp(turn.re));
+            *end = Phasor::new(size * cos, size * sin);
+        }
+        let mut means = [[[Phasor::new(0.0, 0.0); 2]; MOST + 1]; MOST + 1];
+        for (n, row) in means.iter_mut().enumerate().take(all.modes + 1) {
+            for (m, mean) in row.iter_mut().enumerate().take(n + 1) {
+                let ((p_a, e_a), (p_b, e_b)) = (ends[n], ends[m]);
+                let share = duration * if m == n { 0.5 } else { 1.0 };
+                *mean = [
+                    mean_to(p_a + p_b, e_a * e_b) * share,
+                    mean_to(p_a + p_b.conj(), e_a * e_b.conj()) * share,
+                ];
+            }
+        }
+        for (view, sum) in self.views.iter().zip(&mut self.squares) {
+            let [s, c] = view.steady;
+            let mut terms = [Phasor::new(c, -s) * Phasor::new(cos, sin); MOST + 1];
+            for (k, [re, im]) in begin.z.iter().enumerate().take(all.modes) {
+                terms[k] = Phasor::new(*re, *im) * view.shape[k];
+            }
+            for (n, row) in means.iter().enumerate().take(all.modes + 1) {
+                let each = row.iter().zip(&terms).take(n + 1);
+                let other = each.fold(Phasor::new(0.0, 0.0), |other, ([together, apart], term)| {
+                    other + term * together + term.conj() * apart
+                });
+                *sum += (terms[n] * other).re;
+            }
+        }
+    }
+
+    fn add_held(&mut self, panel: &HeldPanel, whole: f64) {
+        let node = |(node, weight): &(f64, f64)| {
+            (panel.place(0.5 * whole * (1.0 + node)), whole * weight)
+        };
+        let nodes: Vec<_> = self.rule.iter().map(node).collect();
+        for (n, view) in self.views.iter().enumerate() {
+            let moment = |s: f64| Gap::of(panel.moment(view, s), STILL);
+            let cube = whole * whole * whole;
+            let coefficient = panel.bound(view, 6) * cube * cube / 7200.0;
+            let slack = Slack { coefficient, slope_squared: 0.0 };
+            let ends = [moment(0.0), moment(whole)];
+            self.peaks[n] = highest(moment, ends, whole, slack, self.peaks[n]);
+            let square = |((modes, sin), weight): &((_, f64), f64)| {
+                let x = view.base * sin + dot(&view.shape, modes);
+                weight * x * x
+            };
+            self.squares[n] += nodes.iter().map(square).sum::<f64>();
+        }
+    }
 }
 
 /// The largest displacement in a panel, or the one known.

@@ -235,7 +235,7 @@ impl View<MOST_MODES> {
         second_steady: 0.0,
     };
 
-    fn first<const N: usize>(&self) -> View<N> {
+    pub(super) fn first<const N: usize>(&self) -> View<N> {
         View {
             shape: std::array::from_fn(|k| self.shape[k]),
             base: self.base,
@@ -246,6 +246,15 @@ impl View<MOST_MODES> {
             second: std::array::from_fn(|k| self.second[k]),
             second_steady: self.second_steady,
         }
+    }
+}
+
+impl<const N: usize> View<N> {
+    /// The place alone.
+    #[inline(always)]
+    pub(super) fn at(&self, at: &Phasors<N>) -> f64 {
+        let ([sin, cos], [s, c]) = (at.rotor, self.steady);
+        self.shape.iter().zip(&at.z).fold(s * sin + c * cos, |x, (phi, [re, _])| x + phi * re)
     }
 }
 
