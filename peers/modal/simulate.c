@@ -1,78 +1,152 @@
-/* A structure of three modes with one absorber at its tip, by closed-form modes between impacts, 2,000 steps a period and
-   bisection of each contact: shares no code and no method with the engine. Prints the largest displacement of the tip in mm.
-   cc -O2 simulate.c -lm && ./a.out FREQUENCY_HZ MODE FORCE_N SEED PERIODS_LEFT_OUT PERIODS */
+/* A structure of several modes with several absorbers in closed form between contacts, 400 steps in a period of the fastest of
+   modes and excitation, and bisection of each contact: shares no code and no method with the engine, which proves its impacts.
+   Reads, in SI units: modes N, absorbers M; of each mode its frequency in Hz, damping ratio, mass, force and its shape at the place
+   that is watched and at each absorber; of each absorber mass, clearance and restitution; the excitation's frequency in Hz, a seed,
+   periods that are left out and periods that are measured. Prints the largest displacement of the place in m, its root mean
+   square, and impacts of each absorber in a period.
+   cc -O2 simulate.c -lm */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MODES = 3 };
-static const double FREQUENCIES[MODES] = {1.1, 6.894, 19.31}, DAMPING = 0.005, MASS = 30, BALL = 3, CLEARANCE = 2.7e-3,
-                    RESTITUTION = 0.3;
-static double w[MODES], force[MODES], omega, q[MODES], v[MODES], y, ball;
+enum { MOST = 8, STEPS = 400, CONTACTS = 12, HALVINGS = 36 };
+static int modes, absorbers;
+static double w[MOST], damping[MOST], mass[MOST], force[MOST], watched[MOST], shape[MOST][MOST];
+static double ball[MOST], clearance[MOST], restitution[MOST], omega;
+static double q[MOST], v[MOST], y[MOST], u[MOST];
+static double steady[MOST][2];
+/* What a whole step makes of a free motion. */
+static double whole[MOST][4];
 
-static double tip(const double *of) { return of[0] + of[1] + of[2]; }
-
-static void advance(double t, double h)
+static double sum(const double *of, const double *by)
 {
-    for (int k = 0; k < MODES; k++) {
-        double a = w[k] * w[k] - omega * omega, b = 2 * DAMPING * w[k] * omega, size = a * a + b * b;
-        double s = force[k] * a / size, c = -force[k] * b / size;
-        double x0 = s * sin(omega * t) + c * cos(omega * t), v0 = omega * (s * cos(omega * t) - c * sin(omega * t));
-        double x1 = s * sin(omega * (t + h)) + c * cos(omega * (t + h));
-        double v1 = omega * (s * cos(omega * (t + h)) - c * sin(omega * (t + h)));
-        double x = q[k] - x0, u = v[k] - v0, wd = w[k] * sqrt(1 - DAMPING * DAMPING), e = exp(-DAMPING * w[k] * h);
-        double cosine = cos(wd * h), sine = sin(wd * h);
-        q[k] = x1 + e * (x * cosine + (u + DAMPING * w[k] * x) / wd * sine);
-        v[k] = v1 + e * (u * cosine - (DAMPING * u + w[k] * x) * w[k] / wd * sine);
-    }
-    y += ball * h;
+    double all = 0;
+    for (int k = 0; k < modes; k++) all += by[k] * of[k];
+    return all;
 }
 
-int main(int count, char **of)
+static double at(int j, const double *of)
 {
-    if (count != 7) return 2;
-    int mode = atoi(of[2]) - 1;
-    double periods_out = atof(of[5]), periods = atof(of[6]), peak = 0, t = 0;
-    for (int k = 0; k < MODES; k++) w[k] = 2 * M_PI * FREQUENCIES[k];
-    omega = 2 * M_PI * atof(of[1]);
-    force[mode] = atof(of[3]) / MASS;
-    srand(atoi(of[4]));
-    double place = CLEARANCE * 1.9 * ((double)rand() / RAND_MAX - 0.5), share = 1.2 * rand() / RAND_MAX;
-    double a = w[mode] * w[mode] - omega * omega, b = 2 * DAMPING * w[mode] * omega, size = a * a + b * b;
-    q[mode] = -share * force[mode] * b / size;
-    v[mode] = share * omega * force[mode] * a / size;
-    y = tip(q) + place;
-    ball = tip(v);
-    double step = 2 * M_PI / omega / 2000;
-    long steps = (long)((periods_out + periods) * 2000), first = (long)(periods_out * 2000);
+    double all = 0;
+    for (int k = 0; k < modes; k++) all += shape[k][j] * of[k];
+    return all;
+}
+
+static void free_motion(int k, double h, double *of)
+{
+    double wd = w[k] * sqrt(1 - damping[k] * damping[k]), e = exp(-damping[k] * w[k] * h);
+    double cosine = e * cos(wd * h), sine = e * sin(wd * h) / wd, own = damping[k] * w[k];
+    of[0] = cosine + own * sine;
+    of[1] = sine;
+    of[2] = -w[k] * w[k] * sine;
+    of[3] = cosine - own * sine;
+}
+
+static void advance(double t, double h, int is_whole)
+{
+    double s0 = sin(omega * t), c0 = cos(omega * t), s1 = sin(omega * (t + h)), c1 = cos(omega * (t + h)), some[4];
+    for (int k = 0; k < modes; k++) {
+        const double *by = whole[k], *of = steady[k];
+        if (!is_whole) {
+            free_motion(k, h, some);
+            by = some;
+        }
+        double x = q[k] - (of[0] * s0 + of[1] * c0), r = v[k] - omega * (of[0] * c0 - of[1] * s0);
+        q[k] = of[0] * s1 + of[1] * c1 + by[0] * x + by[1] * r;
+        v[k] = omega * (of[0] * c1 - of[1] * s1) + by[2] * x + by[3] * r;
+    }
+    for (int j = 0; j < absorbers; j++) y[j] += u[j] * h;
+}
+
+/* The absorber that is farthest beyond its walls; none where all are within. */
+static int beyond(void)
+{
+    int worst = -1;
+    double most = 1;
+    for (int j = 0; j < absorbers; j++) {
+        double gap = fabs(at(j, q) - y[j]) / clearance[j];
+        if (gap > most) worst = j, most = gap;
+    }
+    return worst;
+}
+
+static double number(void)
+{
+    double value;
+    if (scanf("%lf", &value) != 1) exit(2);
+    return value;
+}
+
+int main(void)
+{
+    modes = (int)number(), absorbers = (int)number();
+    if (modes < 1 || modes > MOST || absorbers < 1 || absorbers > MOST) return 2;
+    for (int k = 0; k < modes; k++) {
+        w[k] = 2 * M_PI * number();
+        damping[k] = number(), mass[k] = number(), force[k] = number(), watched[k] = number();
+        for (int j = 0; j < absorbers; j++) shape[k][j] = number();
+    }
+    for (int j = 0; j < absorbers; j++) ball[j] = number(), clearance[j] = number(), restitution[j] = number();
+    omega = 2 * M_PI * number();
+    srand((unsigned)number());
+    double fastest = omega, out = number() * 2 * M_PI / omega, measured = number() * 2 * M_PI / omega, peak = 0, squares = 0;
+    double share = 1.2 * rand() / RAND_MAX;
+    long impacts[MOST] = {0};
+    for (int k = 0; k < modes; k++) {
+        double a = w[k] * w[k] - omega * omega, b = 2 * damping[k] * w[k] * omega, size = a * a + b * b;
+        steady[k][0] = force[k] / mass[k] * a / size;
+        steady[k][1] = -force[k] / mass[k] * b / size;
+        q[k] = share * steady[k][1];
+        v[k] = share * omega * steady[k][0];
+        if (w[k] > fastest) fastest = w[k];
+    }
+    double step = 2 * M_PI / fastest / STEPS;
+    for (int k = 0; k < modes; k++) free_motion(k, step, whole[k]);
+    for (int j = 0; j < absorbers; j++) {
+        y[j] = at(j, q) + clearance[j] * 1.9 * ((double)rand() / RAND_MAX - 0.5);
+        u[j] = at(j, v);
+    }
+    long steps = (long)((out + measured) / step), first = (long)(out / step);
     for (long i = 0; i < steps; i++) {
-        double left = step;
+        double t = i * step, left = step;
         /* So many contacts in a step are of chatter, whose rest is lost. */
-        for (int contacts = 0; left > 0 && contacts < 100; contacts++) {
-            double q0[MODES], v0[MODES], y0 = y;
-            for (int k = 0; k < MODES; k++) q0[k] = q[k], v0[k] = v[k];
-            advance(t, left);
-            if (fabs(tip(q) - y) <= CLEARANCE) break;
+        for (int contacts = 0; left > 0; contacts++) {
+            double q0[MOST], v0[MOST], y0[MOST];
+            for (int k = 0; k < modes; k++) q0[k] = q[k], v0[k] = v[k];
+            for (int j = 0; j < absorbers; j++) y0[j] = y[j];
+            advance(t, left, contacts == 0);
+            if (contacts == CONTACTS || beyond() < 0) break;
             double inside = 0, outside = left;
-            for (int halved = 0; halved <= 60; halved++) {
-                double middle = halved < 60 ? 0.5 * (inside + outside) : inside;
-                for (int k = 0; k < MODES; k++) q[k] = q0[k], v[k] = v0[k];
-                y = y0;
-                advance(t, middle);
-                if (fabs(tip(q) - y) > CLEARANCE) outside = middle; else inside = middle;
+            int j = beyond();
+            for (int halved = 0; halved <= HALVINGS; halved++) {
+                double middle = halved < HALVINGS ? 0.5 * (inside + outside) : inside;
+                for (int k = 0; k < modes; k++) q[k] = q0[k], v[k] = v0[k];
+                for (int n = 0; n < absorbers; n++) y[n] = y0[n];
+                advance(t, middle, 0);
+                int here = beyond();
+                if (here >= 0) j = here, outside = middle;
+                else inside = middle;
             }
             t += inside;
             left -= inside;
-            double relative = tip(v) - ball, impulse = (1 + RESTITUTION) * relative / (1 / BALL + MODES / MASS);
-            if (relative * (tip(q) - y) > 0) {
-                for (int k = 0; k < MODES; k++) v[k] -= impulse / MASS;
-                ball += impulse / BALL;
+            double relative = at(j, v) - u[j], yields = 1 / ball[j];
+            for (int k = 0; k < modes; k++) yields += shape[k][j] * shape[k][j] / mass[k];
+            if (relative * (at(j, q) - y[j]) > 0) {
+                double impulse = (1 + restitution[j]) * relative / yields;
+                for (int k = 0; k < modes; k++) v[k] -= impulse * shape[k][j] / mass[k];
+                u[j] += impulse / ball[j];
+                if (i >= first) impacts[j]++;
             }
-            if (i >= first && fabs(tip(q)) > peak) peak = fabs(tip(q));
+            if (i >= first && fabs(sum(q, watched)) > peak) peak = fabs(sum(q, watched));
         }
-        t = (i + 1) * step;
-        if (i >= first && fabs(tip(q)) > peak) peak = fabs(tip(q));
+        if (i >= first) {
+            double x = sum(q, watched);
+            squares += x * x;
+            if (fabs(x) > peak) peak = fabs(x);
+        }
     }
-    printf("%.3f\n", 1e3 * peak);
+    printf("%.9e %.9e", peak, sqrt(squares / (double)(steps - first)));
+    for (int j = 0; j < absorbers; j++) printf(" %.6f", (double)impacts[j] / (measured * omega / (2 * M_PI)));
+    printf("\n");
     return 0;
 }

@@ -51,7 +51,7 @@ pub use criteria::{Criterion, Relation};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use modal::{
-    ActsOn, Load, ModalCase, PlaceCriterion, PlacedAbsorber, StructuralMode, is_modal,
+    ActsOn, Bounds, Load, ModalCase, PlaceCriterion, PlacedAbsorber, StructuralMode, is_modal,
 };
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;

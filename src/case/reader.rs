@@ -150,7 +150,12 @@ impl<'t> Reader<'t> {
         let expected = format!("expected one of {}", table.keys.join(", "));
         let help = match guess {
             Some(guess) => format!("did you mean `{guess}`?"),
-            None if !homes.is_empty() => format!("`{written}` belongs in {homes}"),
+            None if homes.contains(&format!("[{}]", table.path)) => {
+                format!(
+                    "remove `{written}`: it is read where a structure has one mode and one absorber"
+                )
+            }
+            None if !homes.is_empty() => format!("`{written}` belongs in {}", homes.join(" or ")),
             None => format!("remove `{written}`, or write one of the keys named above"),
         };
         let message = format!("unknown {what} `{written}`{}", table.place());
@@ -342,7 +347,7 @@ pub(super) fn kind(value: &DeValue) -> &'static str {
 }
 
 /// The tables that a key belongs in.
-fn homes_of(key: &str) -> String {
+fn homes_of(key: &str) -> Vec<String> {
     let root = &SCHEMA["properties"];
     let mut homes = Vec::new();
     if root.get(key).is_some() {
@@ -358,7 +363,7 @@ fn homes_of(key: &str) -> String {
             homes.push(format!("an axis of [{name}]"));
         }
     }
-    homes.join(" or ")
+    homes
 }
 
 /// The keys of a table in the order in which its struct declares them.

@@ -76,9 +76,14 @@ fn written(input: &Input, si: f64, difference: f64, step: Rounding) -> String {
         let [first, second] = [0.5, -0.5].map(|half| step.of(si + half * difference));
         return format!("[{first:?}, {second:?}]");
     }
+    in_unit_of(&input.as_written, si, step)
+}
+
+/// A value as TOML, in the unit of another one.
+pub(super) fn in_unit_of(as_written: &str, si: f64, step: Rounding) -> String {
     let begins = |c: char| matches!(c, '%' | '°') || c.is_alphabetic() && !matches!(c, 'e' | 'E');
-    let Some(unit) = input.as_written.find(begins) else { return format!("{:?}", step.of(si)) };
-    let unit = &input.as_written[unit..];
+    let Some(unit) = as_written.find(begins) else { return format!("{:?}", step.of(si)) };
+    let unit = &as_written[unit..];
     let one = format!("1 {unit}");
     let dimension = Dimension::of(&one).unwrap_or(Dimension::Share);
     let one = dimension.parse(&one).unwrap_or(1.0);

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::TypedValueParser;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::case::{Case, Objective};
+use vinesink::case::{Case, ModalCase, Objective};
+use vinesink::case_input::AnyCase;
 use vinesink::case_optimum::Optimum;
 use vinesink::excitation::Scene;
 use vinesink::optimize::{Optimization, Task};
@@ -16,6 +17,7 @@ use vinesink::store;
 
 use super::budget::Work;
 use super::one_case::{self, Format, OneCase};
+use super::several;
 
 /// Choose the clearance, and on request restitution and mass, that serve a case best
 ///
@@ -79,10 +81,14 @@ fn objectives() -> impl TypedValueParser<Value = Objective> {
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
-    let (case, text) = case_file::read_with_text(path, *reading)?;
     if let Some(new) = &arguments.write {
         store::must_be_new(new)?;
     }
+    let (case, text) = case_file::read_any(path, *reading)?;
+    let case = match case {
+        AnyCase::One(case) => *case,
+        AnyCase::Several(case) => return several(&arguments, &case, &text),
+    };
     let steady = case.design.scene() == Scene::Steady;
     if arguments.robust && !(steady && case.uncertainty.is_any()) {
         return Err(miette!(
@@ -136,6 +142,28 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         arguments.tell(&line, "\n")?;
     }
     Ok(found.succeeds)
+}
+
+/// The same of a structure of several modes or absorbers.
+fn several(arguments: &Arguments, case: &ModalCase, text: &str) -> Result<bool> {
+    let given = [
+        ("--objective", arguments.objective.is_some()),
+        ("--out", arguments.out.is_some()),
+        ("--robust", arguments.robust),
+    ];
+    if let Some((option, _)) = given.iter().find(|(_, given)| *given) {
+        return Err(miette!(
+            help = format!("leave out {option}"),
+            "{}: {option} has no meaning for several modes or absorbers, whose worst displacement is looked at",
+            arguments.one.path.display()
+        ));
+    }
+    let better = several::optimize(&arguments.one, case, text)?;
+    if let (Some(new), Some(better)) = (&arguments.write, &better) {
+        store::write_new(new, better.as_bytes())?;
+        arguments.tell(&format!("written: {}", new.display()), "\n")?;
+    }
+    Ok(better.is_some())
 }
 
 impl Arguments {

@@ -4,10 +4,12 @@ use std::path::Path;
 
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::ModalCase;
-use vinesink::modal::{ModalAnswer, choices, modes_alone, orbits, seconds};
+use vinesink::modal::{ModalAnswer, ModalOptimum, checks, choices, modes_alone, orbits, seconds};
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
-use vinesink::report::modal::{Beside, analysis, analysis_text, files, simulation, text};
+use vinesink::report::modal::{
+    Beside, analysis, analysis_text, files, optimum, optimum_text, simulation, text,
+};
 use vinesink::report::render::Files;
 
 use super::budget::Long;
@@ -40,4 +42,15 @@ pub fn analyze(one: &OneCase, case: &ModalCase) -> Result<bool> {
     let found = orbits(case).into_diagnostic()?;
     one.print(|| analysis_text(case, &found), || analysis(case, &found))?;
     Ok(true)
+}
+
+/// Prints better absorbers; the text of the case with them, where there are any.
+pub fn optimize(one: &OneCase, case: &ModalCase, text: &str) -> Result<Option<String>> {
+    let seconds = seconds(case) * checks(case);
+    one.long.allows_seconds(&one.path, seconds, "candidates under each load")?;
+    let found = ModalOptimum::of(case, text, &Parallel).into_diagnostic()?;
+    let document = optimum(case, &found);
+    one.print(|| optimum_text(case, &document), || &document)?;
+    let best = found.best.first().filter(|_| found.succeeds());
+    Ok(best.map(|best| best.text.clone()))
 }

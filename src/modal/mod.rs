@@ -6,8 +6,9 @@
 mod along;
 mod dampers;
 mod linear;
+mod optimum;
 
-use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion};
+use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion, RewriteError};
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
 use crate::method::Method;
@@ -19,6 +20,7 @@ use crate::system::InvalidModalSystem;
 pub use along::{AlongLoad, AtFrequency, WorstOfPlace, seconds};
 pub use dampers::{DamperChoice, choices};
 pub use linear::{linear_peak, linear_places};
+pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
@@ -26,6 +28,9 @@ pub enum ModalError {
     /// A frequency of a load at which there is no structure.
     #[error(transparent)]
     System(#[from] InvalidModalSystem),
+    /// Other absorbers cannot be written into the case.
+    #[error(transparent)]
+    Rewrite(#[from] RewriteError),
     /// A motion cannot be flown.
     #[error(transparent)]
     Start(#[from] ModalStartError),

@@ -185,7 +185,10 @@ pub fn everywhere(
     let mut found = match (dimensions, effort.smooth) {
         (1, _) => None,
         (_, true) => in_box(dimensions, effort, score),
-        (_, false) => spread_out(what, dimensions, effort, executor, score),
+        (_, false) => {
+            let count = effort.particles * effort.steps as usize;
+            spread_out(what, dimensions, count, executor, &|parts, _| score(parts))
+        }
     };
     seen.extend(found.iter_mut().flat_map(|best| std::mem::take(&mut best.seen)));
     let from = found.as_ref().map_or_else(|| vec![0.5; dimensions], |best| best.parts.clone());
@@ -255,39 +258,42 @@ fn in_box(dimensions: usize, effort: &SearchEffort, score: Score) -> Option<Best
 }
 
 /// Multiples of the roots of these, modulo 1, are evenly spread in as many dimensions (Richtmyer, 1951).
-const PRIMES: [f64; 3] = [2.0, 3.0, 5.0];
+const PRIMES: [f64; 16] =
+    [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0, 41.0, 43.0, 47.0, 53.0];
 /// Places around which is looked closer, how many there, and how far away in each dimension, in turn.
 const AROUND: usize = 6;
 const CLOSER: usize = 8;
 const REACH: [f64; 2] = [0.08, 0.03];
 
-/// The best of evenly spread places for a score that scatters, and of some around those that are best, side by side.
-fn spread_out(
+/// The best of so many evenly spread places for a score that scatters, and of some around those that are best, side by side. The
+/// score is told the best so far, of rounds before: what cannot reach it need not be known exactly.
+pub fn spread_out(
     what: &str,
     dimensions: usize,
-    effort: &SearchEffort,
+    count: usize,
     executor: &dyn Evaluations,
-    score: Score,
+    score: &(dyn Fn(&[f64], f64) -> f64 + Sync),
 ) -> Option<BestPlace> {
     let even = |k: usize| -> Vec<f64> {
         let part = |prime: &f64| (0.5 + prime.sqrt() * (k + 1) as f64).fract();
         PRIMES.iter().cycle().take(dimensions).map(part).collect()
     };
-    let of = |places: &[Vec<f64>]| -> Vec<ScoredPlace> {
-        let scores = map(executor, what, places.len(), |k| score(&places[k]));
+    let of = |places: &[Vec<f64>], best: f64| -> Vec<ScoredPlace> {
+        let scores = map(executor, what, places.len(), |k| score(&places[k], best));
         places.iter().cloned().zip(scores).collect()
     };
-    let count = effort.particles * effort.steps as usize;
-    let mut seen = of(&(0..count).map(even).collect::<Vec<_>>());
+    let mut seen = of(&(0..count).map(even).collect::<Vec<_>>(), f64::NEG_INFINITY);
     for reach in REACH {
-        let places = shortlist(&seen, reach, AROUND).into_iter().flat_map(|(best, _)| {
+        let around = shortlist(&seen, reach, AROUND);
+        let best = around.first().map_or(f64::NEG_INFINITY, |(_, score)| *score);
+        let places = around.into_iter().flat_map(|(best, _)| {
             (0..CLOSER).map(move |k| -> Vec<f64> {
                 let beside =
                     |(at, part): (&f64, f64)| (at + reach * (2.0 * part - 1.0)).clamp(0.0, 1.0);
                 best.iter().zip(even(k)).map(beside).collect()
             })
         });
-        seen.extend(of(&places.collect::<Vec<_>>()));
+        seen.extend(of(&places.collect::<Vec<_>>(), best));
     }
     let (parts, score) = shortlist(&seen, 0.0, 1).pop()?;
     Some(BestPlace { plateau: [parts[0]; 2], parts, score, seen })

@@ -75,6 +75,17 @@ fn slips_are_told_where_they_are() {
     refused("place = \"tip\" }", "place = \"top\" }", &["\"top\"", "did you mean \"tip\"?"]);
     refused("\"<= 4 mm\"", "\">= 4 mm\"", &["not written as one"]);
     refused("damping_ratio = \"0.5 %\"", "damping_ratio = 1.5", &["`damping_ratio`", "0.85"]);
+    refused("peak_displacement", "rms_velocity", &["it is read where a structure has one mode"]);
+    refused(
+        "[criteria]",
+        "[optimize]\nplaces = [\"tip\", \"midle\"]\n[criteria]",
+        &["\"midle\"", "did you mean \"middle\"?"],
+    );
+    refused(
+        "[criteria]",
+        "[optimize]\nclearance = [\"9 mm\", \"1 mm\"]\n[criteria]",
+        &["`clearance`"],
+    );
     let both = format!("{}\n[oscillator]\nmass = \"1 kg\"\n[band]\nfrom = \"1 Hz\"\n", text(MAST));
     let told = wrong(&both);
     assert!(told.contains("[oscillator] has no meaning beside [[mode]]"), "{told}");
@@ -96,7 +107,7 @@ fn other_commands_say_who_reads_it() {
         problem.help.as_deref().is_some_and(|help| help.contains("`vinesink check`")),
         "{problem:?}"
     );
-    for command in ["optimize", "sweep", "tradeoff"] {
+    for command in ["sweep", "tradeoff"] {
         let output = vinesink(&[command, MAST]);
         let told = String::from_utf8_lossy(&output.stderr).into_owned();
         assert_eq!(output.status.code(), Some(2), "{command}: {told}");
@@ -194,7 +205,7 @@ fn absorbers_that_rest_leave_the_structure_alone() {
     let stiffness = 10.0 * libm::pow(std::f64::consts::TAU * 5.0, 2.0);
     let expected = 2.0 * 2.0 / (2.0 * 0.02 * stiffness);
     for (limit, holds, near) in
-        [("<= 13 mm", true, false), ("<= 11 mm", false, true), ("<= 10 mm", false, false)]
+        [("<= 13 mm", true, false), ("<= 10.2 mm", false, true), ("<= 10 mm", false, false)]
     {
         let criterion = judged(limit);
         let found = criterion["found"].as_f64().expect("a peak");
@@ -206,4 +217,50 @@ fn absorbers_that_rest_leave_the_structure_alone() {
             "{criterion}"
         );
     }
+}
+
+/// Clearance and largest displacement in mm that `optimize` finds for one mode, with its own engine and search, from
+/// `cases/mast-mode-3.toml`.
+const OF_ONE_MODE: [f64; 2] = [2.697, 2.71];
+
+/// Between bounds of one mode's clearance the search for several finds what that for one does. Its file is judged by `check` as the
+/// search says, keeps what was written, and loses the comment on the number that went.
+#[test]
+fn better_absorbers_of_one_mode_are_those_of_its_own_search() {
+    let whole = text(MAST);
+    let third = whole.find("[[mode]]\nfrequency = \"19.31").expect("the third mode");
+    let (before, _) = before_loads(&whole);
+    let case = format!(
+        "# A mast.\ntitle = 't'\nsource = 's'\n{}[[excitation]]\nkind = \"force\"\nmode = 1\n\
+         amplitude = \"110.3 N\"\nfrom = \"16.41 Hz\"\nto = \"21.24 Hz\"\n\
+         [criteria]\npeak_displacement = \"<= 4 mm\"\n",
+        before[third..].replace("\"2.7 mm\"", "\"5 mm\"  # a tube of 5 mm"),
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    fs::write(path("case.toml"), &case).expect("written");
+    let (from, to) = (path("case.toml"), path("better.toml"));
+    let output = vinesink(&["optimize", &from, "--format", "json", "--write", &to]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let best = &document["best"][0];
+    let clearance = 1e3 * best["absorbers"][0]["clearance"]["value"].as_f64().expect("a number");
+    let peak = best["worst"]["peak"]["value"].as_f64().expect("a number");
+    println!("{clearance} mm, {} mm", 1e3 * peak);
+    // Of a flat optimum whose worst displacement is irregular and seen in runs of other lengths.
+    assert!((clearance / OF_ONE_MODE[0] - 1.0).abs() < 0.1, "{clearance}");
+    assert!((1e3 * peak / OF_ONE_MODE[1] - 1.0).abs() < 0.05, "{peak}");
+    let better = text(&to);
+    assert!(better.starts_with("# A mast.\n") && !better.contains("a tube of 5 mm"), "{better}");
+    let checked = vinesink(&["check", &to, "--format", "json"]);
+    let checked: Value = serde_json::from_slice(&checked.stdout).expect("JSON");
+    let criterion = &checked["cases"][0]["criteria"][0];
+    assert_eq!(criterion["found"].as_f64(), Some(peak), "{criterion}");
+    // Where nothing is better no file is written.
+    let output = vinesink(&["optimize", &to, "--write", &path("none.toml")]);
+    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stdout));
+    assert!(!folder.path().join("none.toml").exists());
+    let refused = vinesink(&["optimize", &to, "--objective", "margin"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("leave out --objective"));
 }

@@ -7,11 +7,15 @@ use std::ops::Range;
 
 use toml::de::DeTable;
 
+use super::comment;
 use super::criteria::Criterion;
 use super::document;
 use super::error::CaseError;
 use super::reader::Reader;
+use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::digest::sha256;
+use vinesink_core::names;
+
 use crate::system::{InvalidModalSystem, ModalAbsorber, ModalParameters, ModalSystem, Mode};
 
 /// A structure of several modes with absorbers, what drives it and what is asked of it, in SI units.
@@ -35,6 +39,37 @@ pub struct ModalCase {
     pub criteria: Vec<PlaceCriterion>,
     /// Starts at each frequency, that from rest among them.
     pub starts: u32,
+    /// Within which bounds better absorbers are looked for.
+    pub bounds: Bounds,
+    /// Where the values of each absorber stand in the text, as [`AbsorberKey::ALL`].
+    pub(crate) values: Vec<[Option<Range<usize>>; AbsorberKey::ALL.len()]>,
+}
+
+/// Within which bounds better absorbers are looked for: the table `[optimize]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Bounds {
+    /// Bounds of each clearance in m; a third to three times its own where there are none.
+    pub clearance_m: Option<[f64; 2]>,
+    /// Bounds of the restitution of all of them; each its own where there are none.
+    pub restitution: Option<[f64; 2]>,
+    /// Places at which they may be, ascending; each its own where there are none.
+    pub places: Vec<usize>,
+    /// Whether they may share their mass otherwise.
+    pub split_mass: bool,
+}
+
+names! { name:
+    /// What a case says of an absorber.
+    pub enum AbsorberKey {
+        /// Where it is.
+        Place = "place",
+        /// Its mass.
+        Mass = "mass",
+        /// Its clearance.
+        Clearance = "clearance",
+        /// Its restitution.
+        Restitution = "restitution",
+    }
 }
 
 /// A mode of a structure.
@@ -63,6 +98,18 @@ pub struct PlacedAbsorber {
     pub clearance_m: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
+}
+
+impl PlacedAbsorber {
+    /// What a case says of it, in SI units; the number of its place.
+    fn value(&self, key: AbsorberKey) -> f64 {
+        match key {
+            AbsorberKey::Place => self.place as f64,
+            AbsorberKey::Mass => self.mass_kg,
+            AbsorberKey::Clearance => self.clearance_m,
+            AbsorberKey::Restitution => self.restitution,
+        }
+    }
 }
 
 /// What a harmonic excitation acts on.
@@ -140,6 +187,50 @@ impl ModalCase {
             Some(case) if reader.problems.is_empty() => Ok(case),
             _ => Err(refused(reader.problems, reader.more)),
         }
+    }
+
+    /// The text of this case, which `text` must be, with other absorbers, and the case that it is then: values that differ are rounded to four significant
+    /// digits in the unit their author used, everything else as it is.
+    ///
+    /// # Errors
+    /// [`RewriteError`] where `text` is not this case's, or they make no case.
+    pub fn rewritten(
+        &self,
+        text: &str,
+        absorbers: &[PlacedAbsorber],
+    ) -> Result<(String, Self), RewriteError> {
+        if sha256(text.as_bytes()) != self.text_hash {
+            return Err(RewriteError::OtherText);
+        }
+        let mut text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
+        let mut changes: Vec<(Range<usize>, String)> = Vec::new();
+        for ((own, new), values) in self.absorbers.iter().zip(absorbers).zip(&self.values) {
+            for (key, span) in AbsorberKey::ALL.into_iter().zip(values) {
+                let (Some(span), true) = (span, own.value(key) != new.value(key)) else { continue };
+                let value = match key {
+                    AbsorberKey::Place => format!("{:?}", self.places[new.place]),
+                    _ => in_unit_of(
+                        text[span.clone()].trim_matches(['"', '\'']),
+                        new.value(key),
+                        Rounding::Nearest,
+                    ),
+                };
+                changes.push((span.clone(), value));
+            }
+        }
+        // From the end of the text, so that what is before stays in its place.
+        changes.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
+        for (span, value) in changes {
+            let (end, own) = (span.start + value.len(), text[span.clone()].to_owned());
+            text.replace_range(span, &value);
+            // What a comment says of the number that was there need no longer hold.
+            let stale = |range: &Range<usize>| !comment::fits(&text[range.clone()], &own);
+            if let Some(range) = comment::behind(&text, end).filter(stale) {
+                text.replace_range(range, "");
+            }
+        }
+        let case = Self::parse("the changed case", &text).map_err(Box::new)?;
+        Ok((text, case))
     }
 
     /// For each place the value of each mode's shape.

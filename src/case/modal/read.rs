@@ -8,7 +8,9 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{ActsOn, Load, ModalCase, PlaceCriterion, PlacedAbsorber, StructuralMode};
+use super::{
+    AbsorberKey, ActsOn, Bounds, Load, ModalCase, PlaceCriterion, PlacedAbsorber, StructuralMode,
+};
 use crate::case::Heading;
 use crate::case::criteria::{Criterion, possible};
 use crate::case::number::{Form, sign_of};
@@ -129,6 +131,29 @@ struct ModalCriteriaTable {
     peak_displacement: (),
 }
 
+/// Within which bounds `vinesink optimize` looks. The table may be left out.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+struct ModalOptimizeTable {
+    /// Bounds of each absorber's clearance; a third to three times its own unless given.
+    #[schemars(with = "Option<[Value; 2]>", extend("x-ascending" = true))]
+    #[schemars(extend("items" = { "type": "number", "x-measurand": "a length", "exclusiveMinimum": 0 }))]
+    #[schemars(example = vec!["1 mm", "8 mm"])]
+    clearance: Option<[f64; 2]>,
+    /// Bounds of the restitution of all absorbers, from 0 to 1; each its own unless given.
+    #[schemars(extend("items" = { "type": "number", "minimum": 0, "maximum": 1 }, "x-ascending" = true))]
+    #[schemars(example = vec![0.0, 0.7])]
+    restitution: Option<[f64; 2]>,
+    /// Places at which absorbers may be; each its own unless given.
+    #[schemars(example = vec!["tip", "middle"])]
+    #[serde(default)]
+    places: Vec<String>,
+    /// Whether the absorbers may share their mass otherwise, as much as it is together; false unless given.
+    #[schemars(example = true)]
+    #[serde(default)]
+    split_mass: bool,
+}
+
 /// Tables of such a file.
 #[derive(Deserialize, JsonSchema)]
 #[expect(
@@ -141,6 +166,7 @@ struct ModalTables {
     excitation: Vec<LoadTable>,
     simulation: Option<SimulationSettings>,
     criteria: Option<ModalCriteriaTable>,
+    optimize: Option<ModalOptimizeTable>,
 }
 
 /// Starts at each frequency unless given.
@@ -190,10 +216,11 @@ pub(super) fn read(
         let help = format!("write shape = {{ {name} = 1.0, ... }}; 0 where the mode has a node");
         reader.report(span, message, "expected every place in the shape of every mode", help);
     }
-    let mut absorbers = Vec::new();
+    let (mut absorbers, mut values) = (Vec::new(), Vec::new());
     for table in tables::<ModalAbsorberTable>(reader, &root, "absorber") {
         let Some(read) = reader.read::<ModalAbsorberTable>(&table) else { continue };
-        let place = find_place(reader, &table, read.place.as_deref(), &places);
+        let place =
+            find_place(reader, table.span_of_value("place"), read.place.as_deref(), &places);
         if let Some(place) = place
             && modes.iter().all(|mode| mode.shape[place] == 0.0)
         {
@@ -201,6 +228,10 @@ pub(super) fn read(
             let expected = "expected a place at which a mode has a shape other than 0";
             reader.report(table.span_of("place"), message, expected, "name another place");
         }
+        values.push(
+            AbsorberKey::ALL
+                .map(|key| table.has(key.name()).then(|| table.span_of_value(key.name()))),
+        );
         absorbers.extend(place.map(|place| PlacedAbsorber {
             place,
             mass_kg: read.mass,
@@ -214,6 +245,7 @@ pub(super) fn read(
     }
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
     let criteria = read_criteria(reader, &root, &places);
+    let bounds = read_bounds(reader, &root, &places);
     let heading = heading?;
     if !reader.problems.is_empty() {
         return None;
@@ -229,6 +261,8 @@ pub(super) fn read(
         loads,
         criteria,
         starts,
+        bounds,
+        values,
     };
     for load in &case.loads {
         for frequency in load.range_hz {
@@ -348,10 +382,10 @@ fn read_mode(
     Some((mode, (span, shape)))
 }
 
-/// The place of a name; the only one where none is given.
+/// The place of a name, which stands there in the text; the only one where none is given.
 fn find_place(
     reader: &mut Reader,
-    table: &Table,
+    span: Range<usize>,
     name: Option<&str>,
     places: &[String],
 ) -> Option<usize> {
@@ -362,7 +396,7 @@ fn find_place(
         None => "`place` is missing".to_owned(),
         Some(name) => match known.iter().position(|known| *known == name) {
             Some(found) => return Some(found),
-            None => format!("`place` is \"{name}\", at which no mode has a shape"),
+            None => format!("\"{name}\" is a place at which no mode has a shape"),
         },
     };
     if places.is_empty() {
@@ -373,7 +407,7 @@ fn find_place(
         Some(near) => format!("did you mean \"{near}\"?"),
         None => format!("write place = {}", quoted[0]),
     };
-    reader.report(table.span_of_value("place"), message, format!("expected {}", or(&quoted)), help);
+    reader.report(span, message, format!("expected {}", or(&quoted)), help);
     None
 }
 
@@ -417,7 +451,12 @@ fn read_load(
             );
         }
         (_, Some(mode), None) => ActsOn::Mode(mode as usize - 1),
-        (..) => ActsOn::Place(find_place(reader, table, read.place.as_deref(), places)?),
+        (..) => ActsOn::Place(find_place(
+            reader,
+            table.span_of_value("place"),
+            read.place.as_deref(),
+            places,
+        )?),
     };
     let range_hz = match (read.frequency, read.from, read.to) {
         (Some(at), None, None) => [at; 2],
@@ -447,6 +486,23 @@ fn read_load(
     Some(Load { on, amplitude: read.amplitude, range_hz })
 }
 
+fn read_bounds(reader: &mut Reader, root: &Table, places: &[String]) -> Bounds {
+    let Some((table, read)) = reader.optional::<ModalOptimizeTable>(root, "optimize") else {
+        return Bounds::default();
+    };
+    let span = table.span_of_value("places");
+    let of = |name: &String| find_place(reader, span.clone(), Some(name), places);
+    let mut at: Vec<usize> = read.places.iter().filter_map(of).collect();
+    at.sort_unstable();
+    at.dedup();
+    Bounds {
+        clearance_m: read.clearance,
+        restitution: read.restitution,
+        places: at,
+        split_mass: read.split_mass,
+    }
+}
+
 /// Limits: a text, a table, or a list of tables.
 fn read_criteria(reader: &mut Reader, root: &Table, places: &[String]) -> Vec<PlaceCriterion> {
     const KEY: &str = "peak_displacement";
@@ -468,19 +524,7 @@ fn read_criteria(reader: &mut Reader, root: &Table, places: &[String]) -> Vec<Pl
             None => Some(None),
             Some(value) => {
                 let name = value.get_ref().as_str().unwrap_or_default();
-                let known: Vec<&str> = places.iter().map(String::as_str).collect();
-                let at = known.iter().position(|known| *known == name);
-                if at.is_none() {
-                    let near = nearest(name, &known).or(known.first().copied()).unwrap_or("tip");
-                    let message = format!("`place` is \"{name}\", at which no mode has a shape");
-                    reader.report(
-                        value.span(),
-                        message,
-                        "expected a place of the shapes",
-                        format!("did you mean \"{near}\"?"),
-                    );
-                }
-                at.map(Some)
+                find_place(reader, value.span(), Some(name), places).map(Some)
             }
         };
         let text = limit.and_then(|value| Some((value, value.get_ref().as_str()?)));

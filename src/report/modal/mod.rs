@@ -3,6 +3,7 @@
 
 mod analysis;
 mod figure;
+mod optimum;
 
 use serde_json::{Value, json};
 
@@ -21,6 +22,7 @@ use crate::quantity::{Kind, Quantity, Units};
 use crate::system::Scales;
 
 pub use analysis::{analysis, analysis_text};
+pub use optimum::{optimum, optimum_text};
 
 /// What else is known of its loads.
 #[derive(Debug, Clone, Copy)]
@@ -93,12 +95,7 @@ fn placed(case: &ModalCase, one: &JudgedPlace, mut row: Value) -> Value {
 fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
     let judged = &answer.judged;
     let rows = judged.iter().map(|one| placed(case, one, row(&one.judged, Some(frequency(one)))));
-    let mut counted = json!(counted(&answer.criteria(), rows.collect()));
-    if counted.is_object() {
-        // No optimum is looked for.
-        counted["several"] = json!(true);
-    }
-    counted
+    json!(counted(&answer.criteria(), rows.collect()))
 }
 
 fn load_row(case: &ModalCase, load: &Load) -> Value {
@@ -170,6 +167,24 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
     rows.collect()
 }
 
+fn absorbers(case: &ModalCase) -> Vec<Value> {
+    let each = case.absorbers.iter().enumerate().map(|(j, one)| {
+        let ratio = |mode: &StructuralMode| {
+            one.mass_kg * mode.shape[one.place] * mode.shape[one.place] / mode.mass_kg
+        };
+        json!({
+            "number": j + 1,
+            "place": case.places[one.place],
+            "mass": given(&of::ABSORBER_MASS, one.mass_kg),
+            "clearance": given(&of::CLEARANCE, one.clearance_m),
+            "restitution": given(&of::RESTITUTION, one.restitution),
+            // Over the mass that its impacts see.
+            "mass_ratio": closed(&of::MASS_RATIO, case.modes.iter().map(ratio).sum()),
+        })
+    });
+    each.collect()
+}
+
 /// The report: `vinesink/answer@1` with the fields that an index and a comparison read, and those of several modes.
 pub fn document(
     name: &str,
@@ -202,20 +217,6 @@ pub fn document(
             "shape": mode.shape,
         })
     });
-    let absorbers = case.absorbers.iter().enumerate().map(|(j, one)| {
-        let ratio = |mode: &StructuralMode| {
-            one.mass_kg * mode.shape[one.place] * mode.shape[one.place] / mode.mass_kg
-        };
-        json!({
-            "number": j + 1,
-            "place": case.places[one.place],
-            "mass": given(&of::ABSORBER_MASS, one.mass_kg),
-            "clearance": given(&of::CLEARANCE, one.clearance_m),
-            "restitution": given(&of::RESTITUTION, one.restitution),
-            // Over the mass that its impacts see.
-            "mass_ratio": closed(&of::MASS_RATIO, case.modes.iter().map(ratio).sum()),
-        })
-    });
     let dampers = beside.dampers.iter().map(|one| {
         let each = one.dampers.iter().zip(&one.strokes).zip(&one.places);
         let each = each.map(|((damper, stroke), place)| {
@@ -243,7 +244,7 @@ pub fn document(
         "band": null,
         "places_of_shapes": case.places,
         "modes": modes.collect::<Vec<_>>(),
-        "absorbers": absorbers.collect::<Vec<_>>(),
+        "absorbers": absorbers(case),
         "worst": worst.map(|one| worst_row(case, &one)),
         "loads": along(case, answer, beside),
         "dampers": dampers.collect::<Vec<_>>(),

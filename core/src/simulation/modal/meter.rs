@@ -182,9 +182,8 @@ impl ModalMeter {
     }
 
     fn add_held(&mut self, panel: &HeldPanel, whole: f64) {
-        let node = |(node, weight): &(f64, f64)| {
-            (panel.place(0.5 * whole * (1.0 + node)), whole * weight)
-        };
+        let node =
+            |(node, weight): &(f64, f64)| (panel.place(0.5 * whole * (1.0 + node)), whole * weight);
         let nodes: Vec<_> = self.rule.iter().map(node).collect();
         for (n, view) in self.views.iter().enumerate() {
             let moment = |s: f64| Gap::of(panel.moment(view, s), STILL);

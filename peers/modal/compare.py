@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Compares the motions of cases of several modes and absorbers with those of `simulate.c`, at the frequency where each load is
+worst: largest displacement and root mean square of the worst place, from several starts.
+
+    python3 peers/modal/compare.py target/release/vinesink cases/several/*.toml
+
+Base motion is not read. Needs a C compiler; prints a table in Markdown."""
+
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import tomllib
+
+UNITS = {"Hz": 1.0, "kg": 1.0, "g": 1e-3, "t": 1e3, "m": 1.0, "mm": 1e-3, "um": 1e-6, "N": 1.0, "kN": 1e3, "%": 1e-2}
+STARTS, OUT, MEASURED = 4, 8, 1500
+
+
+def number(value):
+    """A quantity as a number in SI units."""
+    if not isinstance(value, str):
+        return float(value)
+    size, unit = value.split()
+    return float(size) * UNITS[unit]
+
+
+def listed(value):
+    return value if isinstance(value, list) else [value]
+
+
+def simulated(program, case, load, place, frequency, seed):
+    modes, absorbers = listed(case["mode"]), listed(case["absorber"])
+    only = next(iter(modes[0]["shape"]))
+    numbers = [len(modes), len(absorbers)]
+    for k, mode in enumerate(modes, 1):
+        force = number(load["amplitude"])
+        force *= (load["mode"] == k) if "mode" in load else mode["shape"][load.get("place", only)]
+        numbers += [number(mode[key]) for key in ("frequency", "damping_ratio", "mass")]
+        numbers += [force, mode["shape"][place]] + [mode["shape"][one.get("place", only)] for one in absorbers]
+    for one in absorbers:
+        numbers += [number(one[key]) for key in ("mass", "clearance", "restitution")]
+    slowest = min(number(mode["damping_ratio"]) * number(mode["frequency"]) for mode in modes)
+    out = max(OUT * frequency / (2 * 3.141592653589793 * slowest), 256)
+    numbers += [frequency, seed, round(out), MEASURED]
+    run = subprocess.run([program], input=" ".join(map(repr, numbers)), capture_output=True, text=True, check=True)
+    return [float(one) for one in run.stdout.split()]
+
+
+def main():
+    vinesink, *paths = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        program = str(pathlib.Path(folder, "simulate"))
+        source = str(pathlib.Path(__file__).with_name("simulate.c"))
+        subprocess.run(["cc", "-O2", "-o", program, source, "-lm"], check=True)
+        print("| case | load | at | place | peak, mm | independently | rms, mm | independently |")
+        print("| --- | ---: | ---: | --- | ---: | ---: | ---: | ---: |")
+        for path in paths:
+            case = tomllib.loads(pathlib.Path(path).read_text())
+            run = subprocess.run([vinesink, "simulate", path, "--format", "json"], capture_output=True, text=True)
+            answer = json.loads(run.stdout)
+            for k, (load, found) in enumerate(zip(listed(case["excitation"]), answer["loads"]), 1):
+                worst = found["worst"]
+                place, frequency = worst["place"], worst["at"]["value"]
+                p = answer["places_of_shapes"].index(place)
+                motions = [one["places"][p] for one in found["motions"] if not one["rests"]]
+                other = [simulated(program, case, load, place, frequency, seed) for seed in range(1, STARTS + 1)]
+                told = [
+                    ", ".join(f"{1e3 * one['peak']['value']:.3f} (+{1e3 * one['peak']['error']:.2g})" for one in motions),
+                    ", ".join(f"{1e3 * one[0]:.3f}" for one in other),
+                    ", ".join(f"{1e3 * one['rms']['value']:.3f}" for one in motions),
+                    ", ".join(f"{1e3 * one[1]:.3f}" for one in other),
+                ]
+                name = pathlib.Path(path).stem
+                print(f"| {name} | {k} | {frequency:.4g} Hz | {place} | {' | '.join(told)} |", flush=True)
+
+
+main()

@@ -1,0 +1,227 @@
+//! Absorbers that serve a structure best under all of its loads: their clearances, and on request restitution, places and how
+//! they share their mass.
+//!
+//! Evenly spread candidates, then some around the best, are flown from few starts at few frequencies, those first at which the
+//! case's own absorbers are worst; one that is seen to be worse than the best of a round before is left. Of the best, what
+//! they do is found as `check` finds it.
+
+use std::cmp::Ordering;
+
+use super::{ModalAnswer, ModalError};
+use crate::case::{Bounds, Load, ModalCase, PlacedAbsorber, Rounding};
+use crate::criteria::Outcome;
+use crate::executor::Executor;
+use crate::motions::{ModalMotion, modal_motions};
+use crate::optimize::search::{shortlist, spread_out};
+
+/// Candidates of the first round for each number that is chosen, and most of them.
+const CANDIDATES: usize = 24;
+const MOST_CANDIDATES: usize = 96;
+/// Starts of a candidate at each frequency, and frequencies along a load beside that at which the case's own absorbers are worst.
+const FEW_STARTS: u32 = 2;
+const FEW: usize = 7;
+/// Candidates that are judged in full, and how far they are apart, over the bounds.
+const JUDGED: usize = 3;
+const APART: f64 = 0.04;
+/// Least share of the mass that an absorber may have, over an even one.
+const LEAST_SHARE: f64 = 0.25;
+
+/// Absorbers and what they do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JudgedAbsorbers {
+    /// The case with them.
+    pub case: ModalCase,
+    /// Its file.
+    pub text: String,
+    /// What they do, as `check` finds it.
+    pub answer: ModalAnswer,
+    /// The largest displacement that any motion may have, over what a criterion allows, of the worst one; without criteria over
+    /// that of the structure alone.
+    pub reach: f64,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalOptimum {
+    /// The case's own absorbers.
+    pub own: JudgedAbsorbers,
+    /// The best of the others, the best first.
+    pub best: Vec<JudgedAbsorbers>,
+    /// Candidates that were looked at.
+    pub candidates: usize,
+}
+
+impl JudgedAbsorbers {
+    fn of(case: ModalCase, text: String, on: &dyn Executor) -> Result<Self, ModalError> {
+        let answer = ModalAnswer::of(&case, on)?;
+        let limits = limits(&case, &answer);
+        let reach = |(place, limit): &(Option<usize>, f64)| {
+            answer.worst(*place, None).map_or(f64::INFINITY, |one| (one.peak + one.error) / limit)
+        };
+        let reach = limits.iter().map(reach).fold(0.0, f64::max);
+        Ok(Self { case, text, answer, reach })
+    }
+
+    /// First how many criteria are missed, then how many are not known to hold, then how far it may move.
+    fn order(&self, other: &Self) -> Ordering {
+        let count = |one: &Self, which: fn(Outcome) -> bool| {
+            one.answer.judged.iter().filter(|one| which(one.judged.outcome())).count()
+        };
+        let fails: fn(Outcome) -> bool = |one| matches!(one, Outcome::Fails | Outcome::NotMeasured);
+        let open: fn(Outcome) -> bool = |one| one != Outcome::Holds;
+        let by = |which| count(self, which).cmp(&count(other, which));
+        by(fails).then(by(open)).then(self.reach.total_cmp(&other.reach))
+    }
+}
+
+impl ModalOptimum {
+    /// The best of all, the case's own among them.
+    pub fn nearest(&self) -> &JudgedAbsorbers {
+        let better = self.best.first().filter(|one| one.order(&self.own).is_lt());
+        better.unwrap_or(&self.own)
+    }
+
+    /// Whether absorbers were found that are better than the case's own, and meet all criteria.
+    pub fn succeeds(&self) -> bool {
+        let succeeds = |one: &JudgedAbsorbers| {
+            one.order(&self.own).is_lt() && (one.case.criteria.is_empty() || one.answer.all_hold())
+        };
+        self.best.first().is_some_and(succeeds)
+    }
+
+    /// The best absorbers of a case, whose file has this text.
+    ///
+    /// # Errors
+    /// [`ModalError`] where a motion cannot be flown, or the text is not the case's.
+    pub fn of(case: &ModalCase, text: &str, on: &dyn Executor) -> Result<Self, ModalError> {
+        let own = JudgedAbsorbers::of(case.clone(), text.to_owned(), on)?;
+        let limits = limits(case, &own.answer);
+        let looked_at = frequencies(case, &own.answer, &limits);
+        let own_reach = looked_at.first().map_or(f64::INFINITY, |(_, _, reach)| *reach);
+        let count = numbers(case);
+        let score = |parts: &[f64], best: f64| {
+            let candidate = candidate(case, parts);
+            let (known, mut reach) = (best.max(-own_reach), 0.0_f64);
+            for (load, at, _) in &looked_at {
+                let found = candidate.system(load, *at).ok();
+                let found = found
+                    .and_then(|system| modal_motions(&system, &case.shapes(), FEW_STARTS).ok());
+                let Some(motions) = found else { return f64::NEG_INFINITY };
+                reach = reach.max(over_limits(&motions, &limits));
+                if -reach < known {
+                    break;
+                }
+            }
+            -reach
+        };
+        let first = (CANDIDATES * count).min(MOST_CANDIDATES);
+        let seen = spread_out("candidates", count, first, on, &score);
+        let seen = seen.map(|one| one.seen).unwrap_or_default();
+        let chosen = shortlist(&seen, APART, JUDGED).into_iter();
+        let judged = chosen.map(|(parts, _)| {
+            let (text, case) = case.rewritten(text, &candidate(case, &parts).absorbers)?;
+            JudgedAbsorbers::of(case, text, on)
+        });
+        let mut best = judged.collect::<Result<Vec<_>, _>>()?;
+        best.sort_by(JudgedAbsorbers::order);
+        Ok(Self { own, best, candidates: seen.len() })
+    }
+}
+
+/// How often one `check` of the case a search of its absorbers takes, at most.
+pub fn checks(case: &ModalCase) -> f64 {
+    let (first, few) = ((CANDIDATES * numbers(case)).min(MOST_CANDIDATES), 0.12);
+    first as f64 * few + (JUDGED + 1) as f64
+}
+
+/// Places and what is allowed there in m; of a case without criteria each place and what it has without absorbers.
+fn limits(case: &ModalCase, answer: &ModalAnswer) -> Vec<(Option<usize>, f64)> {
+    if case.criteria.is_empty() {
+        let bare = answer.along.iter().flat_map(|along| &along.bare);
+        return vec![(None, bare.map(|[most, _]| *most).fold(0.0, f64::max))];
+    }
+    case.criteria.iter().map(|one| (one.place, one.criterion.limit)).collect()
+}
+
+/// The largest displacement of any motion over what is allowed.
+fn over_limits(motions: &[ModalMotion], limits: &[(Option<usize>, f64)]) -> f64 {
+    let of = |motion: &ModalMotion| {
+        let over = |(place, limit): &(Option<usize>, f64)| {
+            let places = motion.places.iter().enumerate();
+            let asked = places.filter(|(p, _)| place.is_none_or(|one| one == *p));
+            asked.map(|(_, one)| one.peak).fold(0.0, f64::max) / limit
+        };
+        limits.iter().map(over).fold(0.0, f64::max)
+    };
+    motions.iter().map(of).fold(0.0, f64::max)
+}
+
+/// Loads and frequencies that candidates are flown at with what the case's own absorbers come to, those first where that is worst.
+fn frequencies(
+    case: &ModalCase,
+    own: &ModalAnswer,
+    limits: &[(Option<usize>, f64)],
+) -> Vec<(Load, f64, f64)> {
+    let mut found = Vec::new();
+    for along in &own.along {
+        let over = |k: usize| over_limits(&along.places[k].motions, limits);
+        let last = along.places.len() - 1;
+        let mut chosen: Vec<usize> = (0..FEW).map(|k| k * last / (FEW - 1)).collect();
+        chosen.extend((0..=last).max_by(|a, b| over(*a).total_cmp(&over(*b))));
+        let resonant =
+            |k: &usize| case.modes.iter().any(|one| one.frequency_hz == along.places[*k].at);
+        chosen.extend((0..=last).filter(resonant));
+        chosen.sort_unstable();
+        chosen.dedup();
+        found.extend(chosen.into_iter().map(|k| (along.load, along.places[k].at, over(k))));
+    }
+    found.sort_by(|a, b| b.2.total_cmp(&a.2));
+    found
+}
+
+/// How many numbers are chosen.
+fn numbers(case: &ModalCase) -> usize {
+    let Bounds { restitution, places, split_mass, .. } = &case.bounds;
+    let absorbers = case.absorbers.len();
+    let splits = usize::from(*split_mass && absorbers > 1) * absorbers;
+    let moves = usize::from(places.len() > 1) * absorbers;
+    absorbers + usize::from(restitution.is_some()) + moves + splits
+}
+
+/// The case with other absorbers, by parts of the way between the bounds.
+fn candidate(case: &ModalCase, parts: &[f64]) -> ModalCase {
+    let mut parts = parts.iter().copied();
+    let mut part = || parts.next().unwrap_or(0.5);
+    let Bounds { clearance_m, restitution, places, split_mass } = &case.bounds;
+    let mut absorbers = case.absorbers.clone();
+    for one in &mut absorbers {
+        let [from, to] = clearance_bounds(*clearance_m, one);
+        one.clearance_m = Rounding::Nearest.of(from * libm::pow(to / from, part()));
+    }
+    if let Some([from, to]) = restitution {
+        let restitution = libm::rint(1e3 * (from + (to - from) * part())) / 1e3;
+        absorbers.iter_mut().for_each(|one| one.restitution = restitution);
+    }
+    if places.len() > 1 {
+        for one in &mut absorbers {
+            let number = (part() * places.len() as f64) as usize;
+            one.place = places[number.min(places.len() - 1)];
+        }
+    } else if let [place] = places[..] {
+        absorbers.iter_mut().for_each(|one| one.place = place);
+    }
+    if *split_mass && absorbers.len() > 1 {
+        let together: f64 = absorbers.iter().map(|one| one.mass_kg).sum();
+        let shares: Vec<f64> = absorbers.iter().map(|_| LEAST_SHARE + part()).collect();
+        let sum: f64 = shares.iter().sum();
+        for (one, share) in absorbers.iter_mut().zip(shares) {
+            one.mass_kg = Rounding::Nearest.of(together * share / sum);
+        }
+    }
+    ModalCase { absorbers, ..case.clone() }
+}
+
+/// The bounds of an absorber's clearance in m.
+pub fn clearance_bounds(bounds: Option<[f64; 2]>, absorber: &PlacedAbsorber) -> [f64; 2] {
+    bounds.unwrap_or([absorber.clearance_m / 3.0, absorber.clearance_m * 3.0])
+}

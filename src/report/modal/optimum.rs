@@ -1,0 +1,72 @@
+//! What a search of better absorbers of a structure of several modes found, as data and in words.
+
+use serde_json::{Value, json};
+
+use super::{absorbers, criteria, given, simulated, units, worst_row};
+use crate::case::{Bounds, ModalCase};
+use crate::modal::{JudgedAbsorbers, ModalOptimum, clearance_bounds};
+use crate::quantity::catalogue as of;
+use crate::report::error::RenderError;
+use crate::report::template::render;
+
+/// Absorbers and what they do.
+fn candidate(found: &JudgedAbsorbers) -> Value {
+    let loads = 0..found.case.loads.len();
+    let peaks = loads.map(|k| {
+        found
+            .answer
+            .worst(None, Some(k))
+            .map(|one| simulated(&of::PEAK, one.peak).with_error(one.error))
+    });
+    json!({
+        "absorbers": absorbers(&found.case),
+        "criteria": criteria(&found.case, &found.answer),
+        "all_hold": found.answer.all_hold(),
+        // The largest displacement that any motion may have over what is allowed.
+        "reach": found.reach,
+        "worst": found.answer.worst(None, None).map(|one| worst_row(&found.case, &one)),
+        "loads": peaks.collect::<Vec<_>>(),
+    })
+}
+
+/// Between which bounds was looked.
+fn bounds(case: &ModalCase) -> Value {
+    let Bounds { clearance_m, restitution, places, split_mass } = &case.bounds;
+    let clearances = case
+        .absorbers
+        .iter()
+        .map(|one| clearance_bounds(*clearance_m, one).map(|bound| given(&of::CLEARANCE, bound)));
+    let names = places.iter().map(|place| &case.places[*place]);
+    json!({
+        "clearances": clearances.collect::<Vec<_>>(),
+        "common": clearance_m.is_some() || case.absorbers.len() == 1,
+        "restitution": restitution,
+        "places": names.collect::<Vec<_>>(),
+        "split_mass": split_mass,
+    })
+}
+
+/// What was found: `vinesink/optimization@3` with the fields of several modes, in SI.
+pub fn optimum(case: &ModalCase, found: &ModalOptimum) -> Value {
+    json!({
+        "format": "vinesink/optimization@3",
+        "title": case.title,
+        "answer": if found.succeeds() { "found" } else { "none" },
+        "asked": !case.criteria.is_empty(),
+        "bounds": bounds(case),
+        "candidates": found.candidates,
+        "starts": case.starts,
+        "nearest": absorbers(&found.nearest().case),
+        "own": candidate(&found.own),
+        "best": found.best.iter().map(candidate).collect::<Vec<_>>(),
+        "loads": case.loads.iter().map(|load| super::load_row(case, load)).collect::<Vec<_>>(),
+    })
+}
+
+/// The same on a terminal.
+///
+/// # Errors
+/// [`RenderError::Template`] if the template does not fit.
+pub fn optimum_text(case: &ModalCase, document: &Value) -> Result<String, RenderError> {
+    render("modal-optimum.txt", &units(case), document)
+}
