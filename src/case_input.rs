@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::case::{Case, CaseError, ModalCase, Recording, is_modal};
+use crate::case::{Case, CaseError, ModalCase, ModesFile, Recording, is_modal, modes_file};
 use crate::store::{self, CaseText, Reach, StoreError};
 
 /// Why a case could not be read from its file.
@@ -13,9 +13,11 @@ pub enum CaseInputError {
     /// Its file cannot be read.
     #[error(transparent)]
     File(#[from] StoreError),
-    /// The file of its record cannot be read.
-    #[error("{case}: the record of its excitation cannot be read")]
-    Record {
+    /// The file that it names cannot be read.
+    #[error("{case}: the {what} cannot be read")]
+    Named {
+        /// What the file has: the record of its excitation, or its modes.
+        what: &'static str,
         /// The case.
         case: String,
         /// Why.
@@ -50,7 +52,10 @@ pub fn read(path: &Path, reach: Reach) -> Result<(Case, String), CaseInputError>
 pub fn read_any(path: &Path, reach: Reach) -> Result<(AnyCase, String), CaseInputError> {
     read_text(path, reach, |name, text, folder| {
         if is_modal(text) {
-            return Ok(AnyCase::Several(Box::new(ModalCase::parse(name, text)?)));
+            let read = |file: String| read_named(name, "file of its modes", &file, folder, reach);
+            let modes = modes_file(text).map(read).transpose()?;
+            let modes = modes.map(|(name, text)| ModesFile { name, text });
+            return Ok(AnyCase::Several(Box::new(ModalCase::parse_with(name, text, modes)?)));
         }
         Ok(AnyCase::One(Box::new(parse(name, text, folder, reach)?)))
     })
@@ -82,7 +87,20 @@ fn read_text<T>(
 pub fn parse(name: &str, text: &str, folder: &Path, reach: Reach) -> Result<Case, CaseInputError> {
     let case = Case::parse(name, text)?;
     let Some(file) = case.recording.as_ref().and_then(Recording::file) else { return Ok(case) };
-    let (path, samples) = store::read_record(folder, file, reach)
-        .map_err(|source| CaseInputError::Record { case: name.to_owned(), source })?;
-    Ok(case.with_record(&path.display().to_string(), &samples)?)
+    let (path, samples) = read_named(name, "record of its excitation", file, folder, reach)?;
+    Ok(case.with_record(&path, &samples)?)
+}
+
+/// The path and the text of a file that a case names, below its folder.
+fn read_named(
+    case: &str,
+    what: &'static str,
+    file: &str,
+    folder: &Path,
+    reach: Reach,
+) -> Result<(String, String), CaseInputError> {
+    let read = store::read_record(folder, file, reach);
+    let named = |source| CaseInputError::Named { what, case: case.to_owned(), source };
+    let (path, text) = read.map_err(named)?;
+    Ok((path.display().to_string(), text))
 }

@@ -319,7 +319,7 @@ fn reach(allow_outside: bool) -> Reach {
 fn not_read(py: Python<'_>, error: &CaseInputError) -> PyErr {
     match error {
         CaseInputError::Case(error) => case_error(py, error),
-        CaseInputError::Record { source, .. } => FileError::new_err(source.to_string()),
+        CaseInputError::Named { source, .. } => FileError::new_err(source.to_string()),
         other => FileError::new_err(other.to_string()),
     }
 }

@@ -51,7 +51,8 @@ pub use criteria::{Criterion, Relation};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use modal::{
-    ActsOn, Bounds, Load, ModalCase, PlaceCriterion, PlacedAbsorber, StructuralMode, is_modal,
+    ActsOn, Bounds, Load, ModalCase, ModesFile, PlaceCriterion, PlacedAbsorber, StructuralMode,
+    is_modal, modes_file,
 };
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;

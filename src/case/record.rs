@@ -144,7 +144,7 @@ fn head(of: RecordQuantity, physical: bool) -> &'static str {
 }
 
 /// The lines that are no comments, without what surrounds them.
-fn lines(text: &str) -> impl Iterator<Item = &str> {
+pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'))
 }
 
@@ -165,7 +165,13 @@ const LARGEST: f64 = 1e15;
 const MOST_PROBLEMS: usize = 5;
 
 /// A problem with a part of the text.
-fn problem(text: &str, part: &str, message: String, expected: &str, help: &str) -> Box<Problem> {
+pub(super) fn problem(
+    text: &str,
+    part: &str,
+    message: String,
+    expected: &str,
+    help: &str,
+) -> Box<Problem> {
     let start = part.as_ptr() as usize - text.as_ptr() as usize;
     Box::new(Problem::new(text, start..start + part.len(), message, expected).help(help))
 }

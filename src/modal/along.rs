@@ -55,7 +55,7 @@ const ROUNDS: u32 = 3;
 
 /// About how many seconds its motions take on one processor: of an impact, and impacts in a period of each absorber.
 pub fn seconds(case: &ModalCase) -> f64 {
-    const IMPACT: f64 = 5e-7;
+    const IMPACT: f64 = 3e-7;
     const IMPACTS: f64 = 3.0;
     let size = (case.modes.len() * case.absorbers.len()) as f64;
     let of_load = |load: &Load| {

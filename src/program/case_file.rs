@@ -79,8 +79,9 @@ pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
 fn refused(path: &Path, error: CaseInputError) -> Report {
     match error {
         CaseInputError::Case(error) => Report::new(error),
-        CaseInputError::Record { source, .. } => Report::new(source)
-            .wrap_err(format!("{}: the record of its excitation cannot be read", path.display())),
+        CaseInputError::Named { what, source, .. } => {
+            Report::new(source).wrap_err(format!("{}: the {what} cannot be read", path.display()))
+        }
         CaseInputError::File(error) => match beside(path) {
             Some(other) => {
                 let help = format!("did you mean {}?", path.with_file_name(other).display());

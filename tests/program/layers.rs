@@ -77,6 +77,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "method",
             "motions",
             "numerics",
+            "optimize",
             "orbits",
             "simulation",
             "system",

@@ -5,6 +5,8 @@ use std::fs;
 use assert_cmd::Command;
 use serde_json::Value;
 use vinesink::case::{Case, ModalCase, is_modal};
+use vinesink::case_input::{AnyCase, CaseInputError, read_any};
+use vinesink::store::Reach;
 
 const MAST: &str = "cases/several/mast.toml";
 
@@ -205,7 +207,7 @@ fn absorbers_that_rest_leave_the_structure_alone() {
     let stiffness = 10.0 * libm::pow(std::f64::consts::TAU * 5.0, 2.0);
     let expected = 2.0 * 2.0 / (2.0 * 0.02 * stiffness);
     for (limit, holds, near) in
-        [("<= 13 mm", true, false), ("<= 10.2 mm", false, true), ("<= 10 mm", false, false)]
+        [("<= 15 mm", true, false), ("<= 11 mm", false, true), ("<= 10 mm", false, false)]
     {
         let criterion = judged(limit);
         let found = criterion["found"].as_f64().expect("a peak");
@@ -263,4 +265,72 @@ fn better_absorbers_of_one_mode_are_those_of_its_own_search() {
     let refused = vinesink(&["optimize", &to, "--objective", "margin"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("leave out --objective"));
+}
+
+/// Modes from a file are those of the tables with their numbers; slips in it are told with its lines, and a file of something else
+/// is not shown.
+#[test]
+fn modes_may_be_in_a_file() {
+    let whole = text(MAST);
+    let (first, absorber) = (whole.find("[[mode]]").expect("modes"), whole.find("[[absorber]]"));
+    let named = format!(
+        "{}[modes]\nfile = \"mast.csv\"\n\n{}",
+        &whole[..first],
+        &whole[absorber.expect("an absorber")..]
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    fs::write(&path, &named).expect("written");
+    let table = text("cases/several/mast.csv");
+    let read = |table: &str| {
+        fs::write(folder.path().join("mast.csv"), table).expect("written");
+        match read_any(&path, Reach::Folder) {
+            Ok((AnyCase::Several(case), _)) => Ok(*case),
+            Ok(_) => panic!("one mode"),
+            Err(CaseInputError::Case(error)) => {
+                let told = error.problems().map(|one| {
+                    let help = one.help.as_deref().unwrap_or("");
+                    format!("{}: {}; {}; {help}", one.line, one.message, one.expected)
+                });
+                Err(told.collect::<Vec<_>>().join("\n"))
+            }
+            Err(other) => Err(other.to_string()),
+        }
+    };
+    let of_tables = ModalCase::parse("case.toml", &whole).expect("a shipped case");
+    let of_file = read(&table).expect("a shipped file");
+    let mut places = of_file.places.clone();
+    places.sort();
+    assert_eq!(places, of_tables.places);
+    let load = &of_tables.loads[1];
+    let systems = [&of_file, &of_tables].map(|case| case.system(load, 6.5).expect("a system"));
+    assert_eq!(systems[0], systems[1]);
+    for (from, to, words) in [
+        ("6.894", "abc", &["4: frequency is \"abc\""][..]),
+        ("30, 1.0, -0.714", "-3, 1.0, 1", &["4: mass is \"-3\"", "above 0"]),
+        ("0.5, 30, 1.0, 0.020", "90, 30, 1, 1", &["5: damping_ratio is \"90\"", "0.85"]),
+        (", -0.714", "", &["4: the line has 4 values", "expected 5"]),
+        ("1.0, -0.714", "0, 0", &["4: the shape of a mode is 0 everywhere"]),
+        ("tip, middle", "tip, tip", &["\"tip\" has no name, or stands there twice"]),
+        ("mass (kg), ", "", &["there is no column mass"]),
+        ("(Hz)", "(mm)", &["the column frequency", "`mm`"]),
+        (", tip, middle", "", &["there is no column of a place"]),
+    ] {
+        assert!(table.contains(from), "{from}");
+        let told = read(&table.replacen(from, to, 1)).expect_err("refused");
+        assert!(words.iter().all(|word| told.contains(word)), "{told}");
+    }
+    let told = read("root:x:0:0:secret").expect_err("refused");
+    assert!(told.contains("not a table of modes") && !told.contains("secret"), "{told}");
+    let told = read(&format!("{table}{}", "1, 1, 1, 1, 1\n".repeat(6))).expect_err("refused");
+    assert!(told.contains("has 9 modes"), "{told}");
+    fs::remove_file(folder.path().join("mast.csv")).expect("there");
+    let output = vinesink(&["check", path.to_str().expect("UTF-8")]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("the file of its modes cannot be read"), "{told}");
+    let told = wrong(&named);
+    assert!(told.contains("the file of the modes was not read"), "{told}");
+    let both = named.replace("[[absorber]]", "[[mode]]\nfrequency = \"1 Hz\"\n\n[[absorber]]");
+    assert!(wrong(&both).contains("both say which modes there are"), "{}", wrong(&both));
 }

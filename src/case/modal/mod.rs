@@ -2,6 +2,7 @@
 //! may act, one at a time.
 
 mod read;
+mod table;
 
 use std::ops::Range;
 
@@ -15,6 +16,8 @@ use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::digest::sha256;
 use vinesink_core::names;
+
+pub use table::ModesFile;
 
 use crate::system::{InvalidModalSystem, ModalAbsorber, ModalParameters, ModalSystem, Mode};
 
@@ -39,6 +42,8 @@ pub struct ModalCase {
     pub criteria: Vec<PlaceCriterion>,
     /// Starts at each frequency, that from rest among them.
     pub starts: u32,
+    /// The file of its modes, where they are in one.
+    pub modes_file: Option<ModesFile>,
     /// Within which bounds better absorbers are looked for.
     pub bounds: Bounds,
     /// Where the values of each absorber stand in the text, as [`AbsorberKey::ALL`].
@@ -164,27 +169,44 @@ pub fn is_modal(text: &str) -> bool {
     tells_several(&document).is_some()
 }
 
+/// The path of the file that the modes of a text are in, relative to the case file.
+pub fn modes_file(text: &str) -> Option<String> {
+    let document = document::parse(text.strip_prefix('\u{feff}').unwrap_or(text)).ok()?;
+    let table = document.get("modes")?.get_ref().as_table()?;
+    Some(table.get("file")?.get_ref().as_str()?.to_owned())
+}
+
 /// Where a document says that it is of several modes or absorbers.
 pub(super) fn tells_several(document: &DeTable) -> Option<Range<usize>> {
     let listed = |name: &str, list: bool| {
         let (key, value) = document.get_key_value(name)?;
         (value.get_ref().is_array() || !list).then(|| key.span())
     };
-    listed("mode", false).or_else(|| listed("absorber", true))
+    let listed_modes = listed("mode", false).or_else(|| listed("modes", false));
+    listed_modes.or_else(|| listed("absorber", true))
 }
 
 impl ModalCase {
     /// Reads a case from its text; `name`, usually the file's path, is for messages only.
     ///
     /// # Errors
-    /// [`CaseError`] with everything that is wrong.
+    /// [`CaseError`] with everything that is wrong; also where its modes are in a file.
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        Self::parse_with(name, text, None)
+    }
+
+    /// The same with the file of its modes that the text names, see [`modes_file`].
+    ///
+    /// # Errors
+    /// [`CaseError`] with everything that is wrong with either.
+    pub fn parse_with(name: &str, text: &str, modes: Option<ModesFile>) -> Result<Self, CaseError> {
+        let of_file = modes.as_ref().map(table::read).transpose()?;
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |problems, more| CaseError::new(name, visible, problems, more);
         let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
         let mut reader = Reader::of(visible);
-        match read::read(&mut reader, &document, sha256(text.as_bytes())) {
-            Some(case) if reader.problems.is_empty() => Ok(case),
+        match read::read(&mut reader, &document, sha256(text.as_bytes()), of_file) {
+            Some(case) if reader.problems.is_empty() => Ok(Self { modes_file: modes, ..case }),
             _ => Err(refused(reader.problems, reader.more)),
         }
     }
@@ -229,7 +251,8 @@ impl ModalCase {
                 text.replace_range(range, "");
             }
         }
-        let case = Self::parse("the changed case", &text).map_err(Box::new)?;
+        let case = Self::parse_with("the changed case", &text, self.modes_file.clone());
+        let case = case.map_err(Box::new)?;
         Ok((text, case))
     }
 

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::table::Modes;
 use super::{
     AbsorberKey, ActsOn, Bounds, Load, ModalCase, PlaceCriterion, PlacedAbsorber, StructuralMode,
 };
@@ -43,6 +44,17 @@ struct ModeTable {
     /// Gamma_k, its participation in the motion of the base; needed where the base moves.
     #[schemars(example = 1.3)]
     participation: Option<f64>,
+}
+
+/// The modes of the structure in a file, instead of `[[mode]]`.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+struct ModesTable {
+    /// A file of columns beside the case, or below its folder: frequency, damping_ratio, mass, participation where the base moves,
+    /// and one for each place, with units in brackets; a line for each mode.
+    #[schemars(example = &"mast.csv")]
+    #[expect(dead_code, reason = "read before the case is")]
+    file: String,
 }
 
 /// An absorber of the structure.
@@ -161,7 +173,8 @@ struct ModalOptimizeTable {
     reason = "each table is read by itself, so that one that is wrong hides no other"
 )]
 struct ModalTables {
-    mode: Vec<ModeTable>,
+    mode: Option<Vec<ModeTable>>,
+    modes: Option<ModesTable>,
     absorber: Vec<ModalAbsorberTable>,
     excitation: Vec<LoadTable>,
     simulation: Option<SimulationSettings>,
@@ -177,6 +190,7 @@ pub(super) fn read(
     reader: &mut Reader,
     document: &DeTable,
     text_hash: String,
+    of_file: Option<Modes>,
 ) -> Option<ModalCase> {
     let own = fields::<ModalTables>();
     let of_one: Vec<&str> = fields::<crate::case::Tables>()
@@ -198,24 +212,10 @@ pub(super) fn read(
         reader.report(root.span_of(name), message, expected, help);
     }
     let heading = reader.read::<Heading>(&root);
-    let mut places: Vec<String> = Vec::new();
-    let mut modes = Vec::new();
-    for table in tables::<ModeTable>(reader, &root, "mode") {
-        modes.extend(read_mode(reader, &table, &mut places));
-    }
-    let shapes: Vec<_> = modes.iter().map(|(_, shape)| shape.clone()).collect();
-    let modes: Vec<StructuralMode> = modes
-        .into_iter()
-        .map(|(mode, shape)| StructuralMode {
-            shape: places.iter().map(|name| value_at(&shape, name)).collect(),
-            ..mode
-        })
-        .collect();
-    for (span, name) in missing(&shapes, &places) {
-        let message = format!("the shape has no value at \"{name}\", where another mode has one");
-        let help = format!("write shape = {{ {name} = 1.0, ... }}; 0 where the mode has a node");
-        reader.report(span, message, "expected every place in the shape of every mode", help);
-    }
+    let (places, modes) = match root.has("modes") {
+        true => modes_of_file(reader, &root, of_file),
+        false => read_modes(reader, &root),
+    };
     let (mut absorbers, mut values) = (Vec::new(), Vec::new());
     for table in tables::<ModalAbsorberTable>(reader, &root, "absorber") {
         let Some(read) = reader.read::<ModalAbsorberTable>(&table) else { continue };
@@ -261,6 +261,7 @@ pub(super) fn read(
         loads,
         criteria,
         starts,
+        modes_file: None,
         bounds,
         values,
     };
@@ -279,6 +280,44 @@ pub(super) fn read(
         }
     }
     Some(case)
+}
+
+/// Places and modes of the tables `[[mode]]`.
+fn read_modes(reader: &mut Reader, root: &Table) -> Modes {
+    let mut places: Vec<String> = Vec::new();
+    let mut modes = Vec::new();
+    for table in tables::<ModeTable>(reader, root, "mode") {
+        modes.extend(read_mode(reader, &table, &mut places));
+    }
+    let shapes: Vec<_> = modes.iter().map(|(_, shape)| shape.clone()).collect();
+    let modes: Vec<StructuralMode> = modes
+        .into_iter()
+        .map(|(mode, shape)| StructuralMode {
+            shape: places.iter().map(|name| value_at(&shape, name)).collect(),
+            ..mode
+        })
+        .collect();
+    for (span, name) in missing(&shapes, &places) {
+        let message = format!("the shape has no value at \"{name}\", where another mode has one");
+        let help = format!("write shape = {{ {name} = 1.0, ... }}; 0 where the mode has a node");
+        reader.report(span, message, "expected every place in the shape of every mode", help);
+    }
+    (places, modes)
+}
+
+/// Those of a file that was read.
+fn modes_of_file(reader: &mut Reader, root: &Table, of_file: Option<Modes>) -> Modes {
+    if root.has("mode") {
+        let message = "[modes] and [[mode]] both say which modes there are";
+        reader.report(root.span_of("modes"), message, "expected one of them", "remove one");
+    }
+    let table = reader.optional::<ModesTable>(root, "modes");
+    if of_file.is_none() && table.is_some() {
+        let message = "the file of the modes was not read";
+        let help = "write the modes as [[mode]] where a case is a text without a folder";
+        reader.report(root.span_of("modes"), message, "expected a case in a file", help);
+    }
+    of_file.unwrap_or_default()
 }
 
 /// The tables of a name, once or as a list; reported where there is none, or more than a structure may have.

@@ -164,21 +164,14 @@ impl HeldPanel {
         state
     }
 
-    /// A derivative of what is seen.
-    pub(super) fn seen(&self, view: &View<MOST>, s: f64, order: usize) -> f64 {
-        let [sin, cos] = sine_and_cosine(self.phase + self.frequency * s);
-        let power = (0..order).fold(1.0, |product, _| product * self.frequency);
-        let turned = [sin, cos, -sin, -cos][order % 4];
-        let modes = view.shape.iter().enumerate().map(|(k, shape)| match *shape {
-            0.0 => 0.0,
-            shape => shape * self.mode(k, s, order),
-        });
-        view.base * power * turned + modes.sum::<f64>()
-    }
-
-    /// What is seen, and its first two derivatives.
-    pub(super) fn moment(&self, view: &View<MOST>, s: f64) -> [f64; 3] {
-        [0, 1, 2].map(|order| self.seen(view, s, order))
+    /// What is seen of it.
+    pub(super) fn sight(&self, view: &View<MOST>) -> Sight {
+        Sight {
+            derivatives: std::array::from_fn(|n| dot(&view.shape, &self.derivatives[n])),
+            base: view.base,
+            phase: self.phase,
+            frequency: self.frequency,
+        }
     }
 
     /// What a derivative of what is seen, of order 1 to 6, does not exceed.
@@ -186,6 +179,36 @@ impl HeldPanel {
         let power = (0..order).fold(1.0, |product, _| product * self.frequency);
         let seen = dot(&view.shape, &self.inverse.times(&view.shape));
         seen.max(0.0).sqrt() * self.energies[order - 1] + view.base.abs() * power
+    }
+}
+
+/// What is seen of a panel: its derivatives at the beginning, and the base's part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sight {
+    derivatives: [f64; LAST + 1],
+    base: f64,
+    phase: f64,
+    frequency: f64,
+}
+
+impl Sight {
+    /// A derivative.
+    pub(super) fn at(&self, s: f64, order: usize) -> f64 {
+        let mut sum = 0.0;
+        for n in (order..=LAST).rev() {
+            sum = self.derivatives[n] + sum * (s * INVERSES[n - order]);
+        }
+        if self.base == 0.0 {
+            return sum;
+        }
+        let [sin, cos] = sine_and_cosine(self.phase + self.frequency * s);
+        let power = (0..order).fold(1.0, |product, _| product * self.frequency);
+        sum + self.base * power * [sin, cos, -sin, -cos][order % 4]
+    }
+
+    /// What is seen, and its first two derivatives.
+    pub(super) fn moment(&self, s: f64) -> [f64; 3] {
+        [0, 1, 2].map(|order| self.at(s, order))
     }
 }
 
@@ -237,7 +260,7 @@ impl ModalSimulation {
         let (mut closing, mut forces, mut largest) = ([0.0; MOST], [0.0_f64; MOST], 0.0_f64);
         for j in (0..MOST).filter(on) {
             let view = &constants.views[j];
-            closing[j] = walls[j] * panel.seen(view, 0.0, 2) * all.clearances[j];
+            closing[j] = walls[j] * panel.sight(view).at(0.0, 2) * all.clearances[j];
             largest = largest.max(panel.bound(view, 2) * all.clearances[j]);
         }
         let yields = |i: usize, j: usize| {
@@ -309,7 +332,7 @@ impl ModalSimulation {
         });
         let at_wall = AtWall {
             separation_speed: opening,
-            closing_acceleration: wall * panel.seen(view, 0.0, 2),
+            closing_acceleration: wall * panel.sight(view).at(0.0, 2),
             speed: 0.0,
             force_rate: panel.bound(view, 3),
             damping: kicked.sum(),
@@ -344,6 +367,7 @@ impl ModalSimulation {
     pub(super) fn tow(&mut self, observer: &mut dyn ModalObserver) -> Result<(), Stop> {
         let (all, at) = (&self.all, &self.at);
         let panel = HeldPanel::of(all, &self.state(), at.phase, &self.inverse);
+        let sights: [Sight; MOST] = std::array::from_fn(|j| panel.sight(&all.constants.views[j]));
         let sizes = all.constants.sizes(&at.phasors);
         let mut bands =
             [CrossingBand { lower: f64::NEG_INFINITY, upper: f64::INFINITY, touch: 1.0 }; MOST];
@@ -359,14 +383,14 @@ impl ModalSimulation {
                 bands[j] = CrossingBand { lower: 0.0, upper: f64::INFINITY, touch };
                 bounds[j] = panel.bound(view, 4);
                 // Nothing pulls at what another one's impact has set free.
-                if self.stuck[j] * panel.seen(view, 0.0, 2) < -touch {
+                if self.stuck[j] * sights[j].at(0.0, 2) < -touch {
                     self.release(j);
                     return Ok(());
                 }
             } else {
                 bands[j] = CrossingBand { lower: -1.0, upper: 1.0, touch };
                 bounds[j] = panel.bound(view, 2);
-                let [v, a, jerk] = [1, 2, 3].map(|order| panel.seen(view, 0.0, order));
+                let [v, a, jerk] = [1, 2, 3].map(|order| sights[j].at(0.0, order));
                 let rounding = touch * self.roughness();
                 if wall != 0.0 && (v - at.lines[j].velocity).abs() <= rounding {
                     let further = [3, 4].map(|order| panel.bound(view, order));
@@ -380,13 +404,12 @@ impl ModalSimulation {
                 if j >= all.absorbers {
                     return Sample { value: 0.0, slope: 0.0, curvature_bound: 0.0 };
                 }
-                let (view, wall) = (&all.constants.views[j], self.stuck[j]);
+                let wall = self.stuck[j];
                 if wall != 0.0 {
-                    let [value, slope] = [2, 3].map(|order| wall * panel.seen(view, s, order));
+                    let [value, slope] = [2, 3].map(|order| wall * sights[j].at(s, order));
                     return Sample { value, slope, curvature_bound: bounds[j] };
                 }
-                let [x, v, a] = [0, 1, 2].map(|order| panel.seen(view, s, order));
-                Gap::of([x, v, a], at.lines[j].from(s)).sample(bounds[j])
+                Gap::of(sights[j].moment(s), at.lines[j].from(s)).sample(bounds[j])
             })
         };
         let (found, which) = first_of(samples, panel.length, from, panel.length, bands);

@@ -186,7 +186,8 @@ impl ModalMeter {
             |(node, weight): &(f64, f64)| (panel.place(0.5 * whole * (1.0 + node)), whole * weight);
         let nodes: Vec<_> = self.rule.iter().map(node).collect();
         for (n, view) in self.views.iter().enumerate() {
-            let moment = |s: f64| Gap::of(panel.moment(view, s), STILL);
+            let sight = panel.sight(view);
+            let moment = |s: f64| Gap::of(sight.moment(s), STILL);
             let cube = whole * whole * whole;
             let coefficient = panel.bound(view, 6) * cube * cube / 7200.0;
             let slack = Slack { coefficient, slope_squared: 0.0 };

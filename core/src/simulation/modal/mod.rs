@@ -139,7 +139,7 @@ impl ModalSegment<'_> {
                 let at = Phasors { z: self.turned(begin, s), rotor };
                 self.all.constants.seen(view, &self.all.constants.free(&at), rotor)
             }
-            Course::Held(panel) => panel.moment(view, s),
+            Course::Held(panel) => panel.sight(view).moment(s),
         }
     }
 }
