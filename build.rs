@@ -23,13 +23,14 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 25] = [
+const NOT_IN_A_BROWSER: [&str; 28] = [
     "analyze",
     "check.github",
     "check.txt",
     "check.xml",
     "clearance",
     "diff",
+    "equations",
     "evidence",
     "extremes",
     "flight",
@@ -40,6 +41,7 @@ const NOT_IN_A_BROWSER: [&str; 25] = [
     "optimize",
     "page",
     "paper",
+    "proposal",
     "record",
     "release",
     "report.css",
@@ -49,6 +51,7 @@ const NOT_IN_A_BROWSER: [&str; 25] = [
     "sort",
     "sweep",
     "tradeoff",
+    "validation",
 ];
 /// Captions of the figures that it draws, in `templates/captions/`.
 const CAPTIONS_OF_A_BROWSER: [&str; 9] =
