@@ -1,6 +1,8 @@
 //! A case of several modes and absorbers: `[[mode]]`, `[[absorber]]` and `[excitation]`, or `[[excitation]]` where several
 //! may act, one at a time.
 
+mod asked;
+mod place;
 mod read;
 mod table;
 

@@ -8,18 +8,15 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::asked::{ModalCriteriaTable, ModalOptimizeTable, read_bounds, read_criteria};
+use super::place::find_place;
 use super::table::Modes;
-use super::{
-    AbsorberKey, ActsOn, Bounds, Load, ModalCase, PlaceCriterion, PlacedAbsorber, StructuralMode,
-};
+use super::{AbsorberKey, ActsOn, Load, ModalCase, PlacedAbsorber, StructuralMode};
 use crate::case::Heading;
-use crate::case::criteria::{Criterion, possible};
-use crate::case::number::{Form, sign_of};
+use crate::case::number::Form;
 use crate::case::reader::{Reader, Table, fields, kind};
 use crate::case::settings::SimulationSettings;
-use crate::case::value::{ValuePlace, nearest, or};
-use crate::measure::Measure;
-use crate::quantity::Dimension;
+use crate::case::value::ValuePlace;
 use crate::system::{LARGEST_DAMPING_RATIO, MOST_MODES};
 use vinesink_core::names;
 
@@ -129,41 +126,6 @@ fn loads() -> Value {
         kind(LoadKind::Force.name(), "a force", "14 N"),
         kind(LoadKind::BaseDisplacement.name(), "a length", "0.25 mm"),
     ])
-}
-
-/// What the structure must achieve.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
-struct ModalCriteriaTable {
-    /// Largest absolute displacement, at the worst place; of one place, or several, as a table or a list of tables
-    /// with `limit` and `place`.
-    #[schemars(with = "Value", example = &"<= 4 mm")]
-    #[expect(dead_code, reason = "read as a text, a table or a list")]
-    #[serde(default)]
-    peak_displacement: (),
-}
-
-/// Within which bounds `vinesink optimize` looks. The table may be left out.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
-struct ModalOptimizeTable {
-    /// Bounds of each absorber's clearance; a third to three times its own unless given.
-    #[schemars(with = "Option<[Value; 2]>", extend("x-ascending" = true))]
-    #[schemars(extend("items" = { "type": "number", "x-measurand": "a length", "exclusiveMinimum": 0 }))]
-    #[schemars(example = vec!["1 mm", "8 mm"])]
-    clearance: Option<[f64; 2]>,
-    /// Bounds of the restitution of all absorbers, from 0 to 1; each its own unless given.
-    #[schemars(extend("items" = { "type": "number", "minimum": 0, "maximum": 1 }, "x-ascending" = true))]
-    #[schemars(example = vec![0.0, 0.7])]
-    restitution: Option<[f64; 2]>,
-    /// Places at which absorbers may be; each its own unless given.
-    #[schemars(example = vec!["tip", "middle"])]
-    #[serde(default)]
-    places: Vec<String>,
-    /// Whether the absorbers may share their mass otherwise, as much as it is together; false unless given.
-    #[schemars(example = true)]
-    #[serde(default)]
-    split_mass: bool,
 }
 
 /// Tables of such a file.
@@ -421,35 +383,6 @@ fn read_mode(
     Some((mode, (span, shape)))
 }
 
-/// The place of a name, which stands there in the text; the only one where none is given.
-fn find_place(
-    reader: &mut Reader,
-    span: Range<usize>,
-    name: Option<&str>,
-    places: &[String],
-) -> Option<usize> {
-    let known: Vec<&str> = places.iter().map(String::as_str).collect();
-    let quoted: Vec<String> = places.iter().map(|name| format!("\"{name}\"")).collect();
-    let message = match name {
-        None if places.len() == 1 => return Some(0),
-        None => "`place` is missing".to_owned(),
-        Some(name) => match known.iter().position(|known| *known == name) {
-            Some(found) => return Some(found),
-            None => format!("\"{name}\" is a place at which no mode has a shape"),
-        },
-    };
-    if places.is_empty() {
-        // Said of the modes.
-        return None;
-    }
-    let help = match name.and_then(|name| nearest(name, &known)) {
-        Some(near) => format!("did you mean \"{near}\"?"),
-        None => format!("write place = {}", quoted[0]),
-    };
-    reader.report(span, message, format!("expected {}", or(&quoted)), help);
-    None
-}
-
 fn read_load(
     reader: &mut Reader,
     table: &Table,
@@ -523,82 +456,4 @@ fn read_load(
         }
     };
     Some(Load { on, amplitude: read.amplitude, range_hz })
-}
-
-fn read_bounds(reader: &mut Reader, root: &Table, places: &[String]) -> Bounds {
-    let Some((table, read)) = reader.optional::<ModalOptimizeTable>(root, "optimize") else {
-        return Bounds::default();
-    };
-    let span = table.span_of_value("places");
-    let of = |name: &String| find_place(reader, span.clone(), Some(name), places);
-    let mut at: Vec<usize> = read.places.iter().filter_map(of).collect();
-    at.sort_unstable();
-    at.dedup();
-    Bounds {
-        clearance_m: read.clearance,
-        restitution: read.restitution,
-        places: at,
-        split_mass: read.split_mass,
-    }
-}
-
-/// Limits: a text, a table, or a list of tables.
-fn read_criteria(reader: &mut Reader, root: &Table, places: &[String]) -> Vec<PlaceCriterion> {
-    const KEY: &str = "peak_displacement";
-    let Some(table) = reader.table::<ModalCriteriaTable>(root, "criteria") else {
-        return Vec::new();
-    };
-    let Some(value) = table.value(KEY) else { return Vec::new() };
-    let mut found = Vec::new();
-    let each: Vec<&Spanned<DeValue>> = match value.get_ref() {
-        DeValue::Array(all) => all.iter().collect(),
-        _ => vec![value],
-    };
-    for one in each {
-        let (limit, place) = match one.get_ref() {
-            DeValue::Table(entries) => (entries.get("limit"), entries.get("place")),
-            _ => (Some(one), None),
-        };
-        let place = match place {
-            None => Some(None),
-            Some(value) => {
-                let name = value.get_ref().as_str().unwrap_or_default();
-                find_place(reader, value.span(), Some(name), places).map(Some)
-            }
-        };
-        let text = limit.and_then(|value| Some((value, value.get_ref().as_str()?)));
-        let sign = text.and_then(|(_, text)| sign_of(text, &["<=", "≤"]));
-        let (Some((value, _)), Some(sign)) = (text, sign) else {
-            let help = "write peak_displacement = \"<= 4 mm\", or { limit = \"<= 4 mm\", place = \"tip\" }";
-            reader.report(
-                one.span(),
-                "a limit of `peak_displacement` is not written as one",
-                "expected \"<=\" and a length, in quotes",
-                help,
-            );
-            continue;
-        };
-        let place_of = ValuePlace {
-            table: "criteria",
-            key: KEY,
-            subject: format!("`{KEY}`"),
-            line: format!("{KEY} = \"<= 4 mm\""),
-            value,
-            sign,
-            alone: false,
-        };
-        let form = Form::free(Some(Dimension::Length), "<= 4 mm", "");
-        let as_written = reader.as_written(value.span());
-        let limit = reader.number(&place_of, &form);
-        let Some((limit, place)) = limit.zip(place) else { continue };
-        if let Err(problem) = possible(limit, &as_written, Dimension::Length) {
-            let help = format!("write for example {}", place_of.line);
-            reader.refuse(&place_of, &problem, "expected a length above 0".to_owned(), help);
-            continue;
-        }
-        let criterion = Criterion::at_most(Measure::Peak, limit);
-        let criterion = criterion.map(|one| Criterion { as_written, ..one });
-        found.extend(criterion.map(|criterion| PlaceCriterion { place, criterion }));
-    }
-    found
 }
