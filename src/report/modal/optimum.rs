@@ -40,7 +40,7 @@ fn bounds(case: &ModalCase) -> Value {
     json!({
         "clearances": clearances.collect::<Vec<_>>(),
         "common": clearance_m.is_some() || case.absorbers.len() == 1,
-        "restitution": restitution,
+        "restitution": restitution.map(|both| both.map(|bound| given(&of::RESTITUTION, bound))),
         "places": names.collect::<Vec<_>>(),
         "split_mass": split_mass,
     })
