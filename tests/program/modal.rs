@@ -334,3 +334,27 @@ fn modes_may_be_in_a_file() {
     let both = named.replace("[[absorber]]", "[[mode]]\nfrequency = \"1 Hz\"\n\n[[absorber]]");
     assert!(wrong(&both).contains("both say which modes there are"), "{}", wrong(&both));
 }
+
+/// Two limits of one name are told by their places: a comparison pairs each with its own.
+#[test]
+fn criteria_are_told_by_their_places() {
+    let case = "title = 't'\nsource = 's'\n[[mode]]\nfrequency = \"5 Hz\"\ndamping_ratio = 0.02\nmass = \"10 kg\"\n\
+                shape = { top = 2.0, foot = 0.5 }\n[[absorber]]\nplace = \"top\"\nmass = \"0.1 kg\"\n\
+                clearance = \"50 mm\"\nrestitution = 0.5\n[excitation]\nkind = \"force\"\nplace = \"top\"\n\
+                amplitude = \"1 N\"\nfrequency = \"5 Hz\"\n[criteria]\npeak_displacement = [{ limit = \"<= 30 mm\", \
+                place = \"top\" }, { limit = \"<= LIMIT\", place = \"foot\" }]\n";
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("UTF-8").to_owned();
+    for (out, limit) in [("old", "20 mm"), ("new", "1 mm")] {
+        fs::write(path("case.toml"), case.replace("LIMIT", limit)).expect("written");
+        let output = vinesink(&["report", &path("case.toml"), "--out", &path(out)]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    let page = text(&path("new/case/report.md"));
+    assert!(page.contains("| peak displacement at top | holds"), "{page}");
+    assert!(page.contains("| peak displacement at foot | fails"), "{page}");
+    let told = vinesink(&["diff", &path("old/case"), &path("new/case")]);
+    let told = String::from_utf8_lossy(&told.stdout).into_owned();
+    assert!(told.contains("peak displacement at foot") && told.contains("**flipped**"), "{told}");
+    assert!(!told.contains("peak displacement at top"), "{told}");
+}
