@@ -356,5 +356,6 @@ fn criteria_are_told_by_their_places() {
     let told = vinesink(&["diff", &path("old/case"), &path("new/case")]);
     let told = String::from_utf8_lossy(&told.stdout).into_owned();
     assert!(told.contains("peak displacement at foot") && told.contains("**flipped**"), "{told}");
+    assert!(told.contains("≤ 20 mm, now ≤ 1 mm"), "{told}");
     assert!(!told.contains("peak displacement at top"), "{told}");
 }
