@@ -1,33 +1,30 @@
-//! Many trajectories at a time, sixteen side by side: [`run`].
+//! Many trajectories at a time, eight side by side: [`run`].
 //!
 //! Each lane flies its own trajectory of its own system by the formulas of `phasor`, in the
-//! same order and with the same rounding as [`Simulation::run`], so that the bits agree. Panels are
-//! flown in step; a lane that has come to an event waits until enough others have, and the events are
-//! dealt with together. What is rare or short, a panel in doubt, a chattering sequence and the
+//! same order and with the same rounding as [`Simulation::run`], so that the bits agree. All lanes fly one piece of flight
+//! in a round; none waits for another. What is rare, a panel in doubt, the end of a chattering sequence and the
 //! sustained contact after it, an oscillator that does not ring, a cavity that is not ideal, is left
 //! to [`Simulation`] itself.
 
-mod events;
+mod piece;
 mod queue;
 
 use std::borrow::BorrowMut;
+use std::f64::consts::TAU;
 
 use fearless_simd::{Level, Simd, dispatch};
 
+use self::piece::PieceEnds;
 use self::queue::{Queue, Trajectory};
-use super::certificate::Hull;
+use super::contact::rebound;
 use super::events::{Detail, Observer, Side};
 use super::panels::Limits;
-use super::path::{Path, StraightLine};
-use super::phasor::{FlightState, Rates, Slack, Steady};
-use super::run::{Moment, Simulation, Stop};
-use super::walls::{self, Sticking};
+use super::path::StraightLine;
+use super::phasor::{Rates, Steady};
+use super::run::{Moment, Simulation, Stand, Stop};
+use super::walls::Sticking;
 use crate::numerics::lanes::{LANES, Real, Wide, WideMask};
 use crate::system::State;
-
-/// Lanes that wait at an event before the events are dealt with: fewer would repeat that costly part
-/// too often, more would let too many lanes idle. Measured.
-const ENOUGH: u32 = 13;
 
 /// How far a trajectory goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,8 +125,9 @@ struct Lanes<S: Simd> {
     simd: S,
     /// Which task each lane flies; none where the queue has run dry.
     task: [Option<usize>; LANES],
-    /// Lanes whose observers need to be told of something.
+    /// Lanes whose observers need to be told of something, and up to where they were told.
     observed: u64,
+    told: [Moment; LANES],
     rates: Rates<Wide<S>>,
     mass_ratio: Wide<S>,
     restitution: Wide<S>,
@@ -140,18 +138,18 @@ struct Lanes<S: Simd> {
     line: StraightLine<Wide<S>>,
     phase: Wide<S>,
     steady: Steady<Wide<S>>,
-    /// Time from there until the period is over.
-    left: Wide<S>,
-    /// The panel under way, the time from the flight's beginning to its own, and the panels before it.
-    here: FlightState<Wide<S>>,
-    slack: Slack<Wide<S>>,
-    time: Wide<S>,
-    panels: Wide<S>,
     turns: Wide<S>,
     impacts: Wide<S>,
     evaluations: Wide<S>,
+    /// Whole periods after which the steady motion is taken from the phase.
+    renewal: Wide<S>,
     last_turn: Wide<S>,
     last_impact: Wide<S>,
+}
+
+/// Lanes, one bit for each.
+fn lanes(bits: u64) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
 }
 
 impl<S: Simd> Lanes<S> {
@@ -159,12 +157,21 @@ impl<S: Simd> Lanes<S> {
     fn new(simd: S) -> Self {
         let zero = Wide::splat(simd, 0.0);
         let one = Wide::splat(simd, 1.0);
-        let steady = Steady { x: zero, v: zero };
-        let here = FlightState { z: [zero; 2], steady, a: zero, gap: zero, slope: one };
+        let steady = Steady { x: 0.0, v: 0.0 };
+        let nowhere = Moment {
+            state: State::AT_REST,
+            steady,
+            phase: 0.0,
+            sense: 0.0,
+            turns: 0,
+            impacts: 0,
+            evaluations: 0,
+        };
         Self {
             simd,
             task: [None; LANES],
             observed: 0,
+            told: [nowhere; LANES],
             rates: Rates::gathered(|_| one),
             mass_ratio: zero,
             restitution: zero,
@@ -179,15 +186,11 @@ impl<S: Simd> Lanes<S> {
             v: zero,
             line: StraightLine { y: zero, velocity: zero },
             phase: zero,
-            steady,
-            left: zero,
-            here,
-            slack: Slack { coefficient: zero, slope_squared: zero },
-            time: zero,
-            panels: zero,
+            steady: Steady { x: zero, v: zero },
             turns: zero,
             impacts: zero,
             evaluations: zero,
+            renewal: zero,
             last_turn: zero,
             last_impact: zero,
         }
@@ -197,103 +200,148 @@ impl<S: Simd> Lanes<S> {
     fn run(mut self, queue: &mut Queue<'_>) {
         self.simd.vectorize(
             #[inline(always)]
-            || self.fly_all(queue),
+            || {
+                let mut active = 0;
+                for lane in 0..LANES {
+                    active |= u64::from(self.next_task(lane, queue)) << lane;
+                }
+                while active != 0 {
+                    active = self.round(active, queue);
+                }
+            },
         );
     }
 
+    /// One piece of flight in some lanes, and what it ends with; those that fly on.
     #[inline(always)]
-    fn fly_all(&mut self, queue: &mut Queue<'_>) {
-        let mut fresh = 0;
-        for lane in 0..LANES {
-            if self.next_task(lane, queue) {
-                fresh |= 1 << lane;
-            }
-        }
-        let mut active = 0;
-        loop {
-            active |= self.begin(fresh, queue);
-            if active == 0 {
-                return;
-            }
-            let PanelFlight { flying, clear, there } = self.fly_panels(active);
-            let resumed;
-            (fresh, resumed) = self.deal_with(active & !flying, clear, there, queue);
-            active = flying | resumed;
-        }
-    }
+    fn round(&mut self, active: u64, queue: &mut Queue<'_>) -> u64 {
+        let PieceEnds { good, impact, time, x, v, y, steady, wall, evaluations } =
+            self.pieces(WideMask::from_bits(self.simd, active));
+        let left = self.rates.left(self.phase);
+        let phase = self.phase + self.rates.frequency * time;
+        let over = good & left.less(time);
+        let since = (phase - TAU).larger(phase.like(0.0));
+        let phase = Wide::choose(over, since, phase);
+        let turns = Wide::choose(over, self.turns + 1.0, self.turns);
+        let evaluations = self.evaluations + evaluations;
 
-    /// Begins the flights of some lanes; those that do begin.
-    #[inline(always)]
-    fn begin(&mut self, lanes: u64, queue: &mut Queue<'_>) -> u64 {
-        let (mut fresh, mut begun) = (lanes, 0);
-        while fresh != 0 {
-            let (here, slack) = self.rates.begin(self.x, self.v, self.steady, self.line);
-            let blocked = walls::blocked(self.x, self.v, self.line) | self.rates.short(&here);
-            let blocked = blocked.bits() & fresh;
-            let mask = WideMask::from_bits(self.simd, fresh & !blocked);
-            self.here = FlightState::choose(mask, &here, &self.here);
-            self.slack = tightened(mask, &slack, &self.slack);
-            let zero = self.x.like(0.0);
-            self.time = Wide::choose(mask, zero, self.time);
-            self.left = Wide::choose(mask, self.rates.left(self.phase), self.left);
-            self.panels = Wide::choose(mask, zero, self.panels);
-            begun |= fresh & !blocked;
-            fresh = self.alone(blocked, queue);
-        }
-        begun
-    }
-
-    /// Lets some lanes' trajectories go on alone, from where their flight began, or take the next in
-    /// the queue; those that fly again.
-    fn alone(&mut self, lanes: u64, queue: &mut Queue<'_>) -> u64 {
-        let mut again = 0;
-        for lane in (0..LANES).filter(|lane| lanes >> lane & 1 == 1) {
+        let limit = (over & self.last_turn.at_most(turns)).bits();
+        let stop = self.end_periods(over.bits(), limit, queue);
+        let told = impact.bits() & self.observed & !stop;
+        for lane in lanes(told) {
+            let mut end = self.moment(lane);
+            end.phase = phase[lane];
+            end.turns = turns[lane] as u64;
+            let before = State {
+                x: x[lane],
+                x_velocity: v[lane],
+                y: y[lane],
+                y_velocity: self.line.velocity[lane],
+            };
             let Some(index) = self.task[lane] else { continue };
-            queue.tasks[index].simulation.resume(&self.moment(lane));
-            if self.step(lane, true, queue) {
-                again |= 1 << lane;
+            let Trajectory { simulation, observer, detail, .. } = &mut queue.tasks[index];
+            let wall = Side::of(wall[lane]);
+            simulation.tell_impact(&self.told[lane], &end, wall, before, *observer, *detail);
+        }
+
+        let after = rebound(self.mass_ratio, self.restitution, v, self.line.velocity);
+        let follows = self.restitution.at_most(x.like(0.0));
+        let follows = Wide::choose(follows, after.x_velocity, after.y_velocity);
+        self.x = Wide::choose(good, x, self.x);
+        self.v = Wide::choose(good, Wide::choose(impact, after.x_velocity, v), self.v);
+        self.line.y = Wide::choose(good, Wide::choose(impact, x - wall, y), self.line.y);
+        self.line.velocity = Wide::choose(impact, follows, self.line.velocity);
+        self.phase = Wide::choose(good, phase, self.phase);
+        self.steady.x = Wide::choose(good, steady.x, self.steady.x);
+        self.steady.v = Wide::choose(good, steady.v, self.steady.v);
+        self.evaluations = Wide::choose(good, evaluations, self.evaluations);
+        self.turns = turns;
+        self.impacts = Wide::choose(impact, self.impacts + 1.0, self.impacts);
+        for lane in lanes((over & self.renewal.at_most(turns)).bits()) {
+            self.renew(lane, queue);
+        }
+        for lane in lanes(told) {
+            self.told[lane] = self.moment(lane);
+        }
+
+        let stuck = impact & self.sticking.possible(self.x, self.v, self.line, wall);
+        let through = self.last_impact.at_most(self.impacts);
+        let special = (stuck | (impact & through)).bits() & !stop;
+        let doubt = active & !good.bits();
+        let mut again = active & !(doubt | special | stop);
+        if doubt | special | stop != 0 {
+            for lane in lanes(doubt | special | stop) {
+                let flies = match stop >> lane & 1 == 1 {
+                    true => self.next_task(lane, queue),
+                    false => {
+                        let stuck = (stuck.bits() >> lane & 1 == 1).then(|| Side::of(wall[lane]));
+                        self.alone(lane, doubt >> lane & 1 == 1, stuck, queue)
+                    }
+                };
+                again |= u64::from(flies) << lane;
             }
         }
         again
     }
 
-    /// After its trajectory was set to where it stands; whether the lane flies again.
-    fn step(&mut self, lane: usize, doubt: bool, queue: &mut Queue<'_>) -> bool {
+    /// Ends the periods of some lanes, for those who are to be told; those that stop there.
+    #[inline(always)]
+    fn end_periods(&mut self, over: u64, limit: u64, queue: &mut Queue<'_>) -> u64 {
+        for lane in lanes(over & (limit | self.observed)) {
+            let begun = self.moment(lane);
+            let Some(index) = self.task[lane] else { continue };
+            let Trajectory { simulation, observer, detail, stop, .. } = &mut queue.tasks[index];
+            let told = &mut self.told[lane];
+            if told.turns <= begun.turns {
+                *told = simulation.tell_period(told, &begun, *observer, *detail);
+            }
+            if limit >> lane & 1 == 1 {
+                simulation.resume(Stand { at: *told, under_way: Some(begun) });
+                *stop = Some(Stop::EndTime);
+            }
+        }
+        limit
+    }
+
+    /// Takes the steady motion of a lane from its phase.
+    fn renew(&mut self, lane: usize, queue: &Queue<'_>) {
+        let rates = self.task[lane].and_then(|index| queue.tasks[index].simulation.rates);
+        let Some(rates) = rates else { return };
+        let Steady { x, v } = rates.steady(self.phase[lane]);
+        (self.steady.x[lane], self.steady.v[lane]) = (x, v);
+        self.renewal[lane] = self.turns[lane] + rates.renewal;
+    }
+
+    /// Lets a lane's trajectory go on alone from where its flight began, or take the next in the queue; whether the lane
+    /// flies again.
+    fn alone(
+        &mut self,
+        lane: usize,
+        doubt: bool,
+        stuck: Option<Side>,
+        queue: &mut Queue<'_>,
+    ) -> bool {
         let Some(index) = self.task[lane] else { return false };
-        match queue.tasks[index].alone(doubt) {
-            Some(moment) => {
-                self.depart(lane, &moment);
+        let task = &mut queue.tasks[index];
+        let (told, at) = (self.told[lane], self.moment(lane));
+        let stand = if !doubt {
+            Stand::new(at)
+        } else if at.turns < told.turns {
+            // A flight that went on from the end of a period.
+            Stand { at: told, under_way: Some(at) }
+        } else {
+            task.simulation.in_doubt(&told, at, task.observer)
+        };
+        task.simulation.resume(stand);
+        if let Some(side) = stuck {
+            task.simulation.perhaps_stick(side, task.observer);
+        }
+        match task.alone(doubt) {
+            Some(departure) => {
+                self.depart(lane, &departure);
                 true
             }
             None => self.next_task(lane, queue),
-        }
-    }
-
-    /// Flies until enough lanes wait at an event.
-    #[inline(always)]
-    fn fly_panels(&mut self, active: u64) -> PanelFlight<S> {
-        let all = active.count_ones();
-        let enough = ENOUGH.min(all);
-        let Self { simd, rates, line, slack, left, .. } = *self;
-        let Self { mut here, mut time, mut panels, .. } = *self;
-        let mut flying = WideMask::from_bits(simd, active);
-        let mut ended = WideMask::from_bits(simd, 0);
-        loop {
-            let reach = time + rates.step;
-            let there = rates.next(&here, line.from(reach));
-            let clear = Hull::of(&here, &there, rates.step, &slack).clear();
-            let over = left.at_most(reach);
-            ended = ended | flying & clear & over;
-            flying = flying & clear & !over;
-            if flying.bits().count_ones() + enough <= all {
-                (self.here, self.time) =
-                    (FlightState::choose(flying, &there, &here), Wide::choose(flying, reach, time));
-                self.panels = Wide::choose(flying, panels + 1.0, panels);
-                return PanelFlight { flying: flying.bits(), clear: ended.bits(), there };
-            }
-            here = FlightState::choose(flying, &there, &here);
-            time = Wide::choose(flying, reach, time);
-            panels = Wide::choose(flying, panels + 1.0, panels);
         }
     }
 
@@ -365,7 +413,9 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// Sets where a trajectory stands.
-    fn depart(&mut self, lane: usize, departure: &Moment) {
+    fn depart(&mut self, lane: usize, stand: &Stand) {
+        self.told[lane] = stand.at;
+        let departure = stand.flight();
         let State { x, x_velocity, y, y_velocity } = departure.state;
         self.x[lane] = x;
         self.v[lane] = x_velocity;
@@ -377,29 +427,8 @@ impl<S: Simd> Lanes<S> {
         self.turns[lane] = departure.turns as f64;
         self.impacts[lane] = departure.impacts as f64;
         self.evaluations[lane] = departure.evaluations as f64;
-    }
-}
-
-/// What flying through panels comes to.
-struct PanelFlight<S: Simd> {
-    /// The lanes that fly on.
-    flying: u64,
-    /// Those of the others that wait because their period ends in a panel without impact.
-    clear: u64,
-    /// The ends of the panels in which those others wait.
-    there: FlightState<Wide<S>>,
-}
-
-/// The slack of some lanes replaced.
-#[inline(always)]
-fn tightened<S: Simd>(
-    lanes: WideMask<S>,
-    new: &Slack<Wide<S>>,
-    old: &Slack<Wide<S>>,
-) -> Slack<Wide<S>> {
-    Slack {
-        coefficient: Wide::choose(lanes, new.coefficient, old.coefficient),
-        slope_squared: Wide::choose(lanes, new.slope_squared, old.slope_squared),
+        let renewal = self.rates.renewal[lane];
+        self.renewal[lane] = ((self.turns[lane] / renewal).floor() + 1.0) * renewal;
     }
 }
 

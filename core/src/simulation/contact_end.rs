@@ -21,7 +21,7 @@ impl Simulation {
     /// When the wall on `side` lets go, within a time; none where nothing is proven.
     pub(super) fn contact_ends(&self, side: Side, left: f64) -> Option<Search> {
         let rates = self.towing.filter(|_| self.rates.is_some())?;
-        let (state, steady) = (&self.at.state, rates.steady(self.at.phase));
+        let (state, steady) = (&self.stand.at.state, rates.steady(self.stand.at.phase));
         let (x, v) = (state.x - self.sliding.rest_in_tow() - steady.x, state.x_velocity - steady.v);
         let acceleration = -(rates.twice_decay * v) - rates.stiffness * x;
         let jerk = -(rates.twice_decay * acceleration) - rates.stiffness * v;
@@ -38,19 +38,24 @@ impl Simulation {
         // It meets the other side's wall.
         let y = gravity * scale + side.sign();
         let path = StraightLine { y, velocity: 0.0 };
-        let (here, slack) =
-            rates.begin(acceleration * scale + steady.x, jerk * scale + steady.v, steady, path);
-        let flight = Flight { course: Straight, sense: 0.0, path, left };
-        let mut evaluations = 0;
-        let landing =
-            dispatch!(self.level, simd => rates.fly(simd, here, slack, &flight, &mut evaluations))?;
-        let evaluations = u32::try_from(evaluations).unwrap_or(u32::MAX);
-        Some(match landing.end {
-            Ending::Wall(_) => {
-                Search::Crossed(Crossing { time: landing.time, edge: Edge::Lower, evaluations })
+        let (mut x, mut v) = (acceleration * scale + steady.x, jerk * scale + steady.v);
+        let (mut steady, mut time, mut evaluations) = (steady, 0.0, 0);
+        loop {
+            let (here, slack) = rates.begin(x, v, steady, path);
+            let flight = Flight { course: Straight, sense: 0.0, path };
+            let landing = dispatch!(self.level, simd => {
+                rates.fly(simd, here, slack, &flight, &mut evaluations)
+            })?;
+            time += landing.time;
+            let evaluations = u32::try_from(evaluations).unwrap_or(u32::MAX);
+            if left <= time {
+                return Some(Search::Clear { evaluations });
             }
-            _ => Search::Clear { evaluations },
-        })
+            if let Ending::Wall(_) = landing.end {
+                return Some(Search::Crossed(Crossing { time, edge: Edge::Lower, evaluations }));
+            }
+            (x, v, steady) = (landing.x, landing.v, landing.steady);
+        }
     }
 }
 

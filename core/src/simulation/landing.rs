@@ -1,4 +1,4 @@
-//! Where a flight ends: panel by panel until one may hold an event, and there by halving, up to what is proven.
+//! Where a piece of flight ends: panel by panel until one may hold an event, and there by halving, up to what is proven.
 
 use fearless_simd::Simd;
 
@@ -12,21 +12,23 @@ use crate::numerics::lanes::Real;
 
 /// Part of a panel below which it is not halved further: the slow search takes over.
 const SHORTEST: f64 = 1e-3;
+/// Most panels in a piece: the excitation turns by less than a period in one.
+pub(super) const PANELS: u32 = 7;
 /// Corrections of a root before the slow search takes over; from the quintic's root one suffices.
 pub(super) const CORRECTIONS: u32 = 6;
 
-/// What a flight ends with.
+/// What a piece of flight ends with.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Ending {
     /// An impact on this wall.
     Wall(Side),
     /// The end of sliding.
     Turn,
-    /// The end of the period.
-    Period,
+    /// Nothing: the flight goes on.
+    Midair,
 }
 
-/// Where a flight ends.
+/// Where a piece of flight ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Landing {
     pub end: Ending,
@@ -38,7 +40,7 @@ pub(super) struct Landing {
 }
 
 impl Rates<f64> {
-    /// Flies to the first impact or the end of the period; none where nothing is proven.
+    /// Flies to the first event, or as far as a piece reaches; none where nothing is proven.
     /// Evaluations of the motion are added to `evaluations`.
     #[inline(always)]
     pub(super) fn fly<S: Simd, C: CavityFlight>(
@@ -49,56 +51,33 @@ impl Rates<f64> {
         flight: &Flight<C>,
         evaluations: &mut u64,
     ) -> Option<Landing> {
-        let Flight { course, sense, path, left } = *flight;
+        let Flight { course, sense, path } = *flight;
         let mut time = 0.0;
-        loop {
-            // The panels until one may hold an event.
-            let there = loop {
-                let reach = time + self.step;
-                let there = self.next(&here, path.from(reach));
-                *evaluations += 1;
-                let hull = Hull::of(&here, &there, self.step, &slack);
-                if !(hull.clear() && course.one_way(sense, &hull, [&here, &there])) {
-                    break there;
+        for _ in 0..PANELS {
+            let reach = time + self.step;
+            let there = self.next(&here, path.from(reach));
+            *evaluations += 1;
+            let hull = Hull::of(&here, &there, self.step, &slack);
+            if !(hull.clear() && course.one_way(sense, &hull, [&here, &there])) {
+                let mut panel = FlightPanel { here, there, time, length: self.step, slack };
+                if let Some(length) = course.reach(sense, &here, self.step) {
+                    let there = self.moment(simd, &here, length, path.from(time));
+                    let slack = slack.part(length / self.step);
+                    panel = FlightPanel { there, length, slack, ..panel };
+                    *evaluations += 1;
                 }
-                if left <= reach {
-                    return Some(self.ended(simd, &here, time, path, left, evaluations));
-                }
-                (here, time) = (there, reach);
-            };
-            let mut panel = FlightPanel { here, there, time, length: self.step, slack };
-            if let Some(length) = course.reach(sense, &here, self.step) {
-                let there = self.moment(simd, &here, length, path.from(time));
-                let slack = slack.part(length / self.step);
-                panel = FlightPanel { there, length, slack, ..panel };
-                *evaluations += 1;
+                return self.look_into(simd, &panel, flight, evaluations);
             }
-            match self.look_into(simd, &panel, flight, evaluations)? {
-                PanelFinding::Landing(landing) => return Some(landing),
-                PanelFinding::Nothing { until, there } => (here, time) = (there, until),
-            }
+            (here, time) = (there, reach);
         }
+        Some(self.midair(&here, time))
     }
 
-    /// Where a flight ends that the end of the period, in the panel at `time`, comes before.
-    #[inline(never)]
-    fn ended<S: Simd>(
-        &self,
-        simd: S,
-        here: &FlightState<f64>,
-        time: f64,
-        path: impl Path<f64>,
-        left: f64,
-        evaluations: &mut u64,
-    ) -> Landing {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                *evaluations += 1;
-                let (x, v) = self.oscillator(&self.after(simd, here, left - time, path.from(time)));
-                Landing { end: Ending::Period, time: left, x, v, steady: self.origin }
-            },
-        )
+    /// A piece that ends without an event.
+    #[inline(always)]
+    fn midair(&self, at: &FlightState<f64>, time: f64) -> Landing {
+        let (x, v) = self.oscillator(at);
+        Landing { end: Ending::Midair, time, x, v, steady: at.steady }
     }
 
     /// Looks for an event in a panel that is not proven to be clear, or in the first part of it about
@@ -110,10 +89,10 @@ impl Rates<f64> {
         panel: &FlightPanel,
         flight: &Flight<C>,
         evaluations: &mut u64,
-    ) -> Option<PanelFinding> {
+    ) -> Option<Landing> {
         let FlightPanel { here, mut there, time, mut length, mut slack } = *panel;
-        let Flight { course, sense, path, left } = *flight;
-        let (path_here, rest) = (path.from(time), left - time);
+        let Flight { course, sense, path } = *flight;
+        let path_here = path.from(time);
         let shortest = SHORTEST * length;
         let mut hull = Hull::of(&here, &there, length, &slack);
         // The first part of a panel may be.
@@ -125,38 +104,18 @@ impl Rates<f64> {
             if one_way && hull.meets(side.sign()) {
                 let guess = Self::guess(&here, &there, length, side.sign(), true);
                 let guess = guess.larger(0.0).smaller(length);
-                if rest < guess {
-                    *evaluations += 1;
-                    let at = self.moment(simd, &here, rest, path_here);
-                    if slack.before(&at, side.sign()) {
-                        let (x, v) = self.oscillator(&at);
-                        let end =
-                            Landing { end: Ending::Period, time: left, x, v, steady: self.origin };
-                        return Some(PanelFinding::Landing(end));
-                    }
-                }
                 let guess = Guess { time: guess, length, side, path: path_here };
                 if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
-                    if rest < found.time {
-                        break;
-                    }
                     let Corrected { x, v, steady, .. } = found;
                     let time = time + found.time;
-                    let impact = Landing { end: Ending::Wall(side), time, x, v, steady };
-                    return Some(PanelFinding::Landing(impact));
+                    return Some(Landing { end: Ending::Wall(side), time, x, v, steady });
                 }
             }
             let ends = [&here, &there];
             if !one_way && hull.clear() && course.turns(sense, &hull, ends) {
                 let found = self.turn(simd, ends, length, path_here, &slack, evaluations);
                 if let Some(found) = found {
-                    if rest < found.time {
-                        break;
-                    }
-                    return Some(PanelFinding::Landing(Landing {
-                        time: time + found.time,
-                        ..found
-                    }));
+                    return Some(Landing { time: time + found.time, ..found });
                 }
             }
             if length < shortest {
@@ -168,12 +127,7 @@ impl Rates<f64> {
             hull = Hull::of(&here, &there, length, &slack);
             clear = hull.clear() && course.one_way(sense, &hull, [&here, &there]);
         }
-        let until = time + length;
-        if left <= until {
-            let end = self.ended(simd, &here, time, path, left, evaluations);
-            return Some(PanelFinding::Landing(end));
-        }
-        Some(PanelFinding::Nothing { until, there })
+        Some(self.midair(&there, time + length))
     }
 
     /// When sliding ends in a panel in which it is proven to; none where the moment is not sharp.
@@ -262,16 +216,6 @@ pub(super) struct Flight<C: CavityFlight> {
     /// Sign of `x' - y'`, where it has to stay.
     pub sense: f64,
     pub path: C::Path,
-    /// Time from its beginning until the period is over.
-    pub left: f64,
-}
-
-/// What is found in a panel.
-enum PanelFinding {
-    /// The flight's end.
-    Landing(Landing),
-    /// No impact until a moment.
-    Nothing { until: f64, there: FlightState<f64> },
 }
 
 /// Roughly when and where a flight ends in a panel.

@@ -1,6 +1,8 @@
 //! The flights of one trajectory, panel by panel: see [`super::phasor`] for the
 //! formulas and [`super::certificate`] for the proof.
 
+use std::f64::consts::TAU;
+
 use fearless_simd::{Simd, dispatch};
 
 use super::contact::rebound;
@@ -8,7 +10,7 @@ use super::events::{Detail, Observer, Side};
 use super::landing::{Ending, Flight, Landing};
 use super::path::{Path, StraightLine};
 use super::phasor::Rates;
-use super::run::{Moment, Simulation, Stop};
+use super::run::{Moment, Simulation, Stand, Stop};
 use super::sliding::{CavityFlight, Straight};
 use super::walls::{self, Sticking};
 use crate::system::State;
@@ -40,10 +42,6 @@ impl Limits {
             None
         }
     }
-
-    fn reached(&self, at: &Moment) -> bool {
-        self.turns <= at.turns || self.impacts <= at.impacts
-    }
 }
 
 /// Why flights ended.
@@ -53,8 +51,6 @@ pub(super) enum FlightEnd {
     Limit,
     /// Nothing is proven about the next flight: the slow search must fly it.
     Doubt,
-    /// The next flight is a short return to its wall.
-    Return,
     /// The last impact, on this wall, may be the end of a chattering sequence.
     MayStick(Side),
     /// The absorber has ceased to slide, and friction may hold it.
@@ -62,41 +58,34 @@ pub(super) enum FlightEnd {
 }
 
 impl Simulation {
-    /// Flies from event to event: by panels, or as long as flights are short returns.
-    pub(super) fn fly(
-        &mut self,
-        short_returns: bool,
-        limits: Limits,
-        observer: &mut dyn Observer,
-    ) -> FlightEnd {
+    /// Flies from event to event.
+    pub(super) fn fly(&mut self, limits: Limits, observer: &mut dyn Observer) -> FlightEnd {
         let Some(rates) = self.rates else { return FlightEnd::Doubt };
         let (level, sliding) = (self.level, self.sliding);
-        let (moment, end) = if short_returns {
-            // A straight line is a parabola too, with the same bits.
-            dispatch!(level, simd => self.fly_by::<_, _, true>(simd, sliding, &rates, limits, observer))
-        } else if sliding.straight {
-            dispatch!(level, simd => self.fly_by::<_, _, false>(simd, Straight, &rates, limits, observer))
+        let end;
+        (self.stand, end) = if sliding.straight {
+            dispatch!(level, simd => self.fly_by(simd, Straight, &rates, limits, observer))
         } else {
-            dispatch!(level, simd => self.fly_by::<_, _, false>(simd, sliding, &rates, limits, observer))
+            dispatch!(level, simd => self.fly_by(simd, sliding, &rates, limits, observer))
         };
-        self.at = moment;
         end
     }
 
     /// By the instructions that `simd` stands for.
     #[inline(always)]
-    fn fly_by<S: Simd, C: CavityFlight, const RETURNS: bool>(
+    fn fly_by<S: Simd, C: CavityFlight>(
         &self,
         simd: S,
         course: C,
         rates: &Rates<f64>,
         limits: Limits,
         observer: &mut dyn Observer,
-    ) -> (Moment, FlightEnd) {
+    ) -> (Stand, FlightEnd) {
         let eps = self.system.mass_ratio();
         let sticking = [Side::Plus, Side::Minus].map(|side| Sticking::of(self, side));
         let detail = observer.detail();
-        let mut at = self.at;
+        let mut told = self.stand.at;
+        let mut at = self.stand.flight();
         // What has just been thrown back leaves its wall.
         let mut leaves = false;
         loop {
@@ -104,7 +93,7 @@ impl Simulation {
             let line = StraightLine { y, velocity: y_velocity };
             let released = !leaves && v == y_velocity && walls::touches(x, v, line);
             if !leaves && !released && walls::blocked(x, v, line) {
-                return (at, FlightEnd::Doubt);
+                return (self.in_doubt(&told, at, observer), FlightEnd::Doubt);
             }
             let (x, path) = course.depart(&at);
             let (mut here, slack) = rates.begin(x, v, steady, path);
@@ -112,80 +101,153 @@ impl Simulation {
                 // Of a gap that is rounded up nothing could be proven.
                 here.gap = here.gap.signum();
             }
-            let flight = Flight { course, sense, path, left: rates.left(at.phase) };
-            if course.short(rates, &here) != RETURNS {
-                return (at, if RETURNS { FlightEnd::Limit } else { FlightEnd::Return });
-            }
-            let landing = if RETURNS {
-                rates.short_return(simd, &here, path, flight.left, &mut at.evaluations)
+            let mut evaluations = at.evaluations;
+            let landing = if course.short(rates, &here) {
+                let returns = course.returns();
+                returns.then(|| rates.short_return(simd, &here, path, &mut evaluations)).flatten()
             } else {
-                rates.fly(simd, here, slack, &flight, &mut at.evaluations)
+                let flight = Flight { course, sense, path };
+                rates.fly(simd, here, slack, &flight, &mut evaluations)
             };
             let Some(landing) = landing else {
-                return (at, FlightEnd::Doubt);
+                at.evaluations = evaluations;
+                return (self.in_doubt(&told, at, observer), FlightEnd::Doubt);
             };
             let Landing { end, time, x, v, steady } = landing;
             let StraightLine { y, velocity: y_velocity } = path.from(time).line();
             let (x, y) = (course.arrive(sense, x), course.arrive(sense, y));
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
-                return (at, FlightEnd::Doubt);
+                return (self.in_doubt(&told, at, observer), FlightEnd::Doubt);
+            }
+            let begun = at;
+            at.phase += rates.frequency * time;
+            at.steady = steady;
+            at.evaluations = evaluations;
+            if rates.left(begun.phase) < time {
+                at.turns += 1;
+                at.phase = (at.phase - TAU).max(0.0);
+                if rates.renews(at.turns) {
+                    at.steady = rates.steady(at.phase);
+                }
+                let limit = limits.turns <= at.turns;
+                // A flight that stood there may go on from it.
+                if told.turns < at.turns && (limit || detail > Detail::Nothing) {
+                    told = self.tell_period(&told, &begun, observer, detail);
+                }
+                if limit {
+                    return (Stand { at: told, under_way: Some(begun) }, FlightEnd::Limit);
+                }
             }
             let before = State { x, x_velocity: v, y, y_velocity };
-            if detail > Detail::Nothing {
-                self.tell(at, landing, before, observer, detail);
+            if let Ending::Midair = end {
+                at.state = before;
+                leaves = false;
+                continue;
             }
-            at.steady = steady;
             if let Ending::Wall(side) = end {
-                at.phase += rates.frequency * time;
+                if detail > Detail::Nothing {
+                    self.tell_impact(&told, &at, side, before, observer, detail);
+                }
                 at.impacts += 1;
                 let after = rebound(eps, self.restitution(side), v, y_velocity);
                 at.state = self.rebounded(&before, side, &after);
                 at.sense = -side.sign();
+                told = at;
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
                 let line = StraightLine { y, velocity: y_velocity };
                 let sticking = &sticking[side.index()];
                 if sticking.possible(x, v, line, side.sign()) {
-                    return (at, FlightEnd::MayStick(side));
+                    return (Stand::new(at), FlightEnd::MayStick(side));
                 }
-            } else if let Ending::Turn = end {
-                (at.state, at.phase) = (before, at.phase + rates.frequency * time);
-                let acceleration = rates.acceleration(landing.x, v, steady);
-                if !self.slides_on(&mut at, acceleration, observer) {
-                    return (at, FlightEnd::Turned);
-                }
+                leaves = y_velocity != v;
             } else {
-                (at.state, at.phase, at.turns) = (before, 0.0, at.turns + 1);
+                at.state = before;
+                self.tell_flight(&told, &at, observer, detail);
+                let acceleration = rates.acceleration(landing.x, v, steady);
+                let slides = self.slides_on(&mut at, acceleration, observer);
+                told = at;
+                if !slides {
+                    return (Stand::new(at), FlightEnd::Turned);
+                }
+                leaves = false;
             }
-            leaves = matches!(end, Ending::Wall(_));
-            if limits.reached(&at) {
-                return (at, FlightEnd::Limit);
+            if limits.impacts <= at.impacts {
+                return (Stand::new(at), FlightEnd::Limit);
             }
         }
     }
 
-    /// Tells an observer of the flight from `at` and of what it ended with; apart from the flights themselves,
-    /// which it would slow down: it gets copies, so that these stay in registers.
+    /// Where a trajectory stands whose next piece of flight is in doubt; observers are told of those before.
     #[inline(never)]
-    fn tell(
+    pub(super) fn in_doubt(&self, told: &Moment, at: Moment, observer: &mut dyn Observer) -> Stand {
+        let detail = observer.detail();
+        self.tell_flight(told, &at, observer, detail);
+        Stand::new(at)
+    }
+
+    /// The end of the period in which a flight that lasts longer began.
+    fn period_end(&self, begun: &Moment) -> Moment {
+        let Some(rates) = self.rates else { return *begun };
+        let left = rates.left(begun.phase);
+        let (x, path) = self.sliding.depart(begun);
+        let (here, _) = rates.begin(x, begun.state.x_velocity, begun.steady, path);
+        let at = dispatch!(self.level, simd => rates.along(simd, here, path, left));
+        let (x, x_velocity) = rates.oscillator(&at);
+        let StraightLine { y, velocity: y_velocity } = path.from(left).line();
+        let [x, y] = [x, y].map(|seen| self.sliding.arrive(begun.sense, seen));
+        let state = State { x, x_velocity, y, y_velocity };
+        Moment { state, steady: rates.origin, phase: 0.0, turns: begun.turns + 1, ..*begun }
+    }
+
+    /// Tells an observer of the end of the period in which a flight began, and of the flight from where it was told last;
+    /// apart from the flights themselves, which it would slow down.
+    #[inline(never)]
+    pub(super) fn tell_period(
         &self,
-        at: Moment,
-        landing: Landing,
+        told: &Moment,
+        begun: &Moment,
+        observer: &mut dyn Observer,
+        detail: Detail,
+    ) -> Moment {
+        let end = self.period_end(begun);
+        self.tell_flight(told, &end, observer, detail);
+        if detail > Detail::Nothing {
+            observer.period(&end.state);
+        }
+        end
+    }
+
+    /// Tells of the flight from where it was told last.
+    fn tell_flight(
+        &self,
+        told: &Moment,
+        end: &Moment,
+        observer: &mut dyn Observer,
+        detail: Detail,
+    ) {
+        if detail == Detail::Flights {
+            let phase = end.phase + TAU * (end.turns - told.turns) as f64;
+            let duration = (phase - told.phase) / self.alone.frequency;
+            if duration > 0.0 {
+                observer.segment(&self.flown(told, duration));
+            }
+        }
+    }
+
+    /// Tells an observer of the flight from where it was told last to an impact.
+    #[inline(never)]
+    pub(super) fn tell_impact(
+        &self,
+        told: &Moment,
+        end: &Moment,
+        side: Side,
         before: State,
         observer: &mut dyn Observer,
         detail: Detail,
     ) {
-        let Landing { end, time, .. } = landing;
-        if time > 0.0 && detail == Detail::Flights {
-            observer.segment(&self.flown(&at, time));
-        }
-        let side = match end {
-            Ending::Wall(side) => side,
-            Ending::Turn => return,
-            Ending::Period => return observer.period(&before),
-        };
+        self.tell_flight(told, end, observer, detail);
         let (eps, r) = (self.system.mass_ratio(), self.restitution(side));
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
-        let when = (at.turns, at.phase + self.alone.frequency * time);
-        observer.impact(&self.impact(&before, side, &after, when));
+        observer.impact(&self.impact(&before, side, &after, (end.turns, end.phase)));
     }
 }

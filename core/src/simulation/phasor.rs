@@ -4,7 +4,7 @@
 //! A flight is divided into equal panels, from its beginning on. From one end of a panel to the other
 //! the free motion `Re z`, `z -> z e^{p h}`, and the steady motion are turned by constant factors, a
 //! complex product each; inside a panel both are reached by short series in small angles. What
-//! rounding adds to the steady motion is forgotten at the end of each period, where its value is known.
+//! rounding adds to the steady motion is forgotten every few periods, where it is taken from the phase.
 //! That no impact is stepped over is proven in [`super::certificate`].
 
 use std::f64::consts::TAU;
@@ -18,8 +18,11 @@ use crate::numerics::lanes::{Mask, Real};
 
 /// Part of the clearance from which on a flight begins on a wall.
 pub(super) const ON_WALL: f64 = 1.0 - 1e-9;
-/// Most panels in a period: each may turn the steady motion too far by `1e-16` of itself.
+/// Most panels between moments at which the steady motion is taken from the phase: each may turn it too far by `1e-16` of
+/// itself.
 const MOST_PANELS: f64 = 64.0;
+/// Most periods between such moments.
+const MOST_PERIODS: f64 = 8.0;
 /// Distance from a root within which a correction to the fourth order is exact to rounding: the next
 /// term is below `1e-20/120`.
 pub(super) const NEAR: f64 = 1e-4;
@@ -43,18 +46,20 @@ pub(super) struct Slack<R> {
 }
 
 impl<R: Real> Slack<R> {
-    /// Whether a moment in a panel that meets a wall is proven to be before.
-    #[inline(always)]
-    pub(super) fn before(&self, at: &FlightState<R>, wall: R) -> R::Mask {
-        // Twice S/14340.
-        (at.gap * wall + self.coefficient * 1.005).at_most(wall.like(1.0))
-    }
-
     /// What the square of the acceleration must exceed where the slope changes its sign in a panel: `M'` is at most the
     /// fastest rate times `M`, and `4 M S/960` is fifteen times what the slope's square must exceed.
     #[inline(always)]
     pub(super) fn bend_squared(&self, fastest: R, length: R) -> R {
         self.slope_squared * fastest * 15.0 / length
+    }
+
+    /// `other` where `mask`, else this.
+    #[inline(always)]
+    pub(super) fn chosen(self, mask: R::Mask, other: &Self) -> Self {
+        Self {
+            coefficient: R::choose(mask, other.coefficient, self.coefficient),
+            slope_squared: R::choose(mask, other.slope_squared, self.slope_squared),
+        }
     }
 
     /// That of a part of a panel.
@@ -84,6 +89,8 @@ pub(super) struct Rates<R> {
     pub fastest: R,
     /// Length `h` of a panel.
     pub step: R,
+    /// After so many periods the steady motion is taken from the phase.
+    pub renewal: R,
     pub frequency: R,
     pub inverse_frequency: R,
     /// Its square.
@@ -117,7 +124,8 @@ impl Rates<f64> {
         let fastest = root.max(frequency);
         // The exponential's series below reaches no further.
         let rings = ringing > 0.5 * root;
-        if !(rings && TAU * fastest <= MOST_PANELS * LARGEST_ANGLE * frequency) {
+        let renewal = MOST_PANELS * LARGEST_ANGLE * frequency / (TAU * fastest);
+        if !(rings && 1.0 <= renewal) {
             return None;
         }
         let step = LARGEST_ANGLE / fastest;
@@ -128,6 +136,7 @@ impl Rates<f64> {
         Some(Self {
             fastest,
             step,
+            renewal: renewal.min(MOST_PERIODS).floor(),
             frequency,
             inverse_frequency: 1.0 / frequency,
             squared: frequency * frequency,
@@ -143,6 +152,28 @@ impl Rates<f64> {
             swing: [swing_cos, swing_sin / frequency, swing_sin * frequency],
             origin: Steady { x: cosine, v: frequency * sine },
         })
+    }
+
+    /// Whether the steady motion is to be taken from the phase after so many periods.
+    #[inline(always)]
+    pub(super) fn renews(&self, turns: u64) -> bool {
+        turns.is_multiple_of(self.renewal as u64)
+    }
+
+    /// Any time `s` after `here`, where the absorber's flight `path` begins.
+    pub(super) fn along<S: Simd>(
+        &self,
+        simd: S,
+        mut here: FlightState<f64>,
+        path: impl Path<f64>,
+        s: f64,
+    ) -> FlightState<f64> {
+        let mut time = 0.0;
+        while s - time > self.step {
+            time += self.step;
+            here = self.next(&here, path.from(time));
+        }
+        self.after(simd, &here, s - time, path.from(time))
     }
 
     /// The amplitude of a free motion with this displacement and velocity.
@@ -166,6 +197,7 @@ impl<R> Rates<R> {
         Self {
             fastest: of(|one| one.fastest),
             step: of(|one| one.step),
+            renewal: of(|one| one.renewal),
             frequency: of(|one| one.frequency),
             inverse_frequency: of(|one| one.inverse_frequency),
             squared: of(|one| one.squared),

@@ -104,14 +104,13 @@ impl<R: Real> Rates<R> {
 }
 
 impl Rates<f64> {
-    /// Where a short return ends, or the period before it; none where nothing is proven.
+    /// Where a short return ends; none where nothing is proven.
     #[inline(never)]
     pub(super) fn short_return<S: Simd>(
         &self,
         simd: S,
         here: &FlightState<f64>,
         path: impl Path<f64>,
-        left: f64,
         evaluations: &mut u64,
     ) -> Option<Landing> {
         simd.vectorize(
@@ -122,14 +121,10 @@ impl Rates<f64> {
                     return None;
                 }
                 *evaluations += 1;
-                let (end, time) = match left < time {
-                    true => (Ending::Period, left),
-                    false => (Ending::Wall(Side::of(here.gap)), time),
-                };
                 let at = self.after(simd, here, time, path);
                 let (x, v) = self.oscillator(&at);
-                let steady = if let Ending::Period = end { self.origin } else { at.steady };
-                Some(Landing { end, time, x, v, steady })
+                let end = Ending::Wall(Side::of(here.gap));
+                Some(Landing { end, time, x, v, steady: at.steady })
             },
         )
     }

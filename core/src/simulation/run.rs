@@ -66,6 +66,27 @@ pub(super) struct Moment {
     pub evaluations: u64,
 }
 
+/// Where a trajectory stands.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stand {
+    pub at: Moment,
+    /// Where the flight began that is under way at the end of a period: it goes on from there, so that it does not matter
+    /// where a run was interrupted.
+    pub under_way: Option<Moment>,
+}
+
+impl Stand {
+    /// Where no flight is under way.
+    pub(super) fn new(at: Moment) -> Self {
+        Self { at, under_way: None }
+    }
+
+    /// Where the flight begins that is to be flown.
+    pub(super) fn flight(&self) -> Moment {
+        self.under_way.unwrap_or(self.at)
+    }
+}
+
 /// What the absorber does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Mode {
@@ -121,7 +142,7 @@ pub struct Simulation {
     pub(super) level: Level,
     pub(super) tolerance: ContactTolerance,
     pub(super) mode: Mode,
-    pub(super) at: Moment,
+    pub(super) stand: Stand,
 }
 
 impl Simulation {
@@ -155,7 +176,7 @@ impl Simulation {
             level: Level::new(),
             tolerance: ContactTolerance::default(),
             mode: Mode::Flight,
-            at: Moment {
+            stand: Stand::new(Moment {
                 state: start,
                 steady,
                 phase,
@@ -163,7 +184,7 @@ impl Simulation {
                 turns: 0,
                 impacts: 0,
                 evaluations: 0,
-            },
+            }),
         };
         // A start on a wall, without relative velocity, is sustained contact if the wall pushes.
         let touching = 1.0 - start.relative_displacement().abs() <= simulation.touch();
@@ -180,6 +201,7 @@ impl Simulation {
     /// Finds every event by the slow, finer search alone: what the fast one is measured against.
     pub fn step_by_step(mut self) -> Self {
         self.rates = None;
+        self.stand.under_way = None;
         self
     }
 
@@ -198,33 +220,33 @@ impl Simulation {
 
     /// Where the trajectory stands.
     pub fn state(&self) -> State {
-        self.at.state
+        self.stand.at.state
     }
 
     /// Phase of the excitation, 0 to 2 pi: 0 after a run to the end of a period.
     pub fn phase(&self) -> f64 {
-        self.at.phase
+        self.stand.at.phase
     }
 
     /// Whole excitation periods since the start of the trajectory.
     pub fn periods(&self) -> u64 {
-        self.at.turns
+        self.stand.at.turns
     }
 
     /// Impacts since the start of the trajectory.
     pub fn impacts(&self) -> u64 {
-        self.at.impacts
+        self.stand.at.impacts
     }
 
     /// Evaluations of the closed form, one state at one time each, that flights have cost so far.
     pub fn evaluations(&self) -> u64 {
-        self.at.evaluations
+        self.stand.at.evaluations
     }
 
     /// What flights and impacts have cost so far, in operations as [`crate::operation_count`] counts them;
     /// what observers do is not in it.
     pub fn operations(&self) -> u64 {
-        PANEL * self.at.evaluations + FLIGHT * (self.at.impacts + self.at.turns)
+        PANEL * self.stand.at.evaluations + FLIGHT * (self.stand.at.impacts + self.stand.at.turns)
     }
 
     /// The system that moves.
@@ -262,38 +284,24 @@ impl Simulation {
         if self.rates.is_none() {
             return self.fly_step_by_step(observer);
         }
-        match self.fly(false, limits, observer) {
+        match self.fly(limits, observer) {
             FlightEnd::Limit => {}
             FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
             FlightEnd::Turned => self.reverse(observer),
-            FlightEnd::Return if self.sliding.friction == 0.0 && self.chatter(limits, observer) => {
-            }
-            FlightEnd::Return | FlightEnd::Doubt => self.fly_step_by_step(observer)?,
+            FlightEnd::Doubt => self.fly_step_by_step(observer)?,
         }
         Ok(())
     }
 
-    /// Continues as long as flights are short returns to a wall, within the limits; whether there was none about which
-    /// nothing is proven.
-    pub(super) fn chatter(&mut self, limits: Limits, observer: &mut dyn Observer) -> bool {
-        while self.mode == Mode::Flight && limits.stop(self).is_none() {
-            match self.fly(true, limits, observer) {
-                FlightEnd::MayStick(side) => self.perhaps_stick(side, observer),
-                end => return end == FlightEnd::Limit,
-            }
-        }
-        true
-    }
-
     /// Where it stands, if its next flight can be beside others: straight, through panels and between walls alike.
-    pub(super) fn departure(&self) -> Option<Moment> {
+    pub(super) fn departure(&self) -> Option<Stand> {
         let alike = self.system.cavity().is_ideal();
-        (alike && self.rates.is_some() && self.mode == Mode::Flight).then_some(self.at)
+        (alike && self.rates.is_some() && self.mode == Mode::Flight).then_some(self.stand)
     }
 
     /// Puts it where a flight elsewhere has brought it.
-    pub(super) fn resume(&mut self, at: &Moment) {
-        (self.at, self.mode) = (*at, Mode::Flight);
+    pub(super) fn resume(&mut self, stand: Stand) {
+        (self.stand, self.mode) = (stand, Mode::Flight);
     }
 
     /// The flight from `begin` that lasted `duration`.
@@ -359,7 +367,7 @@ impl Simulation {
     }
 
     pub(super) fn perhaps_stick(&mut self, side: Side, observer: &mut dyn Observer) {
-        let State { x, x_velocity, y, y_velocity } = self.at.state;
+        let State { x, x_velocity, y, y_velocity } = self.stand.at.state;
         let (r, line) = (self.restitution(side), StraightLine { y, velocity: y_velocity });
         let sticking = Sticking::of(self, side);
         if !sticking.possible(x, x_velocity, line, side.sign()) {
@@ -382,8 +390,8 @@ impl Simulation {
         if unresolved || tolerance.sticks(r, &wall) {
             let eps = self.system.mass_ratio();
             let common = (x_velocity + eps * y_velocity) / (1.0 + eps);
-            self.at.state.x_velocity = common;
-            self.at.state.y_velocity = common;
+            self.stand.at.state.x_velocity = common;
+            self.stand.at.state.y_velocity = common;
             self.mode = Mode::Contact(side);
             self.towing = self.towing.or_else(|| Rates::of(&self.carrying));
             observer.sticks(0.5 * eps * opening * opening / (1.0 + eps));

@@ -100,6 +100,8 @@ pub(super) trait CavityFlight: Copy {
     fn reach(&self, sense: f64, here: &FlightState<f64>, step: f64) -> Option<f64>;
     /// Whether a flight from a wall is one for the step-by-step search.
     fn short(&self, rates: &Rates<f64>, here: &FlightState<f64>) -> bool;
+    /// Whether short flights back to a wall are known to end there.
+    fn returns(&self) -> bool;
     /// Whether it matters, and `w'` is proven to change its sign once.
     fn turns(&self, sense: f64, hull: &Hull<f64>, ends: [&FlightState<f64>; 2]) -> bool;
 }
@@ -129,6 +131,10 @@ impl CavityFlight for Straight {
     #[inline(always)]
     fn short(&self, rates: &Rates<f64>, here: &FlightState<f64>) -> bool {
         rates.short(here)
+    }
+    #[inline(always)]
+    fn returns(&self) -> bool {
+        true
     }
     #[inline(always)]
     fn turns(&self, _: f64, _: &Hull<f64>, _: [&FlightState<f64>; 2]) -> bool {
@@ -169,6 +175,10 @@ impl CavityFlight for Sliding {
         if self.friction == 0.0 { rates.short(here) } else { slow && ON_WALL <= here.gap.abs() }
     }
     #[inline(always)]
+    fn returns(&self) -> bool {
+        self.friction == 0.0
+    }
+    #[inline(always)]
     fn turns(&self, sense: f64, hull: &Hull<f64>, [here, there]: [&FlightState<f64>; 2]) -> bool {
         self.friction > 0.0 && hull.turns(sense, here.slope, there.slope)
     }
@@ -176,7 +186,7 @@ impl CavityFlight for Sliding {
 
 impl Simulation {
     fn pull(&self) -> f64 {
-        self.sliding.pull(&self.alone, self.at.phase, &self.at.state)
+        self.sliding.pull(&self.alone, self.stand.at.phase, &self.stand.at.state)
     }
 
     /// What rounding may make of forces where the trajectory stands.
@@ -189,15 +199,15 @@ impl Simulation {
     /// Which way the absorber slides from here, or that friction holds it.
     pub(super) fn settle(&mut self) {
         let Sliding { friction, .. } = self.sliding;
-        let State { x, x_velocity, y, y_velocity } = self.at.state;
+        let State { x, x_velocity, y, y_velocity } = self.stand.at.state;
         let slope = x_velocity - y_velocity;
-        self.at.sense = if friction == 0.0 {
+        self.stand.at.sense = if friction == 0.0 {
             0.0
         } else if slope != 0.0 {
             slope.signum()
         } else {
             let pull = self.pull();
-            if self.holds(&self.at.state, pull) {
+            if self.holds(&self.stand.at.state, pull) {
                 self.mode = Mode::Held { gap: x - y };
                 0.0
             } else {
@@ -239,10 +249,10 @@ impl Simulation {
 
     /// The absorber has come to rest relative to the oscillator.
     pub(super) fn reverse(&mut self, observer: &mut dyn Observer) {
-        let before = self.at.sense;
-        self.at.state.y_velocity = self.at.state.x_velocity;
+        let before = self.stand.at.sense;
+        self.stand.at.state.y_velocity = self.stand.at.state.x_velocity;
         self.settle();
-        observer.reversal(&self.reversal(&self.at, before));
+        observer.reversal(&self.reversal(&self.stand.at, before));
     }
 
     /// What acts on the absorber at a wall that it leaves, and when it comes back: accelerations towards the wall.

@@ -31,7 +31,7 @@ impl Simulation {
     /// Flies to the next impact, the next moment at which sliding ends, or the end of the period.
     pub(super) fn fly_step_by_step(&mut self, observer: &mut dyn Observer) -> Result<(), Stop> {
         self.resolves_walls()?;
-        let Segment { motion, absorber, .. } = self.flown(&self.at, 0.0);
+        let Segment { motion, absorber, .. } = self.flown(&self.stand.at, 0.0);
         let (touch, remaining) = (self.touch(), self.remaining());
         let curve = GapCurve { motion, path: self.path() };
         let from = self.tangential_start(&motion, touch).min(remaining);
@@ -59,7 +59,8 @@ impl Simulation {
         band: CrossingBand,
     ) -> (Search, usize) {
         let GapCurve { motion, path } = gap;
-        let (sense, State { x, x_velocity, y_velocity, .. }) = (self.at.sense, self.at.state);
+        let (sense, State { x, x_velocity, y_velocity, .. }) =
+            (self.stand.at.sense, self.stand.at.state);
         let size = 1.0 + x.abs() + x_velocity.abs() + y_velocity.abs();
         let touch = TOUCH_ULPS * f64::EPSILON * size;
         let slips = if x_velocity == y_velocity { self.first_slip(motion, touch) } else { 0.0 };
@@ -88,16 +89,16 @@ impl Simulation {
 
     /// The flight from here.
     fn path(&self) -> Parabola {
-        let State { y, y_velocity, .. } = self.at.state;
+        let State { y, y_velocity, .. } = self.stand.at.state;
         let line = StraightLine { y, velocity: y_velocity };
-        Parabola { line, acceleration: self.sliding.acceleration(self.at.sense) }
+        Parabola { line, acceleration: self.sliding.acceleration(self.stand.at.sense) }
     }
 
     /// How long a slip that begins now, without speed and maybe without acceleration, lasts at least: with a jerk `j`
     /// for `3 j / snap bound`.
     fn first_slip(&self, motion: &SmoothMotion, touch: f64) -> f64 {
         let at = motion.at(0.0);
-        let sense = self.at.sense;
+        let sense = self.stand.at.sense;
         let slope = sense * (motion.acceleration(0.0, at) - self.sliding.acceleration(sense));
         let jerk = sense * motion.jerk(0.0, at);
         if slope <= touch && jerk > 0.0 {
@@ -111,12 +112,12 @@ impl Simulation {
     pub(super) fn tow(&mut self, observer: &mut dyn Observer) -> Result<(), Stop> {
         self.resolves_walls()?;
         let Sliding { gravity, friction, .. } = self.sliding;
-        let State { x, x_velocity, .. } = self.at.state;
-        let touch = self.force_rounding(&self.at.state);
+        let State { x, x_velocity, .. } = self.stand.at.state;
+        let touch = self.force_rounding(&self.stand.at.state);
         // What is just held stays so.
         let held = if friction > 0.0 { friction + touch } else { 0.0 };
         let rest = self.sliding.rest_in_tow();
-        let motion = self.carrying.motion_about(rest, x, x_velocity, self.at.phase);
+        let motion = self.carrying.motion_about(rest, x, x_velocity, self.stand.at.phase);
         let (absorber, sign, upper) = match self.mode {
             Mode::Contact(side) => (AbsorberMotion::Carried(side), side.sign(), f64::INFINITY),
             Mode::Held { gap } => (AbsorberMotion::Held { gap }, 1.0, held),
@@ -133,7 +134,7 @@ impl Simulation {
         let found = proven.unwrap_or_else(search);
         if let Some(edge) = self.follow(motion, absorber, found, observer)? {
             self.mode = Mode::Flight;
-            self.at.sense = if edge == Edge::Upper { sign } else { -sign };
+            self.stand.at.sense = if edge == Edge::Upper { sign } else { -sign };
         }
         Ok(())
     }
@@ -151,7 +152,7 @@ impl Simulation {
             Search::Crossed(crossing) => (crossing.evaluations, crossing.time, Some(crossing.edge)),
             Search::NotFinite(_) => return Err(Stop::NotFinite),
         };
-        let at = &mut self.at;
+        let at = &mut self.stand.at;
         let segment = Segment { motion, absorber, turns: at.turns, phase: at.phase, duration };
         at.evaluations += u64::from(evaluations);
         at.state = segment.at(duration);
@@ -174,13 +175,13 @@ impl Simulation {
 
     /// An impact where the absorber stands, and the end of a chattering sequence if it is one.
     fn collide(&mut self, side: Side, observer: &mut dyn Observer) {
-        let before = self.at.state;
+        let before = self.stand.at.state;
         let (eps, r) = (self.system.mass_ratio(), self.restitution(side));
         let after = rebound(eps, r, before.x_velocity, before.y_velocity);
-        self.at.impacts += 1;
-        let when = (self.at.turns, self.at.phase);
+        self.stand.at.impacts += 1;
+        let when = (self.stand.at.turns, self.stand.at.phase);
         observer.impact(&self.impact(&before, side, &after, when));
-        self.at.state = self.rebounded(&before, side, &after);
+        self.stand.at.state = self.rebounded(&before, side, &after);
         self.perhaps_stick(side, observer);
         if self.mode == Mode::Flight {
             self.settle();
@@ -188,12 +189,12 @@ impl Simulation {
     }
 
     fn remaining(&self) -> f64 {
-        (TAU - self.at.phase) / self.system.frequency_ratio()
+        (TAU - self.stand.at.phase) / self.system.frequency_ratio()
     }
 
     /// Distance over the clearance that rounding can move the walls by.
     pub(super) fn touch(&self) -> f64 {
-        let State { x, x_velocity, y, y_velocity } = self.at.state;
+        let State { x, x_velocity, y, y_velocity } = self.stand.at.state;
         walls::touch(x, x_velocity, StraightLine { y, velocity: y_velocity })
     }
 
@@ -211,15 +212,15 @@ impl Simulation {
     /// closing acceleration `a <= 0` the gap stays open for `3 |a| / jerk bound`, and with `a = 0`
     /// and closing jerk `j < 0` for `4 |j| / snap bound`.
     fn tangential_start(&self, motion: &SmoothMotion, touch: f64) -> f64 {
-        let State { x, x_velocity, y_velocity, .. } = self.at.state;
-        let gap = self.at.state.relative_displacement();
+        let State { x, x_velocity, y_velocity, .. } = self.stand.at.state;
+        let gap = self.stand.at.state.relative_displacement();
         let at = Kinematics { x, v: x_velocity };
         if x_velocity != y_velocity || 1.0 - gap.abs() > touch {
             return 0.0;
         }
         let side = gap.signum();
         let bounds = motion.bounds(0.0, at, HORIZON);
-        let own = self.sliding.acceleration(self.at.sense);
+        let own = self.sliding.acceleration(self.stand.at.sense);
         let acceleration = side * (motion.acceleration(0.0, at) - own);
         let jerk = side * motion.jerk(0.0, at);
         let by_acceleration =

@@ -2,7 +2,7 @@
 
 use crate::simulation::events::{Detail, Observer};
 use crate::simulation::panels::Limits;
-use crate::simulation::run::{Moment, Simulation, Stop};
+use crate::simulation::run::{Simulation, Stand, Stop};
 
 /// A trajectory on its way.
 pub(super) struct Trajectory<'a> {
@@ -15,9 +15,8 @@ pub(super) struct Trajectory<'a> {
 }
 
 impl Trajectory<'_> {
-    /// Goes on alone until the trajectory flies through panels, or has ended; at least one step if
-    /// `doubt`.
-    pub(super) fn alone(&mut self, mut doubt: bool) -> Option<Moment> {
+    /// Goes on alone until the trajectory can fly beside others, or has ended; at least one step if `doubt`.
+    pub(super) fn alone(&mut self, mut doubt: bool) -> Option<Stand> {
         loop {
             if let Some(stop) = self.limits.stop(self.simulation) {
                 self.stop = Some(stop);
@@ -32,7 +31,6 @@ impl Trajectory<'_> {
                 self.stop = Some(stop);
                 return None;
             }
-            self.simulation.chatter(self.limits, self.observer);
         }
     }
 }
