@@ -16,10 +16,10 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use self::piece::PieceEnds;
 use self::queue::{Queue, Trajectory};
-use super::contact::rebound;
+use super::contact::{Rebound, rebound};
 use super::events::{Detail, Observer, Side};
 use super::panels::Limits;
-use super::path::StraightLine;
+use super::path::{Path, StraightLine};
 use super::phasor::{Rates, Steady};
 use super::run::{Moment, Simulation, Stand, Stop};
 use super::walls::Sticking;
@@ -125,9 +125,12 @@ struct Lanes<S: Simd> {
     simd: S,
     /// Which task each lane flies; none where the queue has run dry.
     task: [Option<usize>; LANES],
-    /// Lanes whose observers need to be told of something, and up to where they were told.
+    /// Lanes whose observers need to be told of something, those of which they are told of flights, and up to where.
     observed: u64,
+    flights: u64,
     told: [Moment; LANES],
+    /// Lanes that fly in short panels.
+    fine: u64,
     rates: Rates<Wide<S>>,
     mass_ratio: Wide<S>,
     restitution: Wide<S>,
@@ -166,12 +169,15 @@ impl<S: Simd> Lanes<S> {
             turns: 0,
             impacts: 0,
             evaluations: 0,
+            fine: false,
         };
         Self {
             simd,
             task: [None; LANES],
             observed: 0,
+            flights: 0,
             told: [nowhere; LANES],
+            fine: 0,
             rates: Rates::gathered(|_| one),
             mass_ratio: zero,
             restitution: zero,
@@ -215,36 +221,48 @@ impl<S: Simd> Lanes<S> {
     /// One piece of flight in some lanes, and what it ends with; those that fly on.
     #[inline(always)]
     fn round(&mut self, active: u64, queue: &mut Queue<'_>) -> u64 {
-        let PieceEnds { good, impact, time, x, v, y, steady, wall, evaluations } =
+        let PieceEnds { begin, good, impact, time, x, v, y, steady, wall, evaluations, doubtful } =
             self.pieces(WideMask::from_bits(self.simd, active));
+        let fine = doubtful.bits();
+        let doubt = active & !good.bits() | fine & self.fine;
+        let stands = doubt | (doubtful & time.at_most(time.like(0.0))).bits();
+        let good = good & !WideMask::from_bits(self.simd, stands);
         let left = self.rates.left(self.phase);
         let phase = self.phase + self.rates.frequency * time;
         let over = good & left.less(time);
         let since = (phase - TAU).larger(phase.like(0.0));
         let phase = Wide::choose(over, since, phase);
         let turns = Wide::choose(over, self.turns + 1.0, self.turns);
-        let evaluations = self.evaluations + evaluations;
 
         let limit = (over & self.last_turn.at_most(turns)).bits();
-        let stop = self.end_periods(over.bits(), limit, queue);
-        let told = impact.bits() & self.observed & !stop;
+        let ended = over.bits() & (limit | self.observed);
+        if ended != 0 {
+            let (x, v) = self.rates.period_end(self.simd, &begin, left);
+            let StraightLine { y, .. } = self.line.from(left);
+            for lane in lanes(ended) {
+                self.end_period(lane, [x[lane], v[lane], y[lane]], limit >> lane & 1 == 1, queue);
+            }
+        }
+        let after = rebound(self.mass_ratio, self.restitution, v, self.line.velocity);
+        let told = impact.bits() & self.observed & !limit;
         for lane in lanes(told) {
-            let mut end = self.moment(lane);
-            end.phase = phase[lane];
-            end.turns = turns[lane] as u64;
+            let Some(index) = self.task[lane] else { continue };
+            let Trajectory { simulation, observer, detail, .. } = &mut queue.tasks[index];
             let before = State {
                 x: x[lane],
                 x_velocity: v[lane],
                 y: y[lane],
                 y_velocity: self.line.velocity[lane],
             };
-            let Some(index) = self.task[lane] else { continue };
-            let Trajectory { simulation, observer, detail, .. } = &mut queue.tasks[index];
-            let wall = Side::of(wall[lane]);
-            simulation.tell_impact(&self.told[lane], &end, wall, before, *observer, *detail);
+            let after = Rebound {
+                x_velocity: after.x_velocity[lane],
+                y_velocity: after.y_velocity[lane],
+                loss: after.loss[lane],
+            };
+            let (turns, phase) = (turns[lane] as u64, phase[lane]);
+            let impact = simulation.impact(&before, Side::of(wall[lane]), &after, (turns, phase));
+            simulation.tell_impact(&self.told[lane], turns, &impact, *observer, *detail);
         }
-
-        let after = rebound(self.mass_ratio, self.restitution, v, self.line.velocity);
         let follows = self.restitution.at_most(x.like(0.0));
         let follows = Wide::choose(follows, after.x_velocity, after.y_velocity);
         self.x = Wide::choose(good, x, self.x);
@@ -254,24 +272,28 @@ impl<S: Simd> Lanes<S> {
         self.phase = Wide::choose(good, phase, self.phase);
         self.steady.x = Wide::choose(good, steady.x, self.steady.x);
         self.steady.v = Wide::choose(good, steady.v, self.steady.v);
-        self.evaluations = Wide::choose(good, evaluations, self.evaluations);
+        // What is in doubt is flown once more.
+        let flown = WideMask::from_bits(self.simd, active & !doubt);
+        self.evaluations = Wide::choose(flown, self.evaluations + evaluations, self.evaluations);
         self.turns = turns;
         self.impacts = Wide::choose(impact, self.impacts + 1.0, self.impacts);
         for lane in lanes((over & self.renewal.at_most(turns)).bits()) {
             self.renew(lane, queue);
         }
-        for lane in lanes(told) {
+        for lane in lanes(told & self.flights) {
             self.told[lane] = self.moment(lane);
+        }
+        for lane in lanes(active & (fine ^ self.fine) & !doubt) {
+            self.set_panels(lane, fine >> lane & 1 == 1, queue);
         }
 
         let stuck = impact & self.sticking.possible(self.x, self.v, self.line, wall);
         let through = self.last_impact.at_most(self.impacts);
-        let special = (stuck | (impact & through)).bits() & !stop;
-        let doubt = active & !good.bits();
-        let mut again = active & !(doubt | special | stop);
-        if doubt | special | stop != 0 {
-            for lane in lanes(doubt | special | stop) {
-                let flies = match stop >> lane & 1 == 1 {
+        let special = (stuck | (impact & through)).bits() & !limit;
+        let mut again = active & !(doubt | special | limit);
+        if doubt | special | limit != 0 {
+            for lane in lanes(doubt | special | limit) {
+                let flies = match limit >> lane & 1 == 1 {
                     true => self.next_task(lane, queue),
                     false => {
                         let stuck = (stuck.bits() >> lane & 1 == 1).then(|| Side::of(wall[lane]));
@@ -284,23 +306,35 @@ impl<S: Simd> Lanes<S> {
         again
     }
 
-    /// Ends the periods of some lanes, for those who are to be told; those that stop there.
-    #[inline(always)]
-    fn end_periods(&mut self, over: u64, limit: u64, queue: &mut Queue<'_>) -> u64 {
-        for lane in lanes(over & (limit | self.observed)) {
-            let begun = self.moment(lane);
-            let Some(index) = self.task[lane] else { continue };
-            let Trajectory { simulation, observer, detail, stop, .. } = &mut queue.tasks[index];
-            let told = &mut self.told[lane];
-            if told.turns <= begun.turns {
-                *told = simulation.tell_period(told, &begun, *observer, *detail);
-            }
-            if limit >> lane & 1 == 1 {
-                simulation.resume(Stand { at: *told, under_way: Some(begun) });
-                *stop = Some(Stop::EndTime);
-            }
+    /// Ends the period of a lane, for who is to be told; it may be the last.
+    fn end_period(
+        &mut self,
+        lane: usize,
+        [x, x_velocity, y]: [f64; 3],
+        last: bool,
+        queue: &mut Queue<'_>,
+    ) {
+        let begun = self.moment(lane);
+        let Some(index) = self.task[lane] else { return };
+        let Trajectory { simulation, observer, detail, stop, .. } = &mut queue.tasks[index];
+        let told = &mut self.told[lane];
+        // A flight that stood there may go on from it.
+        if told.turns <= begun.turns {
+            let state = State { x, x_velocity, y, y_velocity: begun.state.y_velocity };
+            *told = simulation.tell_period(told, &begun, state, *observer, *detail);
         }
-        limit
+        if last {
+            simulation.resume(Stand { at: *told, under_way: Some(begun) });
+            *stop = Some(Stop::EndTime);
+        }
+    }
+
+    /// Lets a lane fly in short panels, or in long ones.
+    fn set_panels(&mut self, lane: usize, fine: bool, queue: &Queue<'_>) {
+        let rates = self.task[lane].and_then(|index| queue.tasks[index].simulation.rates);
+        let Some(rates) = rates else { return };
+        self.fine = self.fine & !(1 << lane) | u64::from(fine) << lane;
+        self.rates.set(lane, &if fine { rates.finely() } else { rates });
     }
 
     /// Takes the steady motion of a lane from its phase.
@@ -338,6 +372,7 @@ impl<S: Simd> Lanes<S> {
         }
         match task.alone(doubt) {
             Some(departure) => {
+                self.set_panels(lane, departure.flight().fine, queue);
                 self.depart(lane, &departure);
                 true
             }
@@ -361,6 +396,7 @@ impl<S: Simd> Lanes<S> {
             turns: self.turns[lane] as u64,
             impacts: self.impacts[lane] as u64,
             evaluations: self.evaluations[lane] as u64,
+            fine: self.fine >> lane & 1 == 1,
         }
     }
 
@@ -373,6 +409,7 @@ impl<S: Simd> Lanes<S> {
             if let Some(departure) = queue.tasks[index].alone(false) {
                 self.task[lane] = Some(index);
                 self.settle(lane, &queue.tasks);
+                self.set_panels(lane, departure.flight().fine, queue);
                 self.depart(lane, &departure);
                 return true;
             }
@@ -382,24 +419,14 @@ impl<S: Simd> Lanes<S> {
 
     /// Sets what stays the same along the trajectory that a lane has taken.
     fn settle(&mut self, lane: usize, tasks: &[Trajectory<'_>]) {
-        let one = self.mass_ratio.like(1.0);
-        let each = self.task.map(|task| tasks[task?].simulation.rates.as_ref());
-        self.rates = Rates::gathered(
-            #[inline(always)]
-            |rate| {
-                let mut all = one;
-                for (lane, rates) in each.iter().enumerate() {
-                    all[lane] = rates.map_or(1.0, rate);
-                }
-                all
-            },
-        );
         let Some(Trajectory { simulation, limits, detail, .. }) =
             self.task[lane].map(|index| &tasks[index])
         else {
             return;
         };
-        self.observed = self.observed & !(1 << lane) | u64::from(*detail > Detail::Nothing) << lane;
+        let set = |bits: u64, on: bool| bits & !(1 << lane) | u64::from(on) << lane;
+        self.observed = set(self.observed, *detail > Detail::Nothing);
+        self.flights = set(self.flights, *detail == Detail::Flights);
         self.mass_ratio[lane] = simulation.system.mass_ratio();
         self.restitution[lane] = simulation.system.restitution();
         let sticking = Sticking::of(simulation, Side::Plus);
@@ -432,5 +459,7 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
+#[cfg(test)]
+mod dbg;
 #[cfg(test)]
 mod tests;

@@ -158,9 +158,11 @@ impl<R: Real> Hull<R> {
     pub(super) fn clear(&self) -> R::Mask {
         let [b1, b2, b3, b4] = self.inner;
         let one = b1.like(1.0);
-        let highest = b1.larger(b2).larger(b3 + self.slack).larger(b4);
-        let lowest = b1.smaller(b2).smaller(b3 - self.slack).smaller(b4);
-        highest.at_most(one) & (-one).at_most(lowest) & self.last.abs().at_most(one)
+        b1.abs().at_most(one)
+            & b2.abs().at_most(one)
+            & (b3.abs() + self.slack).at_most(one)
+            & b4.abs().at_most(one)
+            & self.last.abs().at_most(one)
     }
 
     /// Where `w'`, with these values at the ends, is proven to keep the sign `sense` in between: the derivative's
@@ -199,11 +201,14 @@ impl<R: Real> Hull<R> {
         let one = wall.like(1.0);
         let [b1, b2, b3, b4] = self.inner;
         let (b1, b2, b3, b4) = (b1 * wall, b2 * wall, b3 * wall, b4 * wall);
-        let lowest = b1.smaller(b2).smaller(b3 - self.slack).smaller(b4);
+        let inside = (-one).at_most(b1)
+            & (-one).at_most(b2)
+            & (-one).at_most(b3 - self.slack)
+            & (-one).at_most(b4);
         let b3 = b3 + self.slack;
         let beyond = [one.less(b1), one.less(b2), one.less(b3), one.less(b4)];
         one.less(self.last * wall)
-            & (-one).at_most(lowest)
+            & inside
             & (!beyond[0] | beyond[1])
             & (!beyond[1] | beyond[2])
             & (!beyond[2] | beyond[3])

@@ -26,6 +26,8 @@ pub(super) enum Ending {
     Turn,
     /// Nothing: the flight goes on.
     Midair,
+    /// A panel about which nothing is proven: it is to be flown in short ones.
+    Doubtful,
 }
 
 /// Where a piece of flight ends.
@@ -51,7 +53,7 @@ impl Rates<f64> {
         flight: &Flight<C>,
         evaluations: &mut u64,
     ) -> Option<Landing> {
-        let Flight { course, sense, path } = *flight;
+        let Flight { course, sense, path, fine } = *flight;
         let mut time = 0.0;
         for _ in 0..PANELS {
             let reach = time + self.step;
@@ -60,6 +62,17 @@ impl Rates<f64> {
             let hull = Hull::of(&here, &there, self.step, &slack);
             if !(hull.clear() && course.one_way(sense, &hull, [&here, &there])) {
                 let mut panel = FlightPanel { here, there, time, length: self.step, slack };
+                if !fine {
+                    let side = Side::of(there.gap);
+                    if hull.meets(side.sign()) {
+                        let guess = Guess { length: self.step, side, path: path.from(time) };
+                        let found = self.root(simd, [&here, &there], guess, &slack, evaluations);
+                        if let Some(found) = found {
+                            return Some(found.after(time));
+                        }
+                    }
+                    return Some(Landing { end: Ending::Doubtful, ..self.midair(&here, time) });
+                }
                 if let Some(length) = course.reach(sense, &here, self.step) {
                     let there = self.moment(simd, &here, length, path.from(time));
                     let slack = slack.part(length / self.step);
@@ -91,7 +104,7 @@ impl Rates<f64> {
         evaluations: &mut u64,
     ) -> Option<Landing> {
         let FlightPanel { here, mut there, time, mut length, mut slack } = *panel;
-        let Flight { course, sense, path } = *flight;
+        let Flight { course, sense, path, .. } = *flight;
         let path_here = path.from(time);
         let shortest = SHORTEST * length;
         let mut hull = Hull::of(&here, &there, length, &slack);
@@ -102,20 +115,17 @@ impl Rates<f64> {
             let side = Side::of(there.gap);
             let one_way = course.one_way(sense, &hull, [&here, &there]);
             if one_way && hull.meets(side.sign()) {
-                let guess = Self::guess(&here, &there, length, side.sign(), true);
-                let guess = guess.larger(0.0).smaller(length);
-                let guess = Guess { time: guess, length, side, path: path_here };
-                if let Some(found) = self.root(simd, &here, guess, &slack, evaluations) {
-                    let Corrected { x, v, steady, .. } = found;
-                    let time = time + found.time;
-                    return Some(Landing { end: Ending::Wall(side), time, x, v, steady });
+                let guess = Guess { length, side, path: path_here };
+                let found = self.root(simd, [&here, &there], guess, &slack, evaluations);
+                if let Some(found) = found {
+                    return Some(found.after(time));
                 }
             }
             let ends = [&here, &there];
             if !one_way && hull.clear() && course.turns(sense, &hull, ends) {
                 let found = self.turn(simd, ends, length, path_here, &slack, evaluations);
                 if let Some(found) = found {
-                    return Some(Landing { time: time + found.time, ..found });
+                    return Some(found.after(time));
                 }
             }
             if length < shortest {
@@ -176,27 +186,37 @@ impl Rates<f64> {
         )
     }
 
-    /// The first crossing in a panel that is proven to have one.
+    /// The first crossing in a panel that is proven to have one, from the panel's beginning.
     #[inline(always)]
     fn root<S: Simd>(
         &self,
         simd: S,
-        here: &FlightState<f64>,
+        [here, there]: [&FlightState<f64>; 2],
         guess: Guess<impl Path<f64>>,
         slack: &Slack<f64>,
         evaluations: &mut u64,
-    ) -> Option<Corrected<f64>> {
-        let Guess { mut time, length, side, path } = guess;
+    ) -> Option<Landing> {
+        let Guess { length, side, path } = guess;
+        let mut time = Self::guess(here, there, length, side.sign(), true);
         for _ in 0..CORRECTIONS {
             *evaluations += 1;
             let inside = time.larger(0.0).smaller(length);
             let found = self.corrected(simd, here, inside, path, side.sign(), slack);
-            if found.exact {
-                return Some(found);
-            }
             time = found.time;
+            if found.exact {
+                let Corrected { x, v, steady, .. } = found;
+                return Some(Landing { end: Ending::Wall(side), time, x, v, steady });
+            }
         }
         None
+    }
+}
+
+impl Landing {
+    /// The same, seen from a time before.
+    #[inline(always)]
+    fn after(self, time: f64) -> Self {
+        Self { time: time + self.time, ..self }
     }
 }
 
@@ -216,12 +236,13 @@ pub(super) struct Flight<C: CavityFlight> {
     /// Sign of `x' - y'`, where it has to stay.
     pub sense: f64,
     pub path: C::Path,
+    /// Whether a panel about which nothing is proven is to be halved.
+    pub fine: bool,
 }
 
-/// Roughly when and where a flight ends in a panel.
+/// Where a flight ends in a panel.
 #[derive(Debug, Clone, Copy)]
 struct Guess<P> {
-    time: f64,
     length: f64,
     side: Side,
     path: P,

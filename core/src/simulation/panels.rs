@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use fearless_simd::{Simd, dispatch};
 
 use super::contact::rebound;
-use super::events::{Detail, Observer, Side};
+use super::events::{Detail, Impact, Observer, Side};
 use super::landing::{Ending, Flight, Landing};
 use super::path::{Path, StraightLine};
 use super::phasor::Rates;
@@ -60,13 +60,13 @@ pub(super) enum FlightEnd {
 impl Simulation {
     /// Flies from event to event.
     pub(super) fn fly(&mut self, limits: Limits, observer: &mut dyn Observer) -> FlightEnd {
-        let Some(rates) = self.rates else { return FlightEnd::Doubt };
+        let Some(rates) = &self.rates else { return FlightEnd::Doubt };
         let (level, sliding) = (self.level, self.sliding);
         let end;
         (self.stand, end) = if sliding.straight {
-            dispatch!(level, simd => self.fly_by(simd, Straight, &rates, limits, observer))
+            dispatch!(level, simd => self.fly_by(simd, Straight, rates, limits, observer))
         } else {
-            dispatch!(level, simd => self.fly_by(simd, sliding, &rates, limits, observer))
+            dispatch!(level, simd => self.fly_by(simd, sliding, rates, limits, observer))
         };
         end
     }
@@ -77,7 +77,7 @@ impl Simulation {
         &self,
         simd: S,
         course: C,
-        rates: &Rates<f64>,
+        coarsely: &Rates<f64>,
         limits: Limits,
         observer: &mut dyn Observer,
     ) -> (Stand, FlightEnd) {
@@ -96,6 +96,14 @@ impl Simulation {
                 return (self.in_doubt(&told, at, observer), FlightEnd::Doubt);
             }
             let (x, path) = course.depart(&at);
+            let finely;
+            let rates = match at.fine {
+                false => coarsely,
+                true => {
+                    finely = coarsely.finely();
+                    &finely
+                }
+            };
             let (mut here, slack) = rates.begin(x, v, steady, path);
             if released {
                 // Of a gap that is rounded up nothing could be proven.
@@ -106,7 +114,8 @@ impl Simulation {
                 let returns = course.returns();
                 returns.then(|| rates.short_return(simd, &here, path, &mut evaluations)).flatten()
             } else {
-                let flight = Flight { course, sense, path };
+                let fine = at.fine || !course.returns();
+                let flight = Flight { course, sense, path, fine };
                 rates.fly(simd, here, slack, &flight, &mut evaluations)
             };
             let Some(landing) = landing else {
@@ -120,6 +129,11 @@ impl Simulation {
                 return (self.in_doubt(&told, at, observer), FlightEnd::Doubt);
             }
             let begun = at;
+            at.fine = matches!(end, Ending::Doubtful);
+            if at.fine && time == 0.0 {
+                at.evaluations = evaluations;
+                continue;
+            }
             at.phase += rates.frequency * time;
             at.steady = steady;
             at.evaluations = evaluations;
@@ -132,24 +146,30 @@ impl Simulation {
                 let limit = limits.turns <= at.turns;
                 // A flight that stood there may go on from it.
                 if told.turns < at.turns && (limit || detail > Detail::Nothing) {
-                    told = self.tell_period(&told, &begun, observer, detail);
+                    let left = rates.left(begun.phase);
+                    let (x, v) = rates.period_end(simd, &here, left);
+                    let StraightLine { y, velocity: y_velocity } = path.from(left).line();
+                    let (x, y) = (course.arrive(sense, x), course.arrive(sense, y));
+                    let state = State { x, x_velocity: v, y, y_velocity };
+                    told = self.tell_period(&told, &begun, state, observer, detail);
                 }
                 if limit {
                     return (Stand { at: told, under_way: Some(begun) }, FlightEnd::Limit);
                 }
             }
             let before = State { x, x_velocity: v, y, y_velocity };
-            if let Ending::Midair = end {
+            if let Ending::Midair | Ending::Doubtful = end {
                 at.state = before;
                 leaves = false;
                 continue;
             }
             if let Ending::Wall(side) = end {
-                if detail > Detail::Nothing {
-                    self.tell_impact(&told, &at, side, before, observer, detail);
-                }
                 at.impacts += 1;
                 let after = rebound(eps, self.restitution(side), v, y_velocity);
+                if detail > Detail::Nothing {
+                    let impact = self.impact(&before, side, &after, (at.turns, at.phase));
+                    self.tell_impact(&told, at.turns, &impact, observer, detail);
+                }
                 at.state = self.rebounded(&before, side, &after);
                 at.sense = -side.sign();
                 told = at;
@@ -162,7 +182,7 @@ impl Simulation {
                 leaves = y_velocity != v;
             } else {
                 at.state = before;
-                self.tell_flight(&told, &at, observer, detail);
+                self.tell_flight(&told, (at.turns, at.phase), observer, detail);
                 let acceleration = rates.acceleration(landing.x, v, steady);
                 let slides = self.slides_on(&mut at, acceleration, observer);
                 told = at;
@@ -181,22 +201,8 @@ impl Simulation {
     #[inline(never)]
     pub(super) fn in_doubt(&self, told: &Moment, at: Moment, observer: &mut dyn Observer) -> Stand {
         let detail = observer.detail();
-        self.tell_flight(told, &at, observer, detail);
+        self.tell_flight(told, (at.turns, at.phase), observer, detail);
         Stand::new(at)
-    }
-
-    /// The end of the period in which a flight that lasts longer began.
-    fn period_end(&self, begun: &Moment) -> Moment {
-        let Some(rates) = self.rates else { return *begun };
-        let left = rates.left(begun.phase);
-        let (x, path) = self.sliding.depart(begun);
-        let (here, _) = rates.begin(x, begun.state.x_velocity, begun.steady, path);
-        let at = dispatch!(self.level, simd => rates.along(simd, here, path, left));
-        let (x, x_velocity) = rates.oscillator(&at);
-        let StraightLine { y, velocity: y_velocity } = path.from(left).line();
-        let [x, y] = [x, y].map(|seen| self.sliding.arrive(begun.sense, seen));
-        let state = State { x, x_velocity, y, y_velocity };
-        Moment { state, steady: rates.origin, phase: 0.0, turns: begun.turns + 1, ..*begun }
     }
 
     /// Tells an observer of the end of the period in which a flight began, and of the flight from where it was told last;
@@ -206,32 +212,18 @@ impl Simulation {
         &self,
         told: &Moment,
         begun: &Moment,
+        state: State,
         observer: &mut dyn Observer,
         detail: Detail,
     ) -> Moment {
-        let end = self.period_end(begun);
-        self.tell_flight(told, &end, observer, detail);
+        let (turns, steady) =
+            (begun.turns + 1, self.rates.map_or(begun.steady, |rates| rates.origin));
+        let end = Moment { state, steady, phase: 0.0, turns, fine: false, ..*begun };
+        self.tell_flight(told, (end.turns, 0.0), observer, detail);
         if detail > Detail::Nothing {
             observer.period(&end.state);
         }
         end
-    }
-
-    /// Tells of the flight from where it was told last.
-    fn tell_flight(
-        &self,
-        told: &Moment,
-        end: &Moment,
-        observer: &mut dyn Observer,
-        detail: Detail,
-    ) {
-        if detail == Detail::Flights {
-            let phase = end.phase + TAU * (end.turns - told.turns) as f64;
-            let duration = (phase - told.phase) / self.alone.frequency;
-            if duration > 0.0 {
-                observer.segment(&self.flown(told, duration));
-            }
-        }
     }
 
     /// Tells an observer of the flight from where it was told last to an impact.
@@ -239,15 +231,29 @@ impl Simulation {
     pub(super) fn tell_impact(
         &self,
         told: &Moment,
-        end: &Moment,
-        side: Side,
-        before: State,
+        turns: u64,
+        impact: &Impact,
         observer: &mut dyn Observer,
         detail: Detail,
     ) {
-        self.tell_flight(told, end, observer, detail);
-        let (eps, r) = (self.system.mass_ratio(), self.restitution(side));
-        let after = rebound(eps, r, before.x_velocity, before.y_velocity);
-        observer.impact(&self.impact(&before, side, &after, (end.turns, end.phase)));
+        self.tell_flight(told, (turns, impact.phase), observer, detail);
+        observer.impact(impact);
+    }
+
+    /// Tells of the flight from where it was told last.
+    fn tell_flight(
+        &self,
+        told: &Moment,
+        (turns, phase): (u64, f64),
+        observer: &mut dyn Observer,
+        detail: Detail,
+    ) {
+        if detail == Detail::Flights {
+            let phase = phase + TAU * (turns - told.turns) as f64;
+            let duration = (phase - told.phase) / self.alone.frequency;
+            if duration > 0.0 {
+                observer.segment(&self.flown(told, duration));
+            }
+        }
     }
 }

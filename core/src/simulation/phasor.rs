@@ -13,14 +13,16 @@ use fearless_simd::Simd;
 
 use super::flow::Oscillator;
 use super::path::{Path, StraightLine};
-use super::small::{LARGEST_ANGLE, small_angles, small_exponential};
-use crate::numerics::lanes::{Mask, Real};
+use super::small::{LARGEST_ANGLE, small_angles, small_exponential, spiral};
+use crate::numerics::lanes::{Mask, Real, Wide};
 
 /// Part of the clearance from which on a flight begins on a wall.
 pub(super) const ON_WALL: f64 = 1.0 - 1e-9;
 /// Most panels between moments at which the steady motion is taken from the phase: each may turn it too far by `1e-16` of
 /// itself.
 const MOST_PANELS: f64 = 64.0;
+/// Short panels in a long one.
+const FINER: f64 = 4.0;
 /// Most periods between such moments.
 const MOST_PERIODS: f64 = 8.0;
 /// Distance from a root within which a correction to the fourth order is exact to rounding: the next
@@ -51,15 +53,6 @@ impl<R: Real> Slack<R> {
     #[inline(always)]
     pub(super) fn bend_squared(&self, fastest: R, length: R) -> R {
         self.slope_squared * fastest * 15.0 / length
-    }
-
-    /// `other` where `mask`, else this.
-    #[inline(always)]
-    pub(super) fn chosen(self, mask: R::Mask, other: &Self) -> Self {
-        Self {
-            coefficient: R::choose(mask, other.coefficient, self.coefficient),
-            slope_squared: R::choose(mask, other.slope_squared, self.slope_squared),
-        }
     }
 
     /// That of a part of a panel.
@@ -128,14 +121,10 @@ impl Rates<f64> {
         if !(rings && 1.0 <= renewal) {
             return None;
         }
-        let step = LARGEST_ANGLE / fastest;
-        let (sin, cos) = libm::sincos(ringing * step);
-        let envelope = libm::exp(-oscillator.decay * step);
         let size = libm::hypot(sine, cosine);
-        let (swing_sin, swing_cos) = libm::sincos(frequency * step);
-        Some(Self {
+        let rates = Self {
             fastest,
-            step,
+            step: 0.0,
             renewal: renewal.min(MOST_PERIODS).floor(),
             frequency,
             inverse_frequency: 1.0 / frequency,
@@ -145,35 +134,42 @@ impl Rates<f64> {
             ringing,
             inverse_ringing: 1.0 / ringing,
             stiffness: oscillator.stiffness,
-            sixth_free: sixth(root * step) / 7200.0,
-            sixth_steady: sixth(frequency * step) / 7200.0 * size,
+            sixth_free: 0.0,
+            sixth_steady: 0.0,
             second_steady: frequency * frequency * size,
+            turn: [1.0, 0.0],
+            swing: [1.0, 0.0, 0.0],
+            origin: Steady { x: cosine, v: frequency * sine },
+        };
+        Some(rates.by(LARGEST_ANGLE / fastest))
+    }
+
+    /// The same in panels of another length.
+    fn by(self, step: f64) -> Self {
+        let Self { decay, ringing, frequency, stiffness, second_steady, .. } = self;
+        let (sin, cos) = libm::sincos(ringing * step);
+        let envelope = libm::exp(-decay * step);
+        let (swing_sin, swing_cos) = libm::sincos(frequency * step);
+        let (free, steady) = (stiffness.sqrt() * step, frequency * step);
+        Self {
+            step,
+            sixth_free: sixth(free) / 7200.0,
+            sixth_steady: steady * steady * steady * steady * step * step / 7200.0 * second_steady,
             turn: [envelope * cos, envelope * sin],
             swing: [swing_cos, swing_sin / frequency, swing_sin * frequency],
-            origin: Steady { x: cosine, v: frequency * sine },
-        })
+            ..self
+        }
+    }
+
+    /// The same in short panels, for pieces of flight about which nothing is proven in long ones.
+    pub(super) fn finely(self) -> Self {
+        self.by(self.step / FINER)
     }
 
     /// Whether the steady motion is to be taken from the phase after so many periods.
     #[inline(always)]
     pub(super) fn renews(&self, turns: u64) -> bool {
         turns.is_multiple_of(self.renewal as u64)
-    }
-
-    /// Any time `s` after `here`, where the absorber's flight `path` begins.
-    pub(super) fn along<S: Simd>(
-        &self,
-        simd: S,
-        mut here: FlightState<f64>,
-        path: impl Path<f64>,
-        s: f64,
-    ) -> FlightState<f64> {
-        let mut time = 0.0;
-        while s - time > self.step {
-            time += self.step;
-            here = self.next(&here, path.from(time));
-        }
-        self.after(simd, &here, s - time, path.from(time))
     }
 
     /// The amplitude of a free motion with this displacement and velocity.
@@ -212,6 +208,34 @@ impl<R> Rates<R> {
             turn: [of(|one| one.turn[0]), of(|one| one.turn[1])],
             swing: [of(|one| one.swing[0]), of(|one| one.swing[1]), of(|one| one.swing[2])],
             origin: Steady { x: of(|one| one.origin.x), v: of(|one| one.origin.v) },
+        }
+    }
+}
+
+impl<S: Simd> Rates<Wide<S>> {
+    /// Replaces those of one oscillator.
+    pub(super) fn set(&mut self, lane: usize, of: &Rates<f64>) {
+        self.fastest[lane] = of.fastest;
+        self.step[lane] = of.step;
+        self.renewal[lane] = of.renewal;
+        self.frequency[lane] = of.frequency;
+        self.inverse_frequency[lane] = of.inverse_frequency;
+        self.squared[lane] = of.squared;
+        self.decay[lane] = of.decay;
+        self.twice_decay[lane] = of.twice_decay;
+        self.ringing[lane] = of.ringing;
+        self.inverse_ringing[lane] = of.inverse_ringing;
+        self.stiffness[lane] = of.stiffness;
+        self.sixth_free[lane] = of.sixth_free;
+        self.sixth_steady[lane] = of.sixth_steady;
+        self.second_steady[lane] = of.second_steady;
+        self.origin.x[lane] = of.origin.x;
+        self.origin.v[lane] = of.origin.v;
+        for k in 0..2 {
+            self.turn[k][lane] = of.turn[k];
+        }
+        for k in 0..3 {
+            self.swing[k][lane] = of.swing[k];
         }
     }
 }
@@ -335,6 +359,14 @@ impl<R: Real> Rates<R> {
         let a = self.twice_decay * slowing - self.stiffness * z[0] - self.squared * steady.x;
         let StraightLine { y, velocity } = path.line();
         FlightState { z, steady, a: path.bend(a), gap: x - y, slope: v - velocity }
+    }
+
+    /// Displacement and velocity of the oscillator at the end of the period, a time `left` after `here`.
+    #[inline(always)]
+    pub(super) fn period_end<S: Simd>(&self, simd: S, here: &FlightState<R>, left: R) -> (R, R) {
+        let turn = spiral(simd, -(self.decay * left), self.ringing * left);
+        let z = multiply(here.z, turn);
+        (z[0] + self.origin.x, self.origin.v - self.slowing(z))
     }
 
     /// A time `s`, less than a panel, after `here`, where the absorber's flight `path` begins.

@@ -64,6 +64,8 @@ pub(super) struct Moment {
     pub turns: u64,
     pub impacts: u64,
     pub evaluations: u64,
+    /// Whether the flight from here is to be in short panels.
+    pub fine: bool,
 }
 
 /// Where a trajectory stands.
@@ -184,6 +186,7 @@ impl Simulation {
                 turns: 0,
                 impacts: 0,
                 evaluations: 0,
+                fine: false,
             }),
         };
         // A start on a wall, without relative velocity, is sustained contact if the wall pushes.

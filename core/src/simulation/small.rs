@@ -17,16 +17,22 @@ fn series<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
     sum
 }
 
-/// `1/k!` with the signs of a cosine's or sine's series, from `k = first` in steps of two.
-const fn alternating(first: usize) -> [f64; 9] {
+/// `1/k!` with the signs of a cosine's or sine's series, from `k = first` in steps of two; `sign` is `-1`, or `1` for the
+/// hyperbolic functions.
+const fn every_second(first: usize, sign: f64) -> [f64; 9] {
     let mut coefficients = [1.0; 9];
     let mut k = 1;
     while k < 9 {
         let place = (2 * k + first) as f64;
-        coefficients[k] = -coefficients[k - 1] / (place * (place - 1.0));
+        coefficients[k] = sign * coefficients[k - 1] / (place * (place - 1.0));
         k += 1;
     }
     coefficients
+}
+
+/// The same with alternating signs.
+const fn alternating(first: usize) -> [f64; 9] {
+    every_second(first, -1.0)
 }
 
 /// Sine and cosine of two angles of at most [`LARGEST_ANGLE`], to rounding: the first terms left out are
@@ -84,21 +90,55 @@ pub(super) fn small_exponential<R: Real>(x: R) -> R {
 #[cfg(test)]
 const LARGEST_REDUCED: f64 = 100.0;
 
-/// Sine and cosine of two angles of up to some hundred, to rounding: reduced to an eighth of a turn by a
-/// quarter turn in three parts, of 33 bits each but the last.
+/// Sine and cosine of two angles of up to some hundred, to rounding.
 #[inline(always)]
-pub(super) fn angles<R: Real, S: Simd>(simd: S, of: [R; 2]) -> [(R, R); 2] {
+pub(super) fn angles<R: Real, S: Simd>(simd: S, [a, b]: [R; 2]) -> [(R, R); 2] {
+    let ((a_quarters, a), (b_quarters, b)) = (to_an_eighth(a), to_an_eighth(b));
+    let [a, b] = small_angles(simd, [a, b]);
+    [turned(a, a_quarters), turned(b, b_quarters)]
+}
+
+/// `e^{x + i angle}` of an angle of up to some hundred and `-8 LARGEST_ANGLE < x <= 0`, to rounding.
+#[inline(always)]
+pub(super) fn spiral<R: Real, S: Simd>(simd: S, x: R, angle: R) -> [R; 2] {
+    const SERIES: [[f64; 4]; 9] = {
+        let circular = [alternating(1), alternating(0)];
+        let hyperbolic = [every_second(1, 1.0), every_second(0, 1.0)];
+        let mut series = [[0.0; 4]; 9];
+        let mut k = 0;
+        while k < 9 {
+            series[k] = [circular[0][k], circular[1][k], hyperbolic[0][k], hyperbolic[1][k]];
+            k += 1;
+        }
+        series
+    };
+    let (quarters, reduced) = to_an_eighth(angle);
+    // The power of a part.
+    let far = x.less(x.like(-LARGEST_ANGLE));
+    let part = R::choose(far, x * 0.125, x);
+    let (squared, small) = (reduced * reduced, part * part);
+    let [sin, cos, sinh, cosh] = R::polynomials(simd, [squared, squared, small, small], &SERIES);
+    let mut envelope = cosh + part * sinh;
+    if far.any() {
+        let mut power = envelope;
+        for _ in 0..3 {
+            power = power * power;
+        }
+        envelope = R::choose(far, power, envelope);
+    }
+    let (sin, cos) = turned((reduced * sin, cos), quarters);
+    [envelope * cos, envelope * sin]
+}
+
+/// The nearest number of quarter turns, and what is left of an angle: a quarter turn in three parts, of 33 bits each but
+/// the last.
+#[inline(always)]
+fn to_an_eighth<R: Real>(angle: R) -> (R, R) {
     const QUARTER: [f64; 3] =
         [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_7e-21];
     let [first, second, third] = QUARTER;
-    // Loops: a closure would not be compiled for the vector instructions.
-    let (mut quarters, mut reduced) = (of, of);
-    for k in 0..2 {
-        quarters[k] = nearest_integer(of[k] * std::f64::consts::FRAC_2_PI);
-        reduced[k] = of[k] - quarters[k] * first - quarters[k] * second - quarters[k] * third;
-    }
-    let [a, b] = small_angles(simd, reduced);
-    [turned(a, quarters[0]), turned(b, quarters[1])]
+    let quarters = nearest_integer(angle * std::f64::consts::FRAC_2_PI);
+    (quarters, angle - quarters * first - quarters * second - quarters * third)
 }
 
 /// Sine and cosine so many quarter turns further.
@@ -175,6 +215,14 @@ mod tests {
             for ((sin, cos), angle) in both.into_iter().zip([angle, near * 0.03]) {
                 assert!((sin - libm::sin(angle)).abs() <= f64::EPSILON, "{angle}");
                 assert!((cos - libm::cos(angle)).abs() <= f64::EPSILON, "{angle}");
+            }
+            let decay = (f64::from(k) - 4000.0) * 7.5e-4;
+            let found = dispatch!(Level::baseline(), simd => spiral(simd, decay, angle));
+            let scale = libm::exp(decay);
+            // The eighth power of a part multiplies its error.
+            let off = if decay < -LARGEST_ANGLE { 10.0 } else { 2.0 } * f64::EPSILON;
+            for (found, of) in found.into_iter().zip([libm::cos(angle), libm::sin(angle)]) {
+                assert!((found - scale * of).abs() <= off * scale, "{decay} {angle}");
             }
             let fall = -1e-9 * libm::exp(f64::from(k + 4000) / 8000.0 * 24.5);
             let (found, wanted) = (exponential_minus_one(fall), libm::expm1(fall));

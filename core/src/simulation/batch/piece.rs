@@ -10,11 +10,10 @@ use crate::simulation::path::{Path, StraightLine};
 use crate::simulation::phasor::{FlightState, Rates, Slack, Steady};
 use crate::simulation::walls;
 
-/// Halvings of panels side by side; what needs more goes on alone.
-const HALVINGS: u32 = 3;
-
 /// What pieces of flight end with.
 pub(super) struct PieceEnds<S: Simd> {
+    /// What they begin with.
+    pub begin: FlightState<Wide<S>>,
     /// Where that is known to rounding.
     pub good: WideMask<S>,
     /// Where it is at a wall.
@@ -26,19 +25,17 @@ pub(super) struct PieceEnds<S: Simd> {
     pub steady: Steady<Wide<S>>,
     pub wall: Wide<S>,
     pub evaluations: Wide<S>,
+    /// Where nothing is proven about the next panel.
+    pub doubtful: WideMask<S>,
 }
 
 /// The panels in which flights may end.
 struct PanelSearch<S: Simd> {
     there: FlightState<Wide<S>>,
-    length: Wide<S>,
     slack: Slack<Wide<S>>,
     wall: Wide<S>,
     /// Where a wall is met.
     crossing: WideMask<S>,
-    /// Where none is.
-    clear: WideMask<S>,
-    evaluations: Wide<S>,
 }
 
 impl<S: Simd> Lanes<S> {
@@ -52,40 +49,46 @@ impl<S: Simd> Lanes<S> {
         let short = active & rates.short(&begin);
         let through = active & !short;
 
-        let (mut here, mut there, mut time, mut panels) = (begin, begin, zero, zero);
-        let mut flying = through;
+        // All fly on; where each was before the panel about which nothing is proven is kept beside, so that no panel waits
+        // for the proof of the one before.
+        let (mut at, mut reach, mut flying) = (begin, zero, through);
+        let (mut here, mut time, mut panels) = (begin, zero, zero);
         for _ in 0..PANELS {
-            let reach = time + rates.step;
-            there = rates.next(&here, line.from(reach));
-            flying = flying & Hull::of(&here, &there, rates.step, &slack).clear();
+            reach = reach + rates.step;
+            let next = rates.next(&at, line.from(reach));
+            flying = flying & Hull::of(&at, &next, rates.step, &slack).clear();
             if !flying.any() {
                 break;
             }
-            here = FlightState::choose(flying, &there, &here);
+            here = FlightState::choose(flying, &next, &here);
             time = Wide::choose(flying, reach, time);
             panels = Wide::choose(flying, panels + 1.0, panels);
+            at = next;
         }
+        let there = rates.next(&here, line.from(time + rates.step));
 
         let open = through & !flying;
-        let panel = self.narrowed(open, &here, there, time, &slack);
-        let mut evaluations = panels + panel.evaluations;
+        // A short return ends where it began.
+        let wall = Wide::choose(open, nearest(&there), nearest(&here));
+        let crossing = open & Hull::of(&here, &there, rates.step, &slack).meets(wall);
+        let panel = PanelSearch { there, slack, wall, crossing };
         let mut found = self.roots(short, &begin, &here, time, &panel);
-        evaluations = evaluations + found.evaluations;
+        let one = zero + 1.0;
+        let evaluations = panels + Wide::choose(open, one, zero) + found.evaluations;
         // Where nothing ends the flight it goes on from where its panels end.
-        let midair = flying | panel.clear;
+        let midair = through & !found.exact;
         if midair.any() {
-            let at = FlightState::choose(flying, &here, &panel.there);
-            let (x, v) = rates.oscillator(&at);
+            let (x, v) = rates.oscillator(&here);
             found.x = Wide::choose(midair, x, found.x);
             found.v = Wide::choose(midair, v, found.v);
-            found.steady.x = Wide::choose(midair, at.steady.x, found.steady.x);
-            found.steady.v = Wide::choose(midair, at.steady.v, found.steady.v);
-            let end = Wide::choose(flying, time, time + panel.length);
-            found.time = Wide::choose(midair, end, found.time);
+            found.steady.x = Wide::choose(midair, here.steady.x, found.steady.x);
+            found.steady.v = Wide::choose(midair, here.steady.v, found.steady.v);
+            found.time = Wide::choose(midair, time, found.time);
         }
         let StraightLine { y, .. } = line.from(found.time);
         let good = (midair | found.exact) & found.x.is_finite() & y.is_finite();
         PieceEnds {
+            begin,
             good,
             impact: good & found.exact,
             time: found.time,
@@ -93,48 +96,10 @@ impl<S: Simd> Lanes<S> {
             v: found.v,
             y,
             steady: found.steady,
-            wall: panel.wall,
+            wall,
             evaluations,
+            doubtful: good & midair & !flying,
         }
-    }
-
-    /// The panels of some lanes, halved where nothing is proven about them.
-    #[inline(always)]
-    fn narrowed(
-        &self,
-        waiting: WideMask<S>,
-        here: &FlightState<Wide<S>>,
-        mut there: FlightState<Wide<S>>,
-        time: Wide<S>,
-        slack: &Slack<Wide<S>>,
-    ) -> PanelSearch<S> {
-        let (simd, rates) = (self.simd, self.rates);
-        let zero = time.like(0.0);
-        let mut length = rates.step;
-        let mut slack = *slack;
-        let mut wall = nearest(&there);
-        // A short return ends where it began.
-        wall = Wide::choose(waiting, wall, nearest(here));
-        let mut evaluations = Wide::choose(waiting, zero + 1.0, zero);
-        let hull = Hull::of(here, &there, length, &slack);
-        let mut crossing = waiting & hull.meets(wall);
-        let mut clear = waiting & !waiting;
-        for _ in 0..HALVINGS {
-            let open = waiting & !clear & !crossing;
-            if !open.any() {
-                break;
-            }
-            length = Wide::choose(open, length * 0.5, length);
-            slack = slack.chosen(open, &slack.part(0.5));
-            let middle = rates.after(simd, here, length, self.line.from(time));
-            there = FlightState::choose(open, &middle, &there);
-            evaluations = Wide::choose(open, evaluations + 1.0, evaluations);
-            wall = Wide::choose(open, nearest(&there), wall);
-            let hull = Hull::of(here, &there, length, &slack);
-            clear = clear | (open & hull.clear());
-            crossing = crossing | (open & !clear & hull.meets(wall));
-        }
-        PanelSearch { there, length, slack, wall, crossing, clear, evaluations }
     }
 
     /// When some lanes come back to their walls, and when others meet one in their panels.
@@ -147,10 +112,10 @@ impl<S: Simd> Lanes<S> {
         time: Wide<S>,
         panel: &PanelSearch<S>,
     ) -> PanelEnd<S> {
-        let PanelSearch { there, length, slack, wall, crossing, .. } = panel;
-        let (simd, line) = (self.simd, self.line.from(time));
+        let PanelSearch { there, slack, wall, crossing } = panel;
+        let (simd, line, length) = (self.simd, self.line.from(time), self.rates.step);
         let zero = time.like(0.0);
-        let mut at = Rates::guess(here, there, *length, *wall, *crossing);
+        let mut at = Rates::guess(here, there, length, *wall, *crossing);
         let mut open = *crossing;
         if short.any() {
             let (back, known) = self.rates.return_time(begin);
@@ -169,7 +134,7 @@ impl<S: Simd> Lanes<S> {
             if !open.any() {
                 break;
             }
-            at = at.larger(zero).smaller(*length);
+            at = at.larger(zero).smaller(length);
             let found = self.rates.corrected(simd, here, at, line, *wall, slack);
             let met = open & (found.exact | short);
             let (mut x, mut v, mut steady, mut after) =
