@@ -61,12 +61,14 @@ impl<R: Real> Quintic<R> {
         Self([gap, v0, c2, c3, c4, c5])
     }
 
-    /// One step of Newton from `u` towards `value`.
+    /// One step of Halley's iteration from `u` towards `value`.
     #[inline(always)]
     pub(super) fn towards(&self, value: R, u: R) -> R {
         let [c0, c1, c2, c3, c4, c5] = self.0;
-        let at = c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5))));
-        u + (value - at) / self.slope(u)
+        let off = c0 + u * (c1 + u * (c2 + u * (c3 + u * (c4 + u * c5)))) - value;
+        let slope = self.slope(u);
+        let bend = c2 + u * (c3 * 3.0 + u * (c4 * 6.0 + u * c5 * 10.0));
+        u - off * slope / (slope * slope - off * bend)
     }
 }
 

@@ -8,9 +8,10 @@ use super::path::Path;
 use super::phasor::{FlightState, NEAR, Rates, Slack, Steady};
 use crate::numerics::lanes::{Mask, Real};
 
-/// Steps of Newton from an end of a panel in which the slope changes sign, before the one that every root
-/// gets.
-const STEPS_FROM_END: u32 = 3;
+/// Most steps of Halley's iteration on a quintic.
+const STEPS: u32 = 4;
+/// Part of a panel by which a step may move a guess to be the last: they converge with the third power.
+const NEXT: f64 = 0.03;
 /// What a correction may leave, over the fastest time scale: five times this is below rounding.
 const LEFT: f64 = 1e-17;
 
@@ -49,15 +50,19 @@ impl<R: Real> Rates<R> {
         let quintic = Quintic::through(here, there, length);
         let zero = u.like(0.0);
         let (leaves, comes_back) = ((v0 * wall).at_most(zero), (v1 * wall).at_most(zero));
-        let turns = lanes & (leaves | comes_back);
-        if turns.any() {
-            let mut from_end = R::choose(leaves, u.like(1.0), zero);
-            for _ in 0..STEPS_FROM_END {
-                from_end = quintic.towards(wall, from_end);
+        u = R::choose(comes_back, zero, u);
+        u = R::choose(leaves, u.like(1.0), u);
+        let mut open = lanes;
+        for _ in 0..STEPS {
+            let next = quintic.towards(wall, u);
+            let far = u.like(NEXT).less((next - u).abs());
+            u = R::choose(open, next, u);
+            open = open & far;
+            if !open.any() {
+                break;
             }
-            u = R::choose(turns, from_end, u);
         }
-        quintic.towards(wall, quintic.towards(wall, u)) * length
+        u * length
     }
 
     /// Corrects the time at which the gap reaches `wall` by one evaluation and the reverted series of
