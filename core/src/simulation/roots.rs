@@ -11,7 +11,7 @@ use crate::numerics::lanes::{Mask, Real};
 /// Most steps of Halley's iteration on a quintic.
 const STEPS: u32 = 4;
 /// Part of a panel by which a step may move a guess to be the last: they converge with the third power.
-const NEXT: f64 = 0.03;
+const NEXT: f64 = 0.06;
 /// What a correction may leave, over the fastest time scale: five times this is below rounding.
 const LEFT: f64 = 1e-17;
 

@@ -296,10 +296,14 @@ impl Simulation {
         Ok(())
     }
 
-    /// Where it stands, if its next flight can be beside others: straight, through panels and between walls alike.
+    /// Whether its flights can be beside others: through panels, and not turned by friction.
+    pub(super) fn flies_beside_others(&self) -> bool {
+        self.system.cavity().is_ideal() && self.rates.is_some()
+    }
+
+    /// Where it stands, if its next flight can be beside others.
     pub(super) fn departure(&self) -> Option<Stand> {
-        let alike = self.system.cavity().is_ideal();
-        (alike && self.rates.is_some() && self.mode == Mode::Flight).then_some(self.stand)
+        (self.flies_beside_others() && self.mode == Mode::Flight).then_some(self.stand)
     }
 
     /// Puts it where a flight elsewhere has brought it.

@@ -26,8 +26,11 @@ impl Trajectory<'_> {
                 return Some(departure);
             }
             doubt = false;
-            let one = Limits::of(self.simulation, 1, 1);
-            if let Err(stop) = self.simulation.step(one, self.observer) {
+            let limits = match self.simulation.flies_beside_others() {
+                true => Limits::of(self.simulation, 1, 1),
+                false => self.limits,
+            };
+            if let Err(stop) = self.simulation.step(limits, self.observer) {
                 self.stop = Some(stop);
                 return None;
             }
