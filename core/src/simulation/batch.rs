@@ -19,7 +19,7 @@ use self::queue::{Queue, Trajectory};
 use super::contact::{Rebound, rebound};
 use super::events::{Detail, Observer, Side};
 use super::panels::Limits;
-use super::path::{Path, StraightLine};
+use super::path::{Parabola, Path, StraightLine};
 use super::phasor::{Rates, Steady};
 use super::run::{Moment, Simulation, Stand, Stop};
 use super::walls::Sticking;
@@ -109,7 +109,7 @@ fn run_at<S: BorrowMut<Simulation>, O: Observer>(
             stop: None,
         })
         .collect();
-    let mut queue = Queue { tasks, next: 0 };
+    let mut queue = Queue::new(tasks);
     fly(level, &mut queue);
     queue.tasks.into_iter().map(|task| task.stop.unwrap_or(Stop::EndTime)).collect()
 }
@@ -117,12 +117,47 @@ fn run_at<S: BorrowMut<Simulation>, O: Observer>(
 /// Flies all of a queue. It does not depend on the type of observers: there is one copy for each set of
 /// instructions, and none in a crate that uses this one.
 fn fly(level: Level, queue: &mut Queue<'_>) {
-    dispatch!(level, simd => Lanes::new(simd).run(queue));
+    queue.take_up(false);
+    dispatch!(level, simd => Lanes::new(simd, LevelCourse).run(queue));
+    queue.take_up(true);
+    dispatch!(level, simd => Lanes::new(simd, TiltedCourse).run(queue));
+}
+
+/// How absorbers fly in lanes.
+trait Course<S: Simd>: Copy {
+    type Path: Path<Wide<S>>;
+    /// The flight that begins with `line`, where gravity has that acceleration.
+    fn path(self, line: StraightLine<Wide<S>>, gravity: Wide<S>) -> Self::Path;
+}
+
+/// In level cavities.
+#[derive(Clone, Copy)]
+struct LevelCourse;
+
+impl<S: Simd> Course<S> for LevelCourse {
+    type Path = StraightLine<Wide<S>>;
+    #[inline(always)]
+    fn path(self, line: StraightLine<Wide<S>>, _: Wide<S>) -> Self::Path {
+        line
+    }
+}
+
+/// In tilted cavities.
+#[derive(Clone, Copy)]
+struct TiltedCourse;
+
+impl<S: Simd> Course<S> for TiltedCourse {
+    type Path = Parabola<Wide<S>>;
+    #[inline(always)]
+    fn path(self, line: StraightLine<Wide<S>>, acceleration: Wide<S>) -> Self::Path {
+        Parabola { line, acceleration }
+    }
 }
 
 /// Flights side by side.
-struct Lanes<S: Simd> {
+struct Lanes<S: Simd, C> {
     simd: S,
+    course: C,
     /// Which task each lane flies; none where the queue has run dry.
     task: [Option<usize>; LANES],
     /// Lanes whose observers need to be told of something, those of which they are told of flights, and up to where.
@@ -133,7 +168,10 @@ struct Lanes<S: Simd> {
     fine: u64,
     rates: Rates<Wide<S>>,
     mass_ratio: Wide<S>,
-    restitution: Wide<S>,
+    gravity: Wide<S>,
+    /// Of either wall, the plus side first.
+    restitution: [Wide<S>; 2],
+    inverse_loss: [Wide<S>; 2],
     sticking: Sticking<Wide<S>>,
     /// State and phase where the flight began.
     x: Wide<S>,
@@ -155,9 +193,9 @@ fn lanes(bits: u64) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
 }
 
-impl<S: Simd> Lanes<S> {
+impl<S: Simd, C: Course<S>> Lanes<S, C> {
     #[inline(always)]
-    fn new(simd: S) -> Self {
+    fn new(simd: S, course: C) -> Self {
         let zero = Wide::splat(simd, 0.0);
         let one = Wide::splat(simd, 1.0);
         let steady = Steady { x: 0.0, v: 0.0 };
@@ -173,6 +211,7 @@ impl<S: Simd> Lanes<S> {
         };
         Self {
             simd,
+            course,
             task: [None; LANES],
             observed: 0,
             flights: 0,
@@ -180,7 +219,9 @@ impl<S: Simd> Lanes<S> {
             fine: 0,
             rates: Rates::gathered(|_| one),
             mass_ratio: zero,
-            restitution: zero,
+            gravity: zero,
+            restitution: [zero; 2],
+            inverse_loss: [one; 2],
             sticking: Sticking {
                 decay: zero,
                 stiffness: one,
@@ -221,8 +262,9 @@ impl<S: Simd> Lanes<S> {
     /// One piece of flight in some lanes, and what it ends with; those that fly on.
     #[inline(always)]
     fn round(&mut self, active: u64, queue: &mut Queue<'_>) -> u64 {
-        let PieceEnds { begin, good, impact, time, x, v, y, steady, wall, evaluations, doubtful } =
-            self.pieces(WideMask::from_bits(self.simd, active));
+        let piece = self.pieces(WideMask::from_bits(self.simd, active));
+        let PieceEnds { begin, good, impact, time, x, v, y, y_velocity, steady, wall, .. } = piece;
+        let PieceEnds { evaluations, doubtful, .. } = piece;
         let fine = doubtful.bits();
         let doubt = active & !good.bits() | fine & self.fine;
         let stands = doubt | (doubtful & time.at_most(time.like(0.0))).bits();
@@ -238,22 +280,26 @@ impl<S: Simd> Lanes<S> {
         let ended = over.bits() & (limit | self.observed);
         if ended != 0 {
             let (x, v) = self.rates.period_end(self.simd, &begin, left);
-            let StraightLine { y, .. } = self.line.from(left);
+            let StraightLine { y, velocity } = self.path().from(left).line();
             for lane in lanes(ended) {
-                self.end_period(lane, [x[lane], v[lane], y[lane]], limit >> lane & 1 == 1, queue);
+                let state = State {
+                    x: x[lane],
+                    x_velocity: v[lane],
+                    y: y[lane],
+                    y_velocity: velocity[lane],
+                };
+                self.end_period(lane, state, limit >> lane & 1 == 1, queue);
             }
         }
-        let after = rebound(self.mass_ratio, self.restitution, v, self.line.velocity);
+        let plus = y.like(0.0).less(wall);
+        let restitution = Wide::choose(plus, self.restitution[0], self.restitution[1]);
+        let after = rebound(self.mass_ratio, restitution, v, y_velocity);
         let told = impact.bits() & self.observed & !limit;
         for lane in lanes(told) {
             let Some(index) = self.task[lane] else { continue };
             let Trajectory { simulation, observer, detail, .. } = &mut queue.tasks[index];
-            let before = State {
-                x: x[lane],
-                x_velocity: v[lane],
-                y: y[lane],
-                y_velocity: self.line.velocity[lane],
-            };
+            let before =
+                State { x: x[lane], x_velocity: v[lane], y: y[lane], y_velocity: y_velocity[lane] };
             let after = Rebound {
                 x_velocity: after.x_velocity[lane],
                 y_velocity: after.y_velocity[lane],
@@ -263,12 +309,13 @@ impl<S: Simd> Lanes<S> {
             let impact = simulation.impact(&before, Side::of(wall[lane]), &after, (turns, phase));
             simulation.tell_impact(&self.told[lane], turns, &impact, *observer, *detail);
         }
-        let follows = self.restitution.at_most(x.like(0.0));
+        let follows = restitution.at_most(x.like(0.0));
         let follows = Wide::choose(follows, after.x_velocity, after.y_velocity);
         self.x = Wide::choose(good, x, self.x);
         self.v = Wide::choose(good, Wide::choose(impact, after.x_velocity, v), self.v);
         self.line.y = Wide::choose(good, Wide::choose(impact, x - wall, y), self.line.y);
-        self.line.velocity = Wide::choose(impact, follows, self.line.velocity);
+        let velocity = Wide::choose(impact, follows, y_velocity);
+        self.line.velocity = Wide::choose(good, velocity, self.line.velocity);
         self.phase = Wide::choose(good, phase, self.phase);
         self.steady.x = Wide::choose(good, steady.x, self.steady.x);
         self.steady.v = Wide::choose(good, steady.v, self.steady.v);
@@ -287,6 +334,7 @@ impl<S: Simd> Lanes<S> {
             self.set_panels(lane, fine >> lane & 1 == 1, queue);
         }
 
+        self.sticking.inverse_loss = Wide::choose(plus, self.inverse_loss[0], self.inverse_loss[1]);
         let stuck = impact & self.sticking.possible(self.x, self.v, self.line, wall);
         let through = self.last_impact.at_most(self.impacts);
         let special = (stuck | (impact & through)).bits() & !limit;
@@ -307,20 +355,13 @@ impl<S: Simd> Lanes<S> {
     }
 
     /// Ends the period of a lane, for who is to be told; it may be the last.
-    fn end_period(
-        &mut self,
-        lane: usize,
-        [x, x_velocity, y]: [f64; 3],
-        last: bool,
-        queue: &mut Queue<'_>,
-    ) {
+    fn end_period(&mut self, lane: usize, state: State, last: bool, queue: &mut Queue<'_>) {
         let begun = self.moment(lane);
         let Some(index) = self.task[lane] else { return };
         let Trajectory { simulation, observer, detail, stop, .. } = &mut queue.tasks[index];
         let told = &mut self.told[lane];
         // A flight that stood there may go on from it.
         if told.turns <= begun.turns {
-            let state = State { x, x_velocity, y, y_velocity: begun.state.y_velocity };
             *told = simulation.tell_period(told, &begun, state, *observer, *detail);
         }
         if last {
@@ -380,6 +421,12 @@ impl<S: Simd> Lanes<S> {
         }
     }
 
+    /// The absorbers' flights.
+    #[inline(always)]
+    fn path(&self) -> C::Path {
+        self.course.path(self.line, self.gravity)
+    }
+
     /// Where a lane's flight began.
     #[inline(always)]
     fn moment(&self, lane: usize) -> Moment {
@@ -403,9 +450,7 @@ impl<S: Simd> Lanes<S> {
     /// Takes the next trajectory that flies into a lane.
     fn next_task(&mut self, lane: usize, queue: &mut Queue<'_>) -> bool {
         self.task[lane] = None;
-        while queue.next < queue.tasks.len() {
-            let index = queue.next;
-            queue.next += 1;
+        while let Some(index) = queue.waiting.pop() {
             if let Some(departure) = queue.tasks[index].alone(false) {
                 self.task[lane] = Some(index);
                 self.settle(lane, &queue.tasks);
@@ -428,13 +473,16 @@ impl<S: Simd> Lanes<S> {
         self.observed = set(self.observed, *detail > Detail::Nothing);
         self.flights = set(self.flights, *detail == Detail::Flights);
         self.mass_ratio[lane] = simulation.system.mass_ratio();
-        self.restitution[lane] = simulation.system.restitution();
+        self.gravity[lane] = simulation.sliding.gravity;
+        for side in [Side::Plus, Side::Minus] {
+            self.restitution[side.index()][lane] = simulation.restitution(side);
+            self.inverse_loss[side.index()][lane] = Sticking::of(simulation, side).inverse_loss;
+        }
         let sticking = Sticking::of(simulation, Side::Plus);
         self.sticking.decay[lane] = sticking.decay;
         self.sticking.stiffness[lane] = sticking.stiffness;
         self.sticking.largest_force[lane] = sticking.largest_force;
         self.sticking.excursion[lane] = sticking.excursion;
-        self.sticking.inverse_loss[lane] = sticking.inverse_loss;
         self.last_turn[lane] = limits.turns as f64;
         self.last_impact[lane] = limits.impacts as f64;
     }

@@ -51,34 +51,34 @@ impl<R: Real> Path<R> for StraightLine<R> {
 
 /// A flight with a constant acceleration.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Parabola {
-    pub line: StraightLine<f64>,
-    pub acceleration: f64,
+pub(super) struct Parabola<R = f64> {
+    pub line: StraightLine<R>,
+    pub acceleration: R,
 }
 
-impl Path<f64> for Parabola {
+impl<R: Real> Path<R> for Parabola<R> {
     #[inline(always)]
-    fn from(self, s: f64) -> Self {
+    fn from(self, s: R) -> Self {
         let StraightLine { y, velocity } = self.line;
         let gained = self.acceleration * s;
         let line =
-            StraightLine { y: y + (velocity + 0.5 * gained) * s, velocity: velocity + gained };
+            StraightLine { y: y + (velocity + gained * 0.5) * s, velocity: velocity + gained };
         Self { line, ..self }
     }
     #[inline(always)]
-    fn line(self) -> StraightLine<f64> {
+    fn line(self) -> StraightLine<R> {
         self.line
     }
     #[inline(always)]
-    fn bend(self, a: f64) -> f64 {
+    fn bend(self, a: R) -> R {
         a - self.acceleration
     }
     #[inline(always)]
-    fn unbend(self, bend: f64) -> f64 {
+    fn unbend(self, bend: R) -> R {
         bend + self.acceleration
     }
     #[inline(always)]
-    fn bound(self, largest: f64) -> f64 {
+    fn bound(self, largest: R) -> R {
         largest + self.acceleration.abs()
     }
 }

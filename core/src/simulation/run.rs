@@ -298,7 +298,7 @@ impl Simulation {
 
     /// Whether its flights can be beside others: through panels, and not turned by friction.
     pub(super) fn flies_beside_others(&self) -> bool {
-        self.system.cavity().is_ideal() && self.rates.is_some()
+        self.sliding.friction == 0.0 && self.rates.is_some()
     }
 
     /// Where it stands, if its next flight can be beside others.

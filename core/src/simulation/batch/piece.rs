@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use super::Lanes;
+use super::{Course, Lanes};
 use crate::numerics::lanes::{Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::Hull;
 use crate::simulation::landing::{CORRECTIONS, PANELS};
@@ -22,6 +22,7 @@ pub(super) struct PieceEnds<S: Simd> {
     pub x: Wide<S>,
     pub v: Wide<S>,
     pub y: Wide<S>,
+    pub y_velocity: Wide<S>,
     pub steady: Steady<Wide<S>>,
     pub wall: Wide<S>,
     pub evaluations: Wide<S>,
@@ -38,14 +39,14 @@ struct PanelSearch<S: Simd> {
     crossing: WideMask<S>,
 }
 
-impl<S: Simd> Lanes<S> {
+impl<S: Simd, C: Course<S>> Lanes<S, C> {
     /// Flies a piece of some lanes.
     #[inline(always)]
     pub(super) fn pieces(&self, active: WideMask<S>) -> PieceEnds<S> {
-        let Self { rates, line, .. } = *self;
+        let (rates, path) = (self.rates, self.path());
         let zero = self.x.like(0.0);
-        let (begin, slack) = rates.begin(self.x, self.v, self.steady, line);
-        let active = active & !walls::blocked(self.x, self.v, line);
+        let (begin, slack) = rates.begin(self.x, self.v, self.steady, path);
+        let active = active & !walls::blocked(self.x, self.v, self.line);
         let short = active & rates.short(&begin);
         let through = active & !short;
 
@@ -55,7 +56,7 @@ impl<S: Simd> Lanes<S> {
         let (mut here, mut time, mut panels) = (begin, zero, zero);
         for _ in 0..PANELS {
             reach = reach + rates.step;
-            let next = rates.next(&at, line.from(reach));
+            let next = rates.next(&at, path.from(reach));
             flying = flying & Hull::of(&at, &next, rates.step, &slack).clear();
             if !flying.any() {
                 break;
@@ -65,7 +66,7 @@ impl<S: Simd> Lanes<S> {
             panels = Wide::choose(flying, panels + 1.0, panels);
             at = next;
         }
-        let there = rates.next(&here, line.from(time + rates.step));
+        let there = rates.next(&here, path.from(time + rates.step));
 
         let open = through & !flying;
         // A short return ends where it began.
@@ -85,7 +86,7 @@ impl<S: Simd> Lanes<S> {
             found.steady.v = Wide::choose(midair, here.steady.v, found.steady.v);
             found.time = Wide::choose(midair, time, found.time);
         }
-        let StraightLine { y, .. } = line.from(found.time);
+        let StraightLine { y, velocity } = path.from(found.time).line();
         let good = (midair | found.exact) & found.x.is_finite() & y.is_finite();
         PieceEnds {
             begin,
@@ -95,6 +96,7 @@ impl<S: Simd> Lanes<S> {
             x: found.x,
             v: found.v,
             y,
+            y_velocity: velocity,
             steady: found.steady,
             wall,
             evaluations,
@@ -113,7 +115,7 @@ impl<S: Simd> Lanes<S> {
         panel: &PanelSearch<S>,
     ) -> PanelEnd<S> {
         let PanelSearch { there, slack, wall, crossing } = panel;
-        let (simd, line, length) = (self.simd, self.line.from(time), self.rates.step);
+        let (simd, path, length) = (self.simd, self.path().from(time), self.rates.step);
         let zero = time.like(0.0);
         let mut at = Rates::guess(here, there, length, *wall, *crossing);
         let mut open = *crossing;
@@ -135,7 +137,7 @@ impl<S: Simd> Lanes<S> {
                 break;
             }
             at = at.larger(zero).smaller(length);
-            let found = self.rates.corrected(simd, here, at, line, *wall, slack);
+            let found = self.rates.corrected(simd, here, at, path, *wall, slack);
             let met = open & (found.exact | short);
             let (mut x, mut v, mut steady, mut after) =
                 (found.x, found.v, found.steady, found.time);

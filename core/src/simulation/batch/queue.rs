@@ -38,8 +38,22 @@ impl Trajectory<'_> {
     }
 }
 
-/// Trajectories, and which of them is to be taken up next.
+/// Trajectories, and which of them are yet to be taken up.
 pub(super) struct Queue<'a> {
     pub(super) tasks: Vec<Trajectory<'a>>,
-    pub(super) next: usize,
+    /// The next one last.
+    pub(super) waiting: Vec<usize>,
+}
+
+impl<'a> Queue<'a> {
+    pub(super) fn new(tasks: Vec<Trajectory<'a>>) -> Self {
+        Self { tasks, waiting: Vec::new() }
+    }
+
+    /// Lets those wait whose cavities are level, or those of the others.
+    pub(super) fn take_up(&mut self, bent: bool) {
+        let tasks = self.tasks.iter().enumerate().rev();
+        let alike = tasks.filter(|(_, task)| task.simulation.sliding.straight != bent);
+        self.waiting = alike.map(|(index, _)| index).collect();
+    }
 }
