@@ -341,9 +341,9 @@ mod tests {
     fn bits_and_masks_are_the_same_lanes() {
         #[inline(always)]
         fn back<S: Simd>(simd: S, bits: u64) -> u64 {
-            (!WideMask::from_bits(simd, !bits & 0xff)).bits()
+            (!WideMask::from_bits(simd, !bits & 0xffff)).bits()
         }
-        for bits in [0, 1, 0x80, 0x100, 0x8001, 0xff, 0x1234] {
+        for bits in [0, 1, 0x80, 0x100, 0x8001, 0xffff, 0x1234] {
             assert_eq!(dispatch!(Level::new(), simd => back(simd, bits)), bits);
         }
     }

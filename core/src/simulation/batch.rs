@@ -508,6 +508,4 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
 }
 
 #[cfg(test)]
-mod dbg;
-#[cfg(test)]
 mod tests;

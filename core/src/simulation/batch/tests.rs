@@ -2,7 +2,7 @@ use super::*;
 use crate::simulation::{Impact, ImpactLog};
 use crate::system::{Cavity, Excitation, Parameters, System};
 
-pub(super) fn simulations() -> Vec<Simulation> {
+fn simulations() -> Vec<Simulation> {
     (0..40)
         .map(|k| {
             let part = f64::from(k) / 40.0;
