@@ -43,7 +43,7 @@ const BESIDE: f64 = 0.4;
 /// Difference of a mean peak, over the larger, below which two motions are one if either repeats: what
 /// a slow transient leaves, and no difference to a designer.
 const SAME_PERIODIC: f64 = 0.02;
-/// The same if neither repeats: averages over some tens of periods scatter so much.
+/// Difference of a root mean square, over the larger, below which they are one if neither repeats, unless it scatters more.
 const SAME_MODULATED: f64 = 0.2;
 /// Difference in impacts per period below which they may be the same motions if either repeats: a
 /// transient with one impact more in twenty periods.
@@ -244,9 +244,14 @@ fn agreement(
 
 /// Whether two motions at one value are not the same.
 fn differ([up, down]: [&DiagramPoint; 2]) -> bool {
-    let repeats = |motion: &Motion| motion.repeats_after().is_some();
-    let limit =
-        if repeats(&up.motion) || repeats(&down.motion) { SAME_PERIODIC } else { SAME_MODULATED };
+    let repeats = |point: &DiagramPoint| point.motion.repeats_after().is_some();
+    let facts = [up, down].map(|point| point.motion.facts());
+    if !repeats(up) && !repeats(down) {
+        // Of all that was measured: the last periods alone may hold a burst, or none.
+        let [a, b] = facts.map(|one| one.rms);
+        let scatter = (a.error + b.error).max(SAME_MODULATED * a.value.max(b.value));
+        return (a.value - b.value).abs() > scatter;
+    }
     let [a, b] = [up, down].map(|point| {
         let peaks = &point.period_peaks;
         let mean = peaks.iter().sum::<f64>() / peaks.len().max(1) as f64;
@@ -254,11 +259,11 @@ fn differ([up, down]: [&DiagramPoint; 2]) -> bool {
         [mean, wide]
     });
     let larger = a[0].max(b[0]);
-    let impacts = [up, down].map(|point| point.motion.facts().impacts_per_period.value);
+    let impacts = facts.map(|one| one.impacts_per_period.value);
     let impacts = (impacts[0] - impacts[1]).abs();
-    (a[0] - b[0]).abs() > limit * larger
+    (a[0] - b[0]).abs() > SAME_PERIODIC * larger
         // A repeating motion is no modulated one of the same mean ...
-        || (a[1] - b[1]).abs() > 2.0 * limit * larger
+        || (a[1] - b[1]).abs() > 2.0 * SAME_PERIODIC * larger
         // ... and not one with other impacts either.
-        || (limit == SAME_PERIODIC && impacts > SAME_IMPACTS)
+        || impacts > SAME_IMPACTS
 }

@@ -21,7 +21,7 @@ use super::events::{Detail, Observer, Side};
 use super::panels::Limits;
 use super::path::{Parabola, Path, StraightLine};
 use super::phasor::{Rates, Steady};
-use super::run::{Moment, Simulation, Stand, Stop};
+use super::run::{Moment, Simulation, Stand, Stop, UnderWay};
 use super::walls::Sticking;
 use crate::numerics::lanes::{LANES, Real, Wide, WideMask};
 use crate::system::State;
@@ -164,6 +164,8 @@ struct Lanes<S: Simd, C> {
     observed: u64,
     flights: u64,
     told: [Moment; LANES],
+    /// Time from there to where the piece of flight begins, where flights are told.
+    since: [f64; LANES],
     /// Lanes that fly in short panels.
     fine: u64,
     rates: Rates<Wide<S>>,
@@ -216,6 +218,7 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
             observed: 0,
             flights: 0,
             told: [nowhere; LANES],
+            since: [0.0; LANES],
             fine: 0,
             rates: Rates::gathered(|_| one),
             mass_ratio: zero,
@@ -288,7 +291,7 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
                     y: y[lane],
                     y_velocity: velocity[lane],
                 };
-                self.end_period(lane, state, limit >> lane & 1 == 1, queue);
+                self.end_period(lane, state, left[lane], limit >> lane & 1 == 1, queue);
             }
         }
         let plus = y.like(0.0).less(wall);
@@ -307,7 +310,8 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
             };
             let (turns, phase) = (turns[lane] as u64, phase[lane]);
             let impact = simulation.impact(&before, Side::of(wall[lane]), &after, (turns, phase));
-            simulation.tell_impact(&self.told[lane], turns, &impact, *observer, *detail);
+            let since = self.since[lane] + time[lane];
+            simulation.tell_impact(&self.told[lane], since, &impact, *observer, *detail);
         }
         let follows = restitution.at_most(x.like(0.0));
         let follows = Wide::choose(follows, after.x_velocity, after.y_velocity);
@@ -327,8 +331,11 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
         for lane in lanes((over & self.renewal.at_most(turns)).bits()) {
             self.renew(lane, queue);
         }
-        for lane in lanes(told & self.flights) {
-            self.told[lane] = self.moment(lane);
+        for lane in lanes(good.bits() & self.flights) {
+            self.since[lane] += time[lane];
+            if told >> lane & 1 == 1 {
+                (self.told[lane], self.since[lane]) = (self.moment(lane), 0.0);
+            }
         }
         for lane in lanes(active & (fine ^ self.fine) & !doubt) {
             self.set_panels(lane, fine >> lane & 1 == 1, queue);
@@ -355,17 +362,27 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
     }
 
     /// Ends the period of a lane, for who is to be told; it may be the last.
-    fn end_period(&mut self, lane: usize, state: State, last: bool, queue: &mut Queue<'_>) {
+    fn end_period(
+        &mut self,
+        lane: usize,
+        state: State,
+        left: f64,
+        last: bool,
+        queue: &mut Queue<'_>,
+    ) {
         let begun = self.moment(lane);
         let Some(index) = self.task[lane] else { return };
         let Trajectory { simulation, observer, detail, stop, .. } = &mut queue.tasks[index];
         let told = &mut self.told[lane];
         // A flight that stood there may go on from it.
         if told.turns <= begun.turns {
-            *told = simulation.tell_period(told, &begun, state, *observer, *detail);
+            let since = &mut self.since[lane];
+            *told = simulation.tell_period(told, &begun, state, *since + left, *observer, *detail);
+            *since = -left;
         }
         if last {
-            simulation.resume(Stand { at: *told, under_way: Some(begun) });
+            let under_way = Some(UnderWay { begun, since: -left });
+            simulation.resume(Stand { at: *told, under_way });
             *stop = Some(Stop::EndTime);
         }
     }
@@ -399,13 +416,12 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
         let Some(index) = self.task[lane] else { return false };
         let task = &mut queue.tasks[index];
         let (told, at) = (self.told[lane], self.moment(lane));
-        let stand = if !doubt {
-            Stand::new(at)
-        } else if at.turns < told.turns {
-            // A flight that went on from the end of a period.
-            Stand { at: told, under_way: Some(at) }
-        } else {
-            task.simulation.in_doubt(&told, at, task.observer)
+        // A flight of which not all was told, or that went on from the end of a period.
+        let untold = self.flights >> lane & 1 == 1 || at.turns < told.turns;
+        let under_way = UnderWay { begun: at, since: self.since[lane] };
+        let stand = match doubt && untold {
+            true => Stand { at: told, under_way: Some(under_way) },
+            false => Stand::new(at),
         };
         task.simulation.resume(stand);
         if let Some(side) = stuck {
@@ -413,7 +429,7 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
         }
         match task.alone(doubt) {
             Some(departure) => {
-                self.set_panels(lane, departure.flight().fine, queue);
+                self.set_panels(lane, departure.flight().begun.fine, queue);
                 self.depart(lane, &departure);
                 true
             }
@@ -454,7 +470,7 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
             if let Some(departure) = queue.tasks[index].alone(false) {
                 self.task[lane] = Some(index);
                 self.settle(lane, &queue.tasks);
-                self.set_panels(lane, departure.flight().fine, queue);
+                self.set_panels(lane, departure.flight().begun.fine, queue);
                 self.depart(lane, &departure);
                 return true;
             }
@@ -490,7 +506,8 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
     /// Sets where a trajectory stands.
     fn depart(&mut self, lane: usize, stand: &Stand) {
         self.told[lane] = stand.at;
-        let departure = stand.flight();
+        let UnderWay { begun: departure, since } = stand.flight();
+        self.since[lane] = since;
         let State { x, x_velocity, y, y_velocity } = departure.state;
         self.x[lane] = x;
         self.v[lane] = x_velocity;

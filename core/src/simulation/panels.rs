@@ -10,7 +10,7 @@ use super::events::{Detail, Impact, Observer, Side};
 use super::landing::{Ending, Flight, Landing};
 use super::path::{Path, StraightLine};
 use super::phasor::Rates;
-use super::run::{Moment, Simulation, Stand, Stop};
+use super::run::{Moment, Simulation, Stand, Stop, UnderWay};
 use super::sliding::{CavityFlight, Straight};
 use super::walls::{self, Sticking};
 use crate::system::State;
@@ -85,7 +85,7 @@ impl Simulation {
         let sticking = [Side::Plus, Side::Minus].map(|side| Sticking::of(self, side));
         let detail = observer.detail();
         let mut told = self.stand.at;
-        let mut at = self.stand.flight();
+        let UnderWay { begun: mut at, mut since } = self.stand.flight();
         // What has just been thrown back leaves its wall.
         let mut leaves = false;
         loop {
@@ -93,7 +93,7 @@ impl Simulation {
             let line = StraightLine { y, velocity: y_velocity };
             let released = !leaves && v == y_velocity && walls::touches(x, v, line);
             if !leaves && !released && walls::blocked(x, v, line) {
-                return (self.in_doubt(&told, at, observer), FlightEnd::Doubt);
+                return (self.in_doubt(&told, at, since, observer), FlightEnd::Doubt);
             }
             let (x, path) = course.depart(&at);
             let finely;
@@ -120,13 +120,13 @@ impl Simulation {
             };
             let Some(landing) = landing else {
                 at.evaluations = evaluations;
-                return (self.in_doubt(&told, at, observer), FlightEnd::Doubt);
+                return (self.in_doubt(&told, at, since, observer), FlightEnd::Doubt);
             };
             let Landing { end, time, x, v, steady } = landing;
             let StraightLine { y, velocity: y_velocity } = path.from(time).line();
             let (x, y) = (course.arrive(sense, x), course.arrive(sense, y));
             if !(x.abs() <= f64::MAX && y.abs() <= f64::MAX) {
-                return (self.in_doubt(&told, at, observer), FlightEnd::Doubt);
+                return (self.in_doubt(&told, at, since, observer), FlightEnd::Doubt);
             }
             let begun = at;
             at.fine = matches!(end, Ending::Doubtful);
@@ -137,7 +137,8 @@ impl Simulation {
             at.phase += rates.frequency * time;
             at.steady = steady;
             at.evaluations = evaluations;
-            if rates.left(begun.phase) < time {
+            let left = rates.left(begun.phase);
+            if left < time {
                 at.turns += 1;
                 at.phase = (at.phase - TAU).max(0.0);
                 if rates.renews(at.turns) {
@@ -146,17 +147,21 @@ impl Simulation {
                 let limit = limits.turns <= at.turns;
                 // A flight that stood there may go on from it.
                 if told.turns < at.turns && (limit || detail > Detail::Nothing) {
-                    let left = rates.left(begun.phase);
                     let (x, v) = rates.period_end(simd, &here, left);
                     let StraightLine { y, velocity: y_velocity } = path.from(left).line();
                     let (x, y) = (course.arrive(sense, x), course.arrive(sense, y));
                     let state = State { x, x_velocity: v, y, y_velocity };
-                    told = self.tell_period(&told, &begun, state, observer, detail);
+                    told = self.tell_period(&told, &begun, state, since + left, observer, detail);
+                    since = -left;
                 }
                 if limit {
-                    return (Stand { at: told, under_way: Some(begun) }, FlightEnd::Limit);
+                    return (
+                        Stand { at: told, under_way: Some(UnderWay { begun, since }) },
+                        FlightEnd::Limit,
+                    );
                 }
             }
+            since += time;
             let before = State { x, x_velocity: v, y, y_velocity };
             if let Ending::Midair | Ending::Doubtful = end {
                 at.state = before;
@@ -168,11 +173,11 @@ impl Simulation {
                 let after = rebound(eps, self.restitution(side), v, y_velocity);
                 if detail > Detail::Nothing {
                     let impact = self.impact(&before, side, &after, (at.turns, at.phase));
-                    self.tell_impact(&told, at.turns, &impact, observer, detail);
+                    self.tell_impact(&told, since, &impact, observer, detail);
                 }
                 at.state = self.rebounded(&before, side, &after);
                 at.sense = -side.sign();
-                told = at;
+                (told, since) = (at, 0.0);
                 let State { x, x_velocity: v, y, y_velocity } = at.state;
                 let line = StraightLine { y, velocity: y_velocity };
                 let sticking = &sticking[side.index()];
@@ -182,10 +187,10 @@ impl Simulation {
                 leaves = y_velocity != v;
             } else {
                 at.state = before;
-                self.tell_flight(&told, (at.turns, at.phase), observer, detail);
+                self.tell_flight(&told, since, observer, detail);
                 let acceleration = rates.acceleration(landing.x, v, steady);
                 let slides = self.slides_on(&mut at, acceleration, observer);
-                told = at;
+                (told, since) = (at, 0.0);
                 if !slides {
                     return (Stand::new(at), FlightEnd::Turned);
                 }
@@ -197,63 +202,66 @@ impl Simulation {
         }
     }
 
-    /// Where a trajectory stands whose next piece of flight is in doubt; observers are told of those before.
+    /// Where a trajectory stands whose next piece of flight is in doubt; observers are told of those before, which took
+    /// the time `since`.
     #[inline(never)]
-    pub(super) fn in_doubt(&self, told: &Moment, at: Moment, observer: &mut dyn Observer) -> Stand {
+    fn in_doubt(
+        &self,
+        told: &Moment,
+        at: Moment,
+        since: f64,
+        observer: &mut dyn Observer,
+    ) -> Stand {
         let detail = observer.detail();
-        self.tell_flight(told, (at.turns, at.phase), observer, detail);
+        self.tell_flight(told, since, observer, detail);
         Stand::new(at)
     }
 
-    /// Tells an observer of the end of the period in which a flight began, and of the flight from where it was told last;
-    /// apart from the flights themselves, which it would slow down.
+    /// Tells an observer of the end of the period in which a piece of flight began, `since` after where the flight was told
+    /// last; apart from the flights themselves, which it would slow down.
     #[inline(never)]
     pub(super) fn tell_period(
         &self,
         told: &Moment,
         begun: &Moment,
         state: State,
+        since: f64,
         observer: &mut dyn Observer,
         detail: Detail,
     ) -> Moment {
         let (turns, steady) =
             (begun.turns + 1, self.rates.map_or(begun.steady, |rates| rates.origin));
-        let end = Moment { state, steady, phase: 0.0, turns, fine: false, ..*begun };
-        self.tell_flight(told, (end.turns, 0.0), observer, detail);
+        self.tell_flight(told, since, observer, detail);
         if detail > Detail::Nothing {
-            observer.period(&end.state);
+            observer.period(&state);
         }
-        end
+        Moment { state, steady, phase: 0.0, turns, fine: false, ..*begun }
     }
 
-    /// Tells an observer of the flight from where it was told last to an impact.
+    /// Tells an observer of an impact, and of the flight from where it was told last.
     #[inline(never)]
     pub(super) fn tell_impact(
         &self,
         told: &Moment,
-        turns: u64,
+        since: f64,
         impact: &Impact,
         observer: &mut dyn Observer,
         detail: Detail,
     ) {
-        self.tell_flight(told, (turns, impact.phase), observer, detail);
+        self.tell_flight(told, since, observer, detail);
         observer.impact(impact);
     }
 
-    /// Tells of the flight from where it was told last.
+    /// Tells of the flight of a `duration` from where it was told last.
     fn tell_flight(
         &self,
         told: &Moment,
-        (turns, phase): (u64, f64),
+        duration: f64,
         observer: &mut dyn Observer,
         detail: Detail,
     ) {
-        if detail == Detail::Flights {
-            let phase = phase + TAU * (turns - told.turns) as f64;
-            let duration = (phase - told.phase) / self.alone.frequency;
-            if duration > 0.0 {
-                observer.segment(&self.flown(told, duration));
-            }
+        if detail == Detail::Flights && duration > 0.0 {
+            observer.segment(&self.flown(told, duration));
         }
     }
 }

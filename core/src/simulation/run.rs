@@ -72,9 +72,16 @@ pub(super) struct Moment {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stand {
     pub at: Moment,
-    /// Where the flight began that is under way at the end of a period: it goes on from there, so that it does not matter
-    /// where a run was interrupted.
-    pub under_way: Option<Moment>,
+    /// The piece of flight that is under way at the end of a period.
+    pub under_way: Option<UnderWay>,
+}
+
+/// A piece of flight from which a trajectory goes on, so that it does not matter where a run was interrupted.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct UnderWay {
+    pub begun: Moment,
+    /// Time from where the trajectory stands, up to which observers were told, to where it began; negative if that is before.
+    pub since: f64,
 }
 
 impl Stand {
@@ -83,9 +90,9 @@ impl Stand {
         Self { at, under_way: None }
     }
 
-    /// Where the flight begins that is to be flown.
-    pub(super) fn flight(&self) -> Moment {
-        self.under_way.unwrap_or(self.at)
+    /// The piece of flight that is to be flown.
+    pub(super) fn flight(&self) -> UnderWay {
+        self.under_way.unwrap_or(UnderWay { begun: self.at, since: 0.0 })
     }
 }
 
