@@ -88,7 +88,7 @@ impl Scope<'_> {
         Judged { at: self.place(*at), inactive: rest, ..judged }.or_undecided(undecided)
     }
 
-    /// The worst value of a criterion about motions; its error covers all others with theirs.
+    /// The worst value of a criterion about motions, of equal ones that which is known best; its error covers all others with theirs.
     fn worst(&self, criterion: &Criterion) -> Judged {
         let counting = self.survey.motions.counting(self.survey.count_rest);
         let all: Vec<(Judged, &Motion)> =
@@ -96,7 +96,12 @@ impl Scope<'_> {
         let room = |one: &Judged| one.margin.unwrap_or(f64::INFINITY);
         let nearest = |settled: bool| {
             let of = all.iter().filter(|(_, motion)| motion.settled() || !settled);
-            of.min_by(|a, b| room(&a.0).total_cmp(&room(&b.0)))
+            of.min_by(|a, b| {
+                let [a, b] =
+                    [&a.0, &b.0].map(|one| (room(one), one.decided_by == Method::Simulation));
+                let alike = (a.0 - b.0).abs() <= ROUNDING * criterion.limit.abs();
+                if alike { a.1.cmp(&b.1) } else { a.0.total_cmp(&b.0) }
+            })
         };
         let Some((worst, _)) = nearest(false) else {
             return criterion.judged(None, 0.0, Method::Simulation);

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use crate::motions::{DiagramPoint, Effort, Motion, SweepDirection, sweep};
+use crate::motions::{DiagramPoint, Effort, SweepDirection, sweep};
 use crate::orbits::Peaks;
 use crate::orbits::newton::solve;
 use crate::orbits::{

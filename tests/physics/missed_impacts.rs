@@ -11,8 +11,8 @@ use std::env;
 use vinesink::simulation::{Impact, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};
 
-/// Flights without a word from the caller: a second or two.
-const FLIGHTS: u64 = 200_000;
+/// Flights without a word from the caller: a few seconds.
+const FLIGHTS: u64 = 1_000_000;
 /// Flights of each system before the next one.
 const EACH: u64 = 2_000;
 /// Periods after which a flight without impact is given up by both searches.
@@ -28,7 +28,8 @@ fn spread(index: u64, prime: f64) -> f64 {
     (0.5 + prime.sqrt() * (index + 1) as f64).fract()
 }
 
-/// Table 1 near and far from its boundaries first, then systems over the whole range.
+/// Table 1 near and far from its boundaries first, then systems over the whole range, of which every third has a tilt, and some
+/// of these unequal ends and friction.
 fn system(index: u64) -> System {
     let shipped =
         [(8.0, 0.3), (8.0, 2.5), (8.0, 7.5), (8.0, 20.0), (8.5, 2.5), (8.5, 27.0), (8.35, 11.5)];
@@ -36,14 +37,27 @@ fn system(index: u64) -> System {
         return common::table_1(*frequency, *clearance);
     }
     let log = |low: f64, high: f64, part: f64| low * libm::pow(high / low, part);
+    let restitution = spread(index, 5.0);
+    let cavity = match index % 3 {
+        0 => Cavity {
+            gravity_along: 2.0 * spread(index, 37.0) - 1.0,
+            friction_acceleration: if index % 4 == 1 { 0.05 } else { 0.0 },
+            restitution_difference: if index % 4 == 2 {
+                0.1 * restitution.min(1.0 - restitution)
+            } else {
+                0.0
+            },
+        },
+        _ => Cavity::IDEAL,
+    };
     System::new(Parameters {
         mass_ratio: log(1e-5, 0.5, spread(index, 2.0)),
         damping: 10.0 * spread(index, 3.0),
-        restitution: spread(index, 5.0),
+        restitution,
         frequency_ratio: log(0.2, 5.0, spread(index, 7.0)),
         forcing_per_clearance: log(0.1, 1e4, spread(index, 11.0)),
         excitation: Excitation::BaseDisplacement,
-        cavity: Cavity::IDEAL,
+        cavity,
     })
     .expect("in range")
 }
