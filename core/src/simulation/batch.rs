@@ -370,10 +370,15 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
         last: bool,
         queue: &mut Queue<'_>,
     ) {
-        let begun = self.moment(lane);
         let Some(index) = self.task[lane] else { return };
         let Trajectory { simulation, observer, detail, stop, .. } = &mut queue.tasks[index];
-        let told = &mut self.told[lane];
+        if !last && *detail == Detail::Events {
+            if self.told[lane].turns <= self.turns[lane] as u64 {
+                observer.period(&state);
+            }
+            return;
+        }
+        let (begun, told) = (self.moment(lane), &mut self.told[lane]);
         // A flight that stood there may go on from it.
         if told.turns <= begun.turns {
             let since = &mut self.since[lane];

@@ -42,7 +42,8 @@ impl Simulation {
         let (mut steady, mut time, mut evaluations) = (steady, 0.0, 0);
         loop {
             let (here, slack) = rates.begin(x, v, steady, path);
-            let flight = Flight { course: Straight, sense: 0.0, path, fine: true };
+            let until = left - time;
+            let flight = Flight { course: Straight, sense: 0.0, path, fine: true, until };
             let landing = dispatch!(self.level, simd => {
                 rates.fly(simd, here, slack, &flight, &mut evaluations)
             })?;

@@ -42,7 +42,7 @@ pub(super) struct Landing {
 }
 
 impl Rates<f64> {
-    /// Flies to the first event, or as far as a piece reaches; none where nothing is proven.
+    /// Flies to the first event, or as far as a piece reaches or beyond the time `until`; none where nothing is proven.
     /// Evaluations of the motion are added to `evaluations`.
     #[inline(always)]
     pub(super) fn fly<S: Simd, C: CavityFlight>(
@@ -53,7 +53,7 @@ impl Rates<f64> {
         flight: &Flight<C>,
         evaluations: &mut u64,
     ) -> Option<Landing> {
-        let Flight { course, sense, path, fine } = *flight;
+        let Flight { course, sense, path, fine, until } = *flight;
         let mut time = 0.0;
         for _ in 0..PANELS {
             let reach = time + self.step;
@@ -82,6 +82,9 @@ impl Rates<f64> {
                 return self.look_into(simd, &panel, flight, evaluations);
             }
             (here, time) = (there, reach);
+            if until < time {
+                break;
+            }
         }
         Some(self.midair(&here, time))
     }
@@ -238,6 +241,8 @@ pub(super) struct Flight<C: CavityFlight> {
     pub path: C::Path,
     /// Whether a panel about which nothing is proven is to be halved.
     pub fine: bool,
+    /// Time after which nobody wants to know more.
+    pub until: f64,
 }
 
 /// Where a flight ends in a panel.

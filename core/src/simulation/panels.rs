@@ -115,7 +115,10 @@ impl Simulation {
                 returns.then(|| rates.short_return(simd, &here, path, &mut evaluations)).flatten()
             } else {
                 let fine = at.fine || !course.returns();
-                let flight = Flight { course, sense, path, fine };
+                // What is beyond the end of a run is flown when it goes on.
+                let last = limits.turns <= at.turns + 1;
+                let until = if last { rates.left(at.phase) } else { f64::INFINITY };
+                let flight = Flight { course, sense, path, fine, until };
                 rates.fly(simd, here, slack, &flight, &mut evaluations)
             };
             let Some(landing) = landing else {
