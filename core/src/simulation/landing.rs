@@ -79,7 +79,9 @@ impl Rates<f64> {
                     panel = FlightPanel { there, length, slack, ..panel };
                     *evaluations += 1;
                 }
-                return self.look_into(simd, &panel, flight, evaluations);
+                // What was proven before stands.
+                let before = || (time > 0.0).then(|| self.midair(&here, time));
+                return self.look_into(simd, &panel, flight, evaluations).or_else(before);
             }
             (here, time) = (there, reach);
             if until < time {

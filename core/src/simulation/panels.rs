@@ -215,6 +215,10 @@ impl Simulation {
         since: f64,
         observer: &mut dyn Observer,
     ) -> Stand {
+        // Of a flight from the end of a period there is nothing to tell.
+        if at.turns < told.turns {
+            return Stand::new(*told);
+        }
         let detail = observer.detail();
         self.tell_flight(told, since, observer, detail);
         Stand::new(at)
