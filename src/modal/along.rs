@@ -62,7 +62,7 @@ pub fn seconds(case: &ModalCase) -> f64 {
         let [from, to] = load.range_hz;
         let places = if from < to { f64::from(EVEN + 2 * ROUNDS) } else { 1.0 };
         let Ok(system) = case.system(load, load.centre(case)) else { return 0.0 };
-        places * longest_flight(&system)
+        places * longest_flight(&system, case.periods)
     };
     let periods: f64 = case.loads.iter().map(of_load).sum();
     f64::from(case.starts) * periods * IMPACTS * IMPACT * size
@@ -135,7 +135,7 @@ impl AlongLoad {
 impl AtFrequency {
     fn of(case: &ModalCase, load: &Load, at: f64, starts: u32) -> Result<Self, ModalError> {
         let system = case.system(load, at)?;
-        let motions = modal_motions(&system, &case.shapes(), starts)?;
+        let motions = modal_motions(&system, &case.shapes(), starts, case.periods)?;
         Ok(Self { at, motions })
     }
 

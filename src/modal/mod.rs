@@ -94,7 +94,7 @@ impl ModalAnswer {
         // What has settled may fail it, whatever else there is.
         let fails = worst.settled_peak > asked.criterion.limit;
         let system = case.system(&case.loads[worst.load], worst.at).ok();
-        let followed = system.map_or(0, |system| longest_flight(&system) as u64);
+        let followed = system.map_or(0, |system| longest_flight(&system, case.periods) as u64);
         let undecided = (!worst.settled && !fails).then_some(followed);
         let judged =
             Judged::of_worst(&asked.criterion, [worst.peak, worst.error], decided_by, undecided);

@@ -105,7 +105,7 @@ impl ModalOptimum {
             for (load, at, _) in &looked_at {
                 let found = candidate.system(load, *at).ok();
                 let found = found
-                    .and_then(|system| modal_motions(&system, &case.shapes(), FEW_STARTS).ok());
+                    .and_then(|system| modal_motions(&system, &case.shapes(), FEW_STARTS, 0).ok());
                 let Some(motions) = found else { return f64::NEG_INFINITY };
                 reach = reach.max(over_limits(&motions, &limits));
                 if -reach < known {

@@ -77,7 +77,8 @@ const SAME: f64 = 0.02;
 const SAME_REPEATING: f64 = 1e-6;
 
 /// The long-term motions at places with these values of each mode, from so many starts, that from rest among them; the most
-/// common first. Where every absorber can rest, that motion is the last.
+/// common first. Where every absorber can rest, that motion is the last. What does not repeat is measured for at least so
+/// many excitation periods.
 ///
 /// # Errors
 /// [`ModalStartError`] where the structure's own motion is not finite.
@@ -85,12 +86,13 @@ pub fn modal_motions(
     system: &ModalSystem,
     places: &[Vec<f64>],
     starts: u32,
+    periods: u64,
 ) -> Result<Vec<ModalMotion>, ModalStartError> {
     let orbits = attracting(system, places)?;
     let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
     let mut rest = resting(system, places);
     for k in 0..starts {
-        let motion = from_start(system, places, &start(system, k), &orbits)?;
+        let motion = from_start(system, places, &start(system, k), periods, &orbits)?;
         // What is left of a transient then is no other motion.
         if let Some(rest) = rest.as_mut().filter(|_| motion.rests()) {
             rest.starts += 1;
@@ -257,15 +259,16 @@ fn decay_periods(system: &ModalSystem) -> f64 {
     system.frequency_ratio() / (std::f64::consts::TAU * slowest)
 }
 
-/// Excitation periods of a time in which the slowest mode decays, and of a block.
-fn lengths(system: &ModalSystem) -> [u64; 2] {
+/// Excitation periods of a time in which the slowest mode decays, and of a block of at least so many `periods` in all.
+fn lengths(system: &ModalSystem, periods: u64) -> [u64; 2] {
     let decay = decay_periods(system).min(LONGEST);
-    [decay.max(QUICKEST), (OF_DECAY * decay).max(SHORTEST)].map(|length| length.ceil() as u64)
+    let block = (OF_DECAY * decay).max(SHORTEST).ceil() as u64;
+    [decay.max(QUICKEST).ceil() as u64, block.max(periods.div_ceil(BLOCKS as u64))]
 }
 
-/// Excitation periods that a start is flown for at most.
-pub fn longest_flight(system: &ModalSystem) -> f64 {
-    let [decay, block] = lengths(system);
+/// Excitation periods that a start is flown for at most, where at least so many are measured.
+pub fn longest_flight(system: &ModalSystem, periods: u64) -> f64 {
+    let [decay, block] = lengths(system, periods);
     f64::from(DECAYS) * decay as f64 + (BLOCKS * (1 + AGAIN)) as f64 * block as f64
 }
 
@@ -274,10 +277,11 @@ fn from_start(
     system: &ModalSystem,
     places: &[Vec<f64>],
     start: &ModalState,
+    periods: u64,
     orbits: &[Attracting],
 ) -> Result<ModalMotion, ModalStartError> {
     let mut simulation = ModalSimulation::new(system, start, 0.0)?;
-    let [decay, block] = lengths(system);
+    let [decay, block] = lengths(system, periods);
     // What a known orbit attracts, or what repeats.
     let known = |simulation: &mut ModalSimulation, repeats_after: Option<u32>| {
         let state = simulation.state();

@@ -57,7 +57,20 @@ pub fn longest_within(periods: u64) -> u64 {
 
 /// The shortest repetition at the end of `records`, if there is one.
 pub fn find(records: &[PeriodRecord]) -> Option<Periodicity> {
-    (1..=LONGEST).find_map(|periods| repeats_after(records, periods))
+    let latest = &records[records.len().saturating_sub((REPETITIONS + 1) * LONGEST)..];
+    let last = records.last()?.end;
+    // Most do not close over the last pair of states already.
+    let far = CLOSURE * size(latest);
+    let closes = |periods: &usize| {
+        let before = latest.len().checked_sub(periods + 1).map(|index| latest[index].end);
+        before.is_some_and(|before| before.distance(&last) <= far)
+    };
+    (1..=LONGEST).filter(closes).find_map(|periods| repeats_after(records, periods))
+}
+
+/// The size of the motion at the ends of periods.
+fn size(records: &[PeriodRecord]) -> f64 {
+    records.iter().map(|record| record.end.size()).fold(0.0, f64::max)
 }
 
 fn repeats_after(records: &[PeriodRecord], periods: usize) -> Option<Periodicity> {
@@ -66,13 +79,12 @@ fn repeats_after(records: &[PeriodRecord], periods: usize) -> Option<Periodicity
         return None;
     }
     let tail = &records[records.len() - needed..];
-    let size = tail.iter().map(|record| record.end.size()).fold(0.0, f64::max);
     let closure = tail
         .iter()
         .zip(&tail[periods..])
         .map(|(before, after)| before.end.distance(&after.end))
         .fold(0.0, f64::max)
-        / size.max(f64::MIN_POSITIVE);
+        / size(tail).max(f64::MIN_POSITIVE);
     let last = &tail[tail.len() - periods..];
     let impacts = last.iter().flat_map(|record| record.impacts).sum();
     (closure <= CLOSURE).then_some(Periodicity { impacts, periods: periods as u32, closure })

@@ -66,7 +66,7 @@ fn the_motion_of_one_mode_and_one_absorber_is_its_exact_orbit() {
     for omega in [1.0, 8.5 / 8.349, 1.025] {
         let (system, modal) = one(omega);
         let Some(peak) = FullSystem::of(&system).attracting_peak() else { continue };
-        let motions = modal_motions(&modal, &[vec![1.0]], 4).expect("they fly");
+        let motions = modal_motions(&modal, &[vec![1.0]], 4, 0).expect("they fly");
         let orbit = motions.iter().find(|one| one.repeats_after == Some(1) && !one.rests());
         let orbit = orbit.expect("the orbit attracts");
         assert!((orbit.places[0].peak / peak - 1.0).abs() < 1e-9, "{omega}: {orbit:?} {peak}");

@@ -44,6 +44,8 @@ pub struct ModalCase {
     pub criteria: Vec<PlaceCriterion>,
     /// Starts at each frequency, that from rest among them.
     pub starts: u32,
+    /// Excitation periods that a motion which does not repeat is measured for at least.
+    pub periods: u64,
     /// The file of its modes, where they are in one.
     pub modes_file: Option<ModesFile>,
     /// Within which bounds better absorbers are looked for.

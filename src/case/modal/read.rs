@@ -212,7 +212,9 @@ pub(super) fn read(
     if !reader.problems.is_empty() {
         return None;
     }
-    let starts = simulation.and_then(|one| u32::try_from(one.starts?).ok()).unwrap_or(STARTS);
+    let asked = simulation.as_ref();
+    let starts = asked.and_then(|one| u32::try_from(one.starts?).ok()).unwrap_or(STARTS);
+    let periods = asked.and_then(|one| one.periods).unwrap_or(0);
     let case = ModalCase {
         title: heading.title,
         source: heading.source,
@@ -223,6 +225,7 @@ pub(super) fn read(
         loads,
         criteria,
         starts,
+        periods,
         modes_file: None,
         bounds,
         values,
