@@ -117,9 +117,12 @@ fn run_at<S: BorrowMut<Simulation>, O: Observer>(
 /// Flies all of a queue. It does not depend on the type of observers: there is one copy for each set of
 /// instructions, and none in a crate that uses this one.
 fn fly(level: Level, queue: &mut Queue<'_>) {
-    queue.take_up(false);
-    dispatch!(level, simd => Lanes::new(simd, LevelCourse).run(queue));
-    queue.take_up(true);
+    // A straight line is a parabola too, with the same bits; a page in a browser has less code.
+    if cfg!(not(target_arch = "wasm32")) {
+        queue.take_up(|sliding| sliding.straight);
+        dispatch!(level, simd => Lanes::new(simd, LevelCourse).run(queue));
+    }
+    queue.take_up(|_| true);
     dispatch!(level, simd => Lanes::new(simd, TiltedCourse).run(queue));
 }
 

@@ -63,7 +63,8 @@ impl Simulation {
         let Some(rates) = &self.rates else { return FlightEnd::Doubt };
         let (level, sliding) = (self.level, self.sliding);
         let end;
-        (self.stand, end) = if sliding.straight {
+        // As in a batch.
+        (self.stand, end) = if sliding.straight && cfg!(not(target_arch = "wasm32")) {
             dispatch!(level, simd => self.fly_by(simd, Straight, rates, limits, observer))
         } else {
             dispatch!(level, simd => self.fly_by(simd, sliding, rates, limits, observer))

@@ -3,6 +3,7 @@
 use crate::simulation::events::{Detail, Observer};
 use crate::simulation::panels::Limits;
 use crate::simulation::run::{Simulation, Stand, Stop};
+use crate::simulation::sliding::Sliding;
 
 /// A trajectory on its way.
 pub(super) struct Trajectory<'a> {
@@ -50,10 +51,10 @@ impl<'a> Queue<'a> {
         Self { tasks, waiting: Vec::new() }
     }
 
-    /// Lets those wait whose cavities are level, or those of the others.
-    pub(super) fn take_up(&mut self, bent: bool) {
+    /// Lets those wait that are not done, of such cavities.
+    pub(super) fn take_up(&mut self, such: impl Fn(&Sliding) -> bool) {
         let tasks = self.tasks.iter().enumerate().rev();
-        let alike = tasks.filter(|(_, task)| task.simulation.sliding.straight != bent);
-        self.waiting = alike.map(|(index, _)| index).collect();
+        let open = tasks.filter(|(_, task)| task.stop.is_none() && such(&task.simulation.sliding));
+        self.waiting = open.map(|(index, _)| index).collect();
     }
 }
