@@ -528,9 +528,6 @@ fn periods(text: &str) -> u64 {
     value.unwrap_or(1000)
 }
 
-/// Excitation periods of a tenth of a usual window.
-const BLOCK: f64 = 100.0;
-
 /// What a trade-off holds all layers against.
 fn traded(judge: &mut Judge, bench: &Bench, motions: &[Value], simulated: &Value, report: &Value) {
     let Some(found) = bench.json("tradeoff", &[]) else {
@@ -541,12 +538,8 @@ fn traded(judge: &mut Judge, bench: &Bench, motions: &[Value], simulated: &Value
     let clearance = number(&report["quantities"]["clearance"]["value"]);
     let rms = clearance * number(&best["rms_over_clearance"]);
     let listed = number(&main["rms"]["value"]);
-    // Measured twice where it never repeats. Errors come from windows of some hundred periods and blocks of a tenth of one: of a
-    // motion that stays captured for as long, blocks are not independent, and the error is too small by the root of how many
-    // there are in a capture.
-    let captured = simulated["motion"]["captures"]["mean"].as_f64().unwrap_or(0.0);
-    let remembers = (captured / BLOCK).max(1.0).sqrt();
-    let errors = number(&main["rms"]["error"]) * remembers + number(&best["rms_error"]) * rms;
+    // Measured twice where it never repeats.
+    let errors = number(&main["rms"]["error"]) + number(&best["rms_error"]) * rms;
     judge.near("trade-off, rms", rms, listed, 2.0 * errors + SOLVED * listed);
     judge.same("trade-off, share", &found["share"], &main["share"]);
     judge.near(

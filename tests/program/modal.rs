@@ -6,6 +6,8 @@ use assert_cmd::Command;
 use serde_json::Value;
 use vinesink::case::{Case, ModalCase, is_modal};
 use vinesink::case_input::{AnyCase, CaseInputError, read_any};
+use vinesink::modal::seconds;
+use vinesink::motions::{longest_flight, modal_motions};
 use vinesink::store::Reach;
 
 const MAST: &str = "cases/several/mast.toml";
@@ -88,6 +90,7 @@ fn slips_are_told_where_they_are() {
         "[optimize]\nclearance = [\"9 mm\", \"1 mm\"]\n[criteria]",
         &["`clearance`"],
     );
+    refused("[criteria]", "[simulation]\ndiscard = 9\n[criteria]", &["`discard` has no meaning"]);
     let both = format!("{}\n[oscillator]\nmass = \"1 kg\"\n[band]\nfrom = \"1 Hz\"\n", text(MAST));
     let told = wrong(&both);
     assert!(told.contains("[oscillator] has no meaning beside [[mode]]"), "{told}");
@@ -333,6 +336,28 @@ fn modes_may_be_in_a_file() {
     assert!(told.contains("the file of the modes was not read"), "{told}");
     let both = named.replace("[[absorber]]", "[[mode]]\nfrequency = \"1 Hz\"\n\n[[absorber]]");
     assert!(wrong(&both).contains("both say which modes there are"), "{}", wrong(&both));
+}
+
+/// What a case asks for is what every start is measured for, and what a run is said to take.
+#[test]
+fn a_window_of_the_case_counts() {
+    let usual = ModalCase::parse("case.toml", &text(MAST)).expect("a shipped case");
+    let asked = "[simulation]\nperiods = 20000\nstarts = 6\n[criteria]";
+    let asked = text(MAST).replacen("[criteria]", asked, 1);
+    let asked = ModalCase::parse("case.toml", &asked).expect("valid");
+    assert_eq!((usual.periods, asked.periods, asked.starts), (0, 20_000, usual.starts));
+    let system = usual.system(&usual.loads[0], 1.1).expect("a system");
+    let longest = |case: &ModalCase| longest_flight(&system, case.periods);
+    assert!(longest(&asked) - longest(&usual) > 2.0 * 20_000.0, "{}", longest(&usual));
+    assert!(seconds(&asked) > 2.0 * seconds(&usual));
+    // The average of a longer time is another one, and known better.
+    let measured = |periods: u64| {
+        let motions = modal_motions(&system, &usual.shapes(), 1, periods).expect("they fly");
+        motions.iter().find(|one| !one.rests()).expect("one that wanders").places[0].rms
+    };
+    let [[short, off], [long, less]] = [0, 40_000].map(measured);
+    assert!(short != long && (short - long).abs() < 2.0 * (off + less), "{short} {long} {off}");
+    assert!(less < off, "{less} {off}");
 }
 
 /// Two limits of one name are told by their places: a comparison pairs each with its own.

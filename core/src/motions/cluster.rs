@@ -70,10 +70,25 @@ impl Cluster {
         peak.error > VAGUE * peak.value
     }
 
-    /// Those of all its windows together.
+    /// Those of all its windows together. Starts of one age may be at one stage of a slow modulation, and so are not independent:
+    /// by what most of them change from their first halves to their second the root mean square is not known any better.
     fn facts(&self) -> Facts {
         let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
-        Facts::pooled(&windows)
+        let mut facts = Facts::pooled(&windows);
+        let [change, chance] = self.change();
+        if windows.len() >= MANY && change.abs() > chance {
+            // The square varies twice as much as its root.
+            let off = change.abs() / (2.0 * facts.rms.value);
+            facts.rms.error = facts.rms.error.max(off);
+        }
+        facts
+    }
+
+    /// By how much the mean square goes up from the first halves of its windows to the second, with twice its standard error.
+    fn change(&self) -> [f64; 2] {
+        let change = |one: &WindowSample| one.mean_squares[1] - one.mean_squares[0];
+        let changes: Vec<f64> = self.samples.iter().map(change).collect();
+        [changes.iter().sum::<f64>() / changes.len() as f64, twice_standard_error(&changes)]
     }
 
     /// Whether its averages still go up or down: of a few windows where most do, of many where all do together.
@@ -82,11 +97,9 @@ impl Cluster {
         if count < MANY {
             return 2 * self.samples.iter().filter(|one| one.drifts).count() > count;
         }
-        let change = |one: &WindowSample| one.mean_squares[1] - one.mean_squares[0];
-        let changes: Vec<f64> = self.samples.iter().map(change).collect();
-        let mean = changes.iter().sum::<f64>() / count as f64;
+        let [mean, chance] = self.change();
         let size = self.samples.iter().map(|one| one.mean_squares[0]).sum::<f64>() / count as f64;
-        mean.abs() > (DRIFT * twice_standard_error(&changes)).max(NO_DIFFERENCE * size)
+        mean.abs() > (DRIFT * chance).max(NO_DIFFERENCE * size)
     }
 
     /// Whether it may be on its way to a motion that repeats, or to other averages; `young` is one that was not measured

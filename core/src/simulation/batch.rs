@@ -2,9 +2,9 @@
 //!
 //! Each lane flies its own trajectory of its own system by the formulas of `phasor`, in the
 //! same order and with the same rounding as [`Simulation::run`], so that the bits agree. All lanes fly one piece of flight
-//! in a round; none waits for another. What is rare, a panel in doubt, the end of a chattering sequence and the
-//! sustained contact after it, an oscillator that does not ring, a cavity that is not ideal, is left
-//! to [`Simulation`] itself.
+//! in a round; none waits for another. A level cavity flies as a tilted one does: a straight line is a parabola with the same
+//! bits. What is rare, a panel in doubt, the end of a chattering sequence and the sustained contact after it, an oscillator that
+//! does not ring, a cavity that rubs, is left to [`Simulation`] itself.
 
 mod piece;
 mod queue;
@@ -109,7 +109,7 @@ fn run_at<S: BorrowMut<Simulation>, O: Observer>(
             stop: None,
         })
         .collect();
-    let mut queue = Queue::new(tasks);
+    let mut queue = Queue { tasks, next: 0 };
     fly(level, &mut queue);
     queue.tasks.into_iter().map(|task| task.stop.unwrap_or(Stop::EndTime)).collect()
 }
@@ -117,50 +117,12 @@ fn run_at<S: BorrowMut<Simulation>, O: Observer>(
 /// Flies all of a queue. It does not depend on the type of observers: there is one copy for each set of
 /// instructions, and none in a crate that uses this one.
 fn fly(level: Level, queue: &mut Queue<'_>) {
-    // A straight line is a parabola too, with the same bits; a page in a browser has less code.
-    if cfg!(not(target_arch = "wasm32")) {
-        queue.take_up(|sliding| sliding.straight);
-        dispatch!(level, simd => Lanes::new(simd, LevelCourse).run(queue));
-    }
-    queue.take_up(|_| true);
-    dispatch!(level, simd => Lanes::new(simd, TiltedCourse).run(queue));
-}
-
-/// How absorbers fly in lanes.
-trait Course<S: Simd>: Copy {
-    type Path: Path<Wide<S>>;
-    /// The flight that begins with `line`, where gravity has that acceleration.
-    fn path(self, line: StraightLine<Wide<S>>, gravity: Wide<S>) -> Self::Path;
-}
-
-/// In level cavities.
-#[derive(Clone, Copy)]
-struct LevelCourse;
-
-impl<S: Simd> Course<S> for LevelCourse {
-    type Path = StraightLine<Wide<S>>;
-    #[inline(always)]
-    fn path(self, line: StraightLine<Wide<S>>, _: Wide<S>) -> Self::Path {
-        line
-    }
-}
-
-/// In tilted cavities.
-#[derive(Clone, Copy)]
-struct TiltedCourse;
-
-impl<S: Simd> Course<S> for TiltedCourse {
-    type Path = Parabola<Wide<S>>;
-    #[inline(always)]
-    fn path(self, line: StraightLine<Wide<S>>, acceleration: Wide<S>) -> Self::Path {
-        Parabola { line, acceleration }
-    }
+    dispatch!(level, simd => Lanes::new(simd).run(queue));
 }
 
 /// Flights side by side.
-struct Lanes<S: Simd, C> {
+struct Lanes<S: Simd> {
     simd: S,
-    course: C,
     /// Which task each lane flies; none where the queue has run dry.
     task: [Option<usize>; LANES],
     /// Lanes whose observers need to be told of something, those of which they are told of flights, and up to where.
@@ -198,9 +160,9 @@ fn lanes(bits: u64) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| bits >> lane & 1 == 1)
 }
 
-impl<S: Simd, C: Course<S>> Lanes<S, C> {
+impl<S: Simd> Lanes<S> {
     #[inline(always)]
-    fn new(simd: S, course: C) -> Self {
+    fn new(simd: S) -> Self {
         let zero = Wide::splat(simd, 0.0);
         let one = Wide::splat(simd, 1.0);
         let steady = Steady { x: 0.0, v: 0.0 };
@@ -216,7 +178,6 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
         };
         Self {
             simd,
-            course,
             task: [None; LANES],
             observed: 0,
             flights: 0,
@@ -447,8 +408,8 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
 
     /// The absorbers' flights.
     #[inline(always)]
-    fn path(&self) -> C::Path {
-        self.course.path(self.line, self.gravity)
+    fn path(&self) -> Parabola<Wide<S>> {
+        Parabola { line: self.line, acceleration: self.gravity }
     }
 
     /// Where a lane's flight began.
@@ -474,7 +435,9 @@ impl<S: Simd, C: Course<S>> Lanes<S, C> {
     /// Takes the next trajectory that flies into a lane.
     fn next_task(&mut self, lane: usize, queue: &mut Queue<'_>) -> bool {
         self.task[lane] = None;
-        while let Some(index) = queue.waiting.pop() {
+        while queue.next < queue.tasks.len() {
+            let index = queue.next;
+            queue.next += 1;
             if let Some(departure) = queue.tasks[index].alone(false) {
                 self.task[lane] = Some(index);
                 self.settle(lane, &queue.tasks);

@@ -62,26 +62,19 @@ impl Rates<f64> {
             let hull = Hull::of(&here, &there, self.step, &slack);
             if !(hull.clear() && course.one_way(sense, &hull, [&here, &there])) {
                 let mut panel = FlightPanel { here, there, time, length: self.step, slack };
-                if !fine {
-                    let side = Side::of(there.gap);
-                    if hull.meets(side.sign()) {
-                        let guess = Guess { length: self.step, side, path: path.from(time) };
-                        let found = self.root(simd, [&here, &there], guess, &slack, evaluations);
-                        if let Some(found) = found {
-                            return Some(found.after(time));
-                        }
-                    }
-                    return Some(Landing { end: Ending::Doubtful, ..self.midair(&here, time) });
-                }
                 if let Some(length) = course.reach(sense, &here, self.step) {
                     let there = self.moment(simd, &here, length, path.from(time));
                     let slack = slack.part(length / self.step);
                     panel = FlightPanel { there, length, slack, ..panel };
                     *evaluations += 1;
                 }
-                // What was proven before stands.
-                let before = || (time > 0.0).then(|| self.midair(&here, time));
-                return self.look_into(simd, &panel, flight, evaluations).or_else(before);
+                let found = self.look_into(simd, &panel, flight, evaluations);
+                return match fine {
+                    false => found
+                        .or(Some(Landing { end: Ending::Doubtful, ..self.midair(&here, time) })),
+                    // What was proven before stands.
+                    true => found.or_else(|| (time > 0.0).then(|| self.midair(&here, time))),
+                };
             }
             (here, time) = (there, reach);
             if until < time {
@@ -109,9 +102,9 @@ impl Rates<f64> {
         evaluations: &mut u64,
     ) -> Option<Landing> {
         let FlightPanel { here, mut there, time, mut length, mut slack } = *panel;
-        let Flight { course, sense, path, .. } = *flight;
+        let Flight { course, sense, path, fine, .. } = *flight;
         let path_here = path.from(time);
-        let shortest = SHORTEST * length;
+        let shortest = if fine { SHORTEST * length } else { f64::INFINITY };
         let mut hull = Hull::of(&here, &there, length, &slack);
         // The first part of a panel may be.
         let mut clear =

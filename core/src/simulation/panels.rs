@@ -63,7 +63,7 @@ impl Simulation {
         let Some(rates) = &self.rates else { return FlightEnd::Doubt };
         let (level, sliding) = (self.level, self.sliding);
         let end;
-        // As in a batch.
+        // Less code in a browser: a straight line is a parabola with the same bits.
         (self.stand, end) = if sliding.straight && cfg!(not(target_arch = "wasm32")) {
             dispatch!(level, simd => self.fly_by(simd, Straight, rates, limits, observer))
         } else {

@@ -206,6 +206,14 @@ pub(super) fn read(
         loads.extend(read_load(reader, &table, &places, &modes));
     }
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
+    if simulation.as_ref().is_some_and(|one| one.discard.is_some()) {
+        reader.report(
+            root.span_of("simulation"),
+            "`discard` has no meaning with several modes",
+            "expected `starts` and `periods` alone",
+            "leave it out: every start is flown until its slowest mode has died out",
+        );
+    }
     let criteria = read_criteria(reader, &root, &places);
     let bounds = read_bounds(reader, &root, &places);
     let heading = heading?;

@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use super::{Course, Lanes};
+use super::Lanes;
 use crate::numerics::lanes::{Mask, Real, Wide, WideMask};
 use crate::simulation::certificate::Hull;
 use crate::simulation::landing::{CORRECTIONS, PANELS};
@@ -39,7 +39,7 @@ struct PanelSearch<S: Simd> {
     crossing: WideMask<S>,
 }
 
-impl<S: Simd, C: Course<S>> Lanes<S, C> {
+impl<S: Simd> Lanes<S> {
     /// Flies a piece of some lanes.
     #[inline(always)]
     pub(super) fn pieces(&self, active: WideMask<S>) -> PieceEnds<S> {

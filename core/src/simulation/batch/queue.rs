@@ -3,7 +3,6 @@
 use crate::simulation::events::{Detail, Observer};
 use crate::simulation::panels::Limits;
 use crate::simulation::run::{Simulation, Stand, Stop};
-use crate::simulation::sliding::Sliding;
 
 /// A trajectory on its way.
 pub(super) struct Trajectory<'a> {
@@ -39,22 +38,8 @@ impl Trajectory<'_> {
     }
 }
 
-/// Trajectories, and which of them are yet to be taken up.
+/// Trajectories, and which of them is to be taken up next.
 pub(super) struct Queue<'a> {
     pub(super) tasks: Vec<Trajectory<'a>>,
-    /// The next one last.
-    pub(super) waiting: Vec<usize>,
-}
-
-impl<'a> Queue<'a> {
-    pub(super) fn new(tasks: Vec<Trajectory<'a>>) -> Self {
-        Self { tasks, waiting: Vec::new() }
-    }
-
-    /// Lets those wait that are not done, of such cavities.
-    pub(super) fn take_up(&mut self, such: impl Fn(&Sliding) -> bool) {
-        let tasks = self.tasks.iter().enumerate().rev();
-        let open = tasks.filter(|(_, task)| task.stop.is_none() && such(&task.simulation.sliding));
-        self.waiting = open.map(|(index, _)| index).collect();
-    }
+    pub(super) next: usize,
 }
