@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let case = Case::parse(&path, &store::read_text(Path::new(&path))?)?;
     let name = Path::new(&path).file_stem().and_then(|stem| stem.to_str()).unwrap_or("case");
     let report = Report::of(name, &case, None, Decided::ALL, &Serial)?;
-    let files = report.files(&case)?;
+    let files = report.files(&case, &Serial)?;
     store::replace_folder(Path::new(&folder), &files, render::is_of_report)?;
     println!("{}: {} files in {folder}", case.title, files.len());
     for motion in &report.answer.studied()?.motions {

@@ -58,7 +58,7 @@ impl Report {
             decide(&mut document, &mut figures, case, &answer)?;
             return Ok(Self { answer, figures, document });
         }
-        let mut figures = drawn(case, answer.studied()?)?;
+        let mut figures = drawn(case, answer.studied()?, executor)?;
         let mut document = document::document(&Source {
             name,
             case,
@@ -75,13 +75,13 @@ impl Report {
     ///
     /// # Errors
     /// [`ReportError`] says which part cannot be rendered.
-    pub fn files(&self, case: &Case) -> Result<Files, ReportError> {
+    pub fn files(&self, case: &Case, on: &dyn Executor) -> Result<Files, ReportError> {
         if let Some(study) = &self.answer.transient {
             return Ok(transient::files(case, study, &self.document, &self.figures)?);
         }
         let equations = equations::groups(case, self.answer.studied()?);
         let units = case.units();
-        Ok(render::files(&self.document, &equations, &units, &self.figures)?)
+        Ok(render::files(&self.document, &equations, &units, &self.figures, on)?)
     }
 }
 
@@ -114,7 +114,11 @@ fn decide(
 ///
 /// # Errors
 /// [`ReportError`] where theory or simulation cannot be carried out.
-pub fn drawn(case: &Case, study: &CaseStudy) -> Result<Vec<Figure>, ReportError> {
-    let plots = Plot::all(case, study)?;
+pub fn drawn(
+    case: &Case,
+    study: &CaseStudy,
+    on: &dyn Executor,
+) -> Result<Vec<Figure>, ReportError> {
+    let plots = Plot::all(case, study, on)?;
     Ok(template::worded(figures::all(case, study, &plots), &case.units())?)
 }

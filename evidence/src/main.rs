@@ -84,7 +84,7 @@ fn paper(arguments: &Paper) -> Result<bool> {
     for (name, case) in names.into_iter().zip(cases) {
         let answer = Answer::of(&case, Asked::Study, None, &Parallel).into_diagnostic()?;
         let study = answer.studied().into_diagnostic()?.clone();
-        let figures = case_report::drawn(&case, &study).into_diagnostic()?;
+        let figures = case_report::drawn(&case, &study, &Parallel).into_diagnostic()?;
         members.push(CaseReport { name, case, study, figures });
         progress.advance(1);
     }

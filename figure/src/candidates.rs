@@ -1,6 +1,6 @@
 //! Places that a label could take, and how good each would be.
 
-use super::geometry::{Point, Rect, depth, distance, lerp};
+use super::geometry::{Point, Rect, depth, distance, is_inside, lerp};
 use super::layers::Layer;
 use super::shapes::ShapeOfLayer;
 use super::text::Anchor;
@@ -122,18 +122,29 @@ fn within(area: &[Point], size: Point) -> Vec<Candidate> {
         ([low[0].min(p[0]), low[1].min(p[1])], [high[0].max(p[0]), high[1].max(p[1])])
     });
     let (mut all, mut deepest) = (Vec::new(), (0.0, first));
-    for (i, k) in (0..=STEPS).flat_map(|i| (0..=STEPS).map(move |k| (i, k))) {
-        let [right, down] = [i, k].map(|step| f64::from(step) / f64::from(STEPS));
-        let at = [lerp(low, high, right)[0], lerp(low, high, down)[1]];
-        let depth_here = depth(area, at);
-        if depth_here > deepest.0 {
-            deepest = (depth_here, at);
-        }
-        let place = Candidate::on(at, size, 20.0 - depth_here.min(20.0));
-        let Rect { left, top, right, bottom } = place.room;
-        let corners = [[left, top], [right, top], [left, bottom], [right, bottom]];
-        if depth_here > size[1] / 2.0 && corners.iter().all(|c| depth(area, *c) >= 0.0) {
-            all.push(place);
+    let (room, step) = (size[1] / 2.0, (high[1] - low[1]) / f64::from(STEPS));
+    for right in 0..=STEPS {
+        // Depth grows no faster than way: most points of a column cannot be deep enough.
+        let mut at_most = f64::INFINITY;
+        for down in 0..=STEPS {
+            let [right, down] = [right, down].map(|step| f64::from(step) / f64::from(STEPS));
+            let at = [lerp(low, high, right)[0], lerp(low, high, down)[1]];
+            at_most += step;
+            if at_most < room.min(deepest.0) {
+                continue;
+            }
+            let depth_here = depth(area, at);
+            // Rounding is far below a pixel.
+            at_most = depth_here + 1e-6;
+            if depth_here > deepest.0 {
+                deepest = (depth_here, at);
+            }
+            let place = Candidate::on(at, size, 20.0 - depth_here.min(20.0));
+            let Rect { left, top, right, bottom } = place.room;
+            let corners = [[left, top], [right, top], [left, bottom], [right, bottom]];
+            if depth_here > room && corners.iter().all(|corner| is_inside(area, *corner)) {
+                all.push(place);
+            }
         }
     }
     all.extend(around(deepest.1, 3.0, &FAR, 50.0, size));

@@ -138,18 +138,25 @@ pub(super) fn clip_polygon(rect: &Rect, corners: &[Point]) -> Vec<Point> {
     if kept.len() < 3 { Vec::new() } else { kept }
 }
 
-/// How far a point in a polygon is from its edges; less than 0 outside of it, by the even-odd rule.
+/// The edges of a polygon.
+fn edges(corners: &[Point]) -> impl Iterator<Item = [Point; 2]> {
+    let before = corners.last().into_iter().chain(corners);
+    before.zip(corners).map(|(a, b)| [*a, *b])
+}
+
+/// Whether a point is in a polygon, by the even-odd rule.
+pub(super) fn is_inside(corners: &[Point], [x, y]: Point) -> bool {
+    let crossed = |[a, b]: &[Point; 2]| {
+        (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+    };
+    edges(corners).filter(crossed).count() % 2 == 1
+}
+
+/// How far a point in a polygon is from its edges; less than 0 outside of it.
 pub(super) fn depth(corners: &[Point], p: Point) -> f64 {
-    let [x, y] = p;
-    let (mut inside, mut nearest) = (false, f64::INFINITY);
-    for (i, &b) in corners.iter().enumerate() {
-        let a = corners[(i + corners.len() - 1) % corners.len()];
-        if (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]) {
-            inside = !inside;
-        }
-        nearest = nearest.min(square_distance(p, a, b));
-    }
-    if inside { nearest.sqrt() } else { -nearest.sqrt() }
+    let nearest = edges(corners).map(|[a, b]| square_distance(p, a, b));
+    let nearest = nearest.fold(f64::INFINITY, f64::min).sqrt();
+    if is_inside(corners, p) { nearest } else { -nearest }
 }
 
 /// The squared distance of a point from a segment (not from the line through it: a curve may turn back).

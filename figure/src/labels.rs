@@ -92,16 +92,17 @@ fn settle(words: Words, place: &Candidate, raster: &mut Raster, labels: &mut Lab
 fn free(request: &LabelRequest, frame: &Frame, lines: u64, raster: &Raster) -> Vec<Candidate> {
     let inside = frame.plot.grown(-INSET);
     let own = bit(request.layer);
+    let beside_its_line = |c: &Candidate| {
+        let [others, own] = raster.count(&c.room.grown(CLOSEST), [lines & !own, own]);
+        2 * others <= own
+    };
     let clear = |c: &&Candidate| {
-        let near = c.room.grown(CLOSEST);
         inside.contains(&c.room)
             && !raster.any(&c.room.grown(AIR), u64::MAX)
-            && (!request.beside_line
-                || 2 * raster.count(&near, lines & !own) <= raster.count(&near, own))
+            && (!request.beside_line || beside_its_line(c))
     };
     let judged = |c: &Candidate| {
-        let near = c.room.grown(AMBIGUOUS);
-        let (others, own) = (raster.count(&near, !own), raster.count(&near, own));
+        let [others, own] = raster.count(&c.room.grown(AMBIGUOUS), [!own, own]);
         let penalty = c.penalty + 0.25 * others as f64 - 0.02 * own.min(50) as f64;
         Candidate { penalty, ..*c }
     };
@@ -118,8 +119,8 @@ fn least_bad<'a>(
 ) -> Option<&'a Candidate> {
     let cover = |c: &&Candidate| {
         let outside = if frame.plot.contains(&c.room) { 0 } else { 1_000_000 };
-        let room = c.room.grown(AIR);
-        outside + 1000 * raster.count(&room, WORDS) + raster.count(&room, u64::MAX)
+        let [words, all] = raster.count(&c.room.grown(AIR), [WORDS, u64::MAX]);
+        outside + 1000 * words + all
     };
     request.places.iter().filter(|_| !request.movable).min_by_key(cover)
 }

@@ -42,7 +42,7 @@ impl Raster {
     fn rows(&self, rect: &Rect) -> impl Iterator<Item = RangeInclusive<usize>> + use<> {
         let columns = self.columns;
         let index = |v: f64, origin: f64, count: usize| {
-            ((v - origin) / PITCH).floor().clamp(0.0, count as f64 - 1.0) as usize
+            ((v - origin) / PITCH).clamp(0.0, count as f64 - 1.0) as usize
         };
         let [left, right] = [rect.left, rect.right].map(|x| index(x, self.area.left, columns));
         let count = self.taken.len() / columns;
@@ -65,7 +65,7 @@ impl Raster {
 
     /// Whether any of some bits is taken in a rectangle.
     pub(super) fn any(&self, rect: &Rect, bits: u64) -> bool {
-        self.count(rect, bits) > 0
+        self.rows(rect).any(|row| self.taken[row].iter().any(|square| square & bits != 0))
     }
 
     /// Whether words are on a thin line.
@@ -73,11 +73,16 @@ impl Raster {
         along(line, 1.0).any(|square| self.any(&square, WORDS))
     }
 
-    /// How many squares of a rectangle have any of some bits.
-    pub(super) fn count(&self, rect: &Rect, bits: u64) -> usize {
-        let taken = |row: RangeInclusive<usize>| {
-            self.taken[row].iter().filter(|square| **square & bits != 0).count()
-        };
-        self.rows(rect).map(taken).sum()
+    /// How many squares of a rectangle have any of some bits, for each set of bits.
+    pub(super) fn count<const N: usize>(&self, rect: &Rect, bits: [u64; N]) -> [usize; N] {
+        let mut counts = [0; N];
+        for row in self.rows(rect) {
+            for (count, bits) in counts.iter_mut().zip(bits) {
+                // Without a branch, several squares at a time: the highest bit of `x | -x` tells whether there is any.
+                let one = |square: &u64| (square & bits | (square & bits).wrapping_neg()) >> 63;
+                *count += self.taken[row.clone()].iter().map(one).sum::<u64>() as usize;
+            }
+        }
+        counts
     }
 }

@@ -109,7 +109,7 @@ pub fn lists<'py>(py: Python<'py>, columns: &[Column]) -> PyResult<(Columns<'py>
 pub fn compared(old: &Case, new: &Case, work: &WorkState) -> PyResult<(String, String)> {
     let side = |label: &str, case: &Case| -> PyResult<Reports> {
         let report = Report::of("case", case, None, Decided::ALL, work).map_err(refused)?;
-        let files = report.files(case).map_err(refused)?;
+        let files = report.files(case, work).map_err(refused)?;
         let (document, figures) = parts(&files);
         let document = Document::parse(label, &document, figures).map_err(refused)?;
         Ok(BTreeMap::from([("case".to_owned(), document)]))

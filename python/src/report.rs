@@ -18,7 +18,7 @@ pub fn rendered(case: &Case, name: &str, work: &WorkState) -> PyResult<(Files, b
     let plan = LayerPlan::of_case(case, None).map_err(refused)?;
     let report = Report::of(name, case, plan.as_ref(), Decided::ALL, work).map_err(refused)?;
     let holds = report.answer.trusted() && report.answer.exact_enough();
-    Ok((report.files(case).map_err(refused)?, holds))
+    Ok((report.files(case, work).map_err(refused)?, holds))
 }
 
 /// Writes them, in place of those of an older report.

@@ -199,5 +199,5 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
             "{name}: a simulation is not to be trusted; its report says why"
         ));
     }
-    Ok((report.files(case).into_diagnostic()?, trusted && report.answer.exact_enough()))
+    Ok((report.files(case, &Parallel).into_diagnostic()?, trusted && report.answer.exact_enough()))
 }

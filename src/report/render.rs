@@ -10,6 +10,7 @@ pub use super::error::RenderError;
 use super::figure::{self, Figure};
 use super::html::{self, Drawings};
 use super::template;
+use crate::executor::{Executor, Serial, map};
 use crate::quantity::Units;
 
 /// Files by their path in a folder.
@@ -48,8 +49,9 @@ pub fn files(
     equations: &[Value],
     units: &Units,
     figures: &[Figure],
+    on: &dyn Executor,
 ) -> Result<Files, RenderError> {
-    let drawings = drawings(figures)?;
+    let drawings = drawings(figures, on)?;
     let page = |name: &str| template::render(name, units, document);
     let (report, validation) = (page("steady.md")?, page("validation.md")?);
     let equations = json!({
@@ -90,7 +92,7 @@ pub fn page_files(
 ) -> Result<Files, RenderError> {
     facts["figures"] = figures.iter().map(figure_row).collect();
     let markdown = template::render(template, units, &facts)?;
-    let drawings = drawings(figures)?;
+    let drawings = drawings(figures, &Serial)?;
     let html = tone.map(|tone| html::page(tone, &markdown, &drawings)).transpose()?;
     let mut files = figure_files(drawings);
     files.extend(texts(html.map(|html| (format!("{name}.html"), html))));
@@ -140,12 +142,12 @@ fn appendix(name: &str, page: &str) -> String {
 }
 
 /// Every figure as SVG by its name: as its file has it, and one for a phone, or nothing.
-fn drawings(figures: &[Figure]) -> Result<Drawings, RenderError> {
+fn drawings(figures: &[Figure], on: &dyn Executor) -> Result<Drawings, RenderError> {
     let both = |figure: &Figure| {
         let narrow = figure.narrow().map(|figure| figure::render(&figure)).transpose()?;
         Ok((figure.name.clone(), (figure::render(figure)?, narrow.unwrap_or_default())))
     };
-    figures.iter().map(both).collect()
+    map(on, "", figures.len(), |k| both(&figures[k])).into_iter().collect()
 }
 
 fn figure_files(drawings: Drawings) -> Files {

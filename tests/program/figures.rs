@@ -48,7 +48,7 @@ fn figures(case: &Case) -> Vec<Figure> {
 }
 
 fn of_study(case: &Case, study: &CaseStudy) -> Vec<Figure> {
-    let plots = Plot::all(case, study).expect("can be worked out");
+    let plots = Plot::all(case, study, &Serial).expect("can be worked out");
     let figures = made::all(case, study, &plots);
     template::worded(figures, &case.units()).expect("have words")
 }

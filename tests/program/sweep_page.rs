@@ -11,6 +11,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use vinesink::analysis::Analysis;
 use vinesink::case::{Case, SweepAxis};
+use vinesink::executor::Serial;
 use vinesink::orbits::attracting_orbit;
 use vinesink::regimes::Regime;
 use vinesink::report::figure::{
@@ -59,7 +60,7 @@ fn swept<'a>(case: &'a Case, axes: Vec<AxisShown>, columns: &'a [Column]) -> Swe
     let results_sha256 = "f".repeat(64);
     let frequency = axes.iter().find(|axis| axis.parameter == Parameter::Frequency);
     let frequencies = frequency.filter(|_| axes.len() == 2).map_or(&[][..], |axis| &axis.values);
-    let limits = stability_limits(case, frequencies);
+    let limits = stability_limits(case, frequencies, &Serial);
     Swept { case, axes, columns, starts: 4, periods: 100, limits, results_sha256 }
 }
 

@@ -316,7 +316,7 @@ fn map(case: &Case, look: Look) -> Result<Value, Value> {
     if case.system().forcing_per_clearance() == 0.0 {
         return Err(words("nothing drives this case: there is no map"));
     }
-    let plot = Plot::Map(BoundaryMap::of(&sketch));
+    let plot = Plot::Map(BoundaryMap::of(&sketch, &Serial));
     let mut figure =
         drawn(case, &sketch, &[plot], look)?.pop().ok_or_else(|| words("there is no map"))?;
     let at = figure.take_case();
@@ -340,7 +340,7 @@ fn map(case: &Case, look: Look) -> Result<Value, Value> {
 fn study(case: &Case, look: Look) -> Result<Value, Value> {
     let answer = Answer::steady(case, Asked::Study, None, case.effort(), &Serial).map_err(words)?;
     let study = answer.studied().map_err(words)?;
-    let figures = drawn(case, study, &Plot::usual(study).map_err(words)?, look)?;
+    let figures = drawn(case, study, &Plot::usual(study, &Serial).map_err(words)?, look)?;
     let document = document::document(&Source {
         name: "live",
         case,

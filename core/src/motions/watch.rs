@@ -1,5 +1,7 @@
 //! What watches a trajectory side by side with others, and what it has seen.
 
+use std::cell::RefCell;
+
 use super::Facts;
 use crate::regimes::modulation;
 use crate::regimes::periodicity::{self, Periodicity};
@@ -11,6 +13,15 @@ use crate::system::State;
 
 /// Impacts that are kept to tell a regime by: their intervals are averaged.
 const KEPT_IMPACTS: usize = 1000;
+/// Watches whose memory is kept when they are over, for those to come, and the most records and impacts of one.
+const SPARE: usize = 64;
+const SPARE_LENGTH: usize = 1024;
+
+thread_local! {
+    /// To ask for memory anew for every start of a survey, and to let it grow, takes an eighth of its time.
+    static MEMORY: RefCell<Vec<(Vec<PeriodRecord>, Vec<Impact>)>> = const { RefCell::new(Vec::new()) };
+}
+
 /// Measures one trajectory and keeps its last impacts.
 pub(super) struct Watch {
     /// What is told of the trajectory.
@@ -64,8 +75,10 @@ impl Watch {
 
     fn after(periods: u64, simulation: &Simulation) -> Self {
         let (system, begin) = (simulation.system(), simulation.state());
-        let measurement = Measurement::after(periods, system, begin);
-        Self { observers: (measurement, ImpactLog::of_the_last(KEPT_IMPACTS)), begin }
+        let (records, impacts) = MEMORY.with_borrow_mut(Vec::pop).unwrap_or_default();
+        let measurement = Measurement::after(periods, system, begin).with_memory(records);
+        let log = ImpactLog::of_the_last(KEPT_IMPACTS).with_memory(impacts);
+        Self { observers: (measurement, log), begin }
     }
 
     /// How what has been seen so far repeats.
@@ -123,5 +136,19 @@ impl Watch {
             evidence,
             stop,
         })
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        let (measurement, log) = &mut self.observers;
+        let memory = (measurement.take_memory(), std::mem::take(&mut log.impacts));
+        // Not where the thread is about to end.
+        let _ = MEMORY.try_with(|all| {
+            let mut all = all.borrow_mut();
+            if all.len() < SPARE && memory.0.capacity().max(memory.1.capacity()) <= SPARE_LENGTH {
+                all.push(memory);
+            }
+        });
     }
 }

@@ -14,6 +14,7 @@ use super::special_point::SpecialPoint;
 use super::switching::leave;
 use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
+use crate::executor::{Executor, map};
 use crate::system::{Parameter, System};
 
 /// Clearances, over that of the symmetry breaking, in which the asymmetric orbits are followed; past
@@ -79,9 +80,13 @@ impl ExactBoundaries {
 
 /// The boundaries at each of `frequency_ratios`, everything else being as in `system`; frequencies
 /// without a steady motion are left out.
-pub fn over_frequency(system: &System, frequency_ratios: &[f64]) -> Vec<ExactBoundaries> {
-    let there = frequency_ratios.iter().filter_map(|at| system.with_frequency_ratio(*at).ok());
-    there.filter_map(|system| ExactBoundaries::of(&system).ok()).collect()
+pub fn over_frequency(
+    system: &System,
+    frequency_ratios: &[f64],
+    on: &dyn Executor,
+) -> Vec<ExactBoundaries> {
+    let of = |ratio: f64| ExactBoundaries::of(&system.with_frequency_ratio(ratio).ok()?).ok();
+    map(on, "", frequency_ratios.len(), |k| of(frequency_ratios[k])).into_iter().flatten().collect()
 }
 
 /// The asymmetric orbits of `system` over the clearance, followed from the symmetry breaking at `limit`.

@@ -24,6 +24,12 @@ impl ImpactLog {
     pub fn of_the_last(kept: usize) -> Self {
         Self { impacts: Vec::new(), kept }
     }
+
+    /// The same in the memory of another that is over.
+    pub(crate) fn with_memory(self, mut impacts: Vec<Impact>) -> Self {
+        impacts.clear();
+        Self { impacts, ..self }
+    }
 }
 
 impl Observer for ImpactLog {

@@ -7,7 +7,7 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
 use vinesink::digest::sha256;
 use vinesink::program::progress::Progress;
-use vinesink::program::{output, reports};
+use vinesink::program::{output, parallel::Parallel, reports};
 use vinesink::report::sweep::{AxisShown, MOST_POINTS, Swept};
 use vinesink::store::{self, Growing, Output};
 use vinesink::sweep::columns::{self, Column};
@@ -125,7 +125,9 @@ impl Sweep {
         let axes = &self.plan.settings.axes;
         let of = |parameter| axes.iter().find(|axis| axis.parameter == parameter);
         match (axes.len(), of(Parameter::Frequency), of(Parameter::Clearance)) {
-            (2, Some(frequency), Some(_)) => stability_limits(&self.case, &frequency.values),
+            (2, Some(frequency), Some(_)) => {
+                stability_limits(&self.case, &frequency.values, &Parallel)
+            }
             _ => Vec::new(),
         }
     }

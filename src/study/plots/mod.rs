@@ -15,6 +15,7 @@ pub mod traces;
 
 use crate::analysis::ManifoldBranch;
 use crate::case::{Case, ExtraFigure};
+use crate::executor::Executor;
 use crate::motions::{Measured, Motion};
 use crate::orbits::boundaries::over_frequency;
 use crate::orbits::{ExactBoundaries, SteadyOrbit, steady_orbits};
@@ -108,8 +109,8 @@ impl Plot {
     ///
     /// # Errors
     /// [`StudyError`] where theory or simulation cannot be carried out.
-    pub fn all(case: &Case, study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
-        let mut plots = Self::usual(study)?;
+    pub fn all(case: &Case, study: &CaseStudy, on: &dyn Executor) -> Result<Vec<Self>, StudyError> {
+        let mut plots = Self::usual(study, on)?;
         let forced = study.analysis.system.forcing_per_clearance() != 0.0;
         let shown = |wanted: &&ExtraFigure| forced || !NEED_FORCING.contains(*wanted);
         let wanted: &[ExtraFigure] = if study.simulated { &case.report.figures } else { &[] };
@@ -123,7 +124,7 @@ impl Plot {
     ///
     /// # Errors
     /// As [`Plot::all`].
-    pub fn usual(study: &CaseStudy) -> Result<Vec<Self>, StudyError> {
+    pub fn usual(study: &CaseStudy, on: &dyn Executor) -> Result<Vec<Self>, StudyError> {
         // Without forcing every boundary is at no clearance at all, and everything comes to rest.
         let forced = study.analysis.system.forcing_per_clearance() != 0.0;
         let mut plots = Vec::new();
@@ -132,7 +133,7 @@ impl Plot {
             plots.push(Self::Ranges(Ranges::of(study)));
         }
         if forced {
-            plots.push(Self::Map(BoundaryMap::of(study)));
+            plots.push(Self::Map(BoundaryMap::of(study, on)));
         }
         plots.extend([Self::Plane(Borders::around(study)), Self::Manifold]);
         plots.extend(Responses::around(study).filter(|_| forced).map(Self::Responses));
@@ -225,14 +226,15 @@ impl BoundaryMap {
     const EXACT: u32 = 40;
 
     /// Over the frequencies of [`window`].
-    pub fn of(study: &CaseStudy) -> Self {
+    pub fn of(study: &CaseStudy, on: &dyn Executor) -> Self {
         let (system, manifold) = (&study.analysis.system, &study.analysis.manifold);
         let window = window(system);
         let detunings = window.map(|ratio| (ratio - 1.0) / system.mass_ratio());
         let borders = Borders::over(system, manifold, (detunings[0], detunings[1]));
         let ratios: Vec<f64> = even(window[0], window[1], Self::EXACT).collect();
         let inner = &ratios[1..Self::EXACT as usize];
-        let exact = if has_resonance(system) { over_frequency(system, inner) } else { Vec::new() };
+        let inner = if has_resonance(system) { inner } else { &[] };
+        let exact = over_frequency(system, inner, on);
         let errors = errors_over_frequency(system, manifold, &exact);
         Self { window, borders, exact, errors }
     }

@@ -8,7 +8,7 @@ use super::super::events::{AbsorberMotion, Detail, Impact, Observer, Reversal, S
 use super::super::integrals::{FlightEnds, Quadrature, Ringing};
 use super::super::peaks;
 use super::super::sliding::Sliding;
-use super::Statistics;
+use super::{PeriodRecord, Statistics};
 use crate::numerics::lanes::LANES;
 use crate::operation_count;
 use crate::system::{State, System};
@@ -88,6 +88,18 @@ impl Measurement {
     /// missing in their records and in the sums over the window.
     pub(crate) fn after(periods: u64, system: &System, start: State) -> Self {
         Self { without_flights: periods, ..Self::begin(system, start) }
+    }
+
+    /// The same, its records in the memory of another that is over.
+    pub(crate) fn with_memory(mut self, mut records: Vec<PeriodRecord>) -> Self {
+        records.clear();
+        self.statistics.records = records;
+        self
+    }
+
+    /// That memory, once nobody asks for records any more.
+    pub(crate) fn take_memory(&mut self) -> Vec<PeriodRecord> {
+        std::mem::take(&mut self.statistics.records)
     }
 
     fn leaves_flights_out(&self) -> bool {
