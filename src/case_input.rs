@@ -51,14 +51,35 @@ pub fn read(path: &Path, reach: Reach) -> Result<(Case, String), CaseInputError>
 /// [`CaseInputError`].
 pub fn read_any(path: &Path, reach: Reach) -> Result<(AnyCase, String), CaseInputError> {
     read_text(path, reach, |name, text, folder| {
-        if is_modal(text) {
-            let read = |file: String| read_named(name, "file of its modes", &file, folder, reach);
-            let modes = modes_file(text).map(read).transpose()?;
-            let modes = modes.map(|(name, text)| ModesFile { name, text });
-            return Ok(AnyCase::Several(Box::new(ModalCase::parse_with(name, text, modes)?)));
-        }
-        Ok(AnyCase::One(Box::new(parse(name, text, folder, reach)?)))
+        Ok(match is_modal(text) {
+            true => AnyCase::Several(Box::new(parse_several(name, text, folder, reach)?)),
+            false => AnyCase::One(Box::new(parse(name, text, folder, reach)?)),
+        })
     })
+}
+
+/// Reads a case of several modes or absorbers from its text, and the file of its modes below a folder.
+///
+/// # Errors
+/// [`CaseInputError`].
+pub fn parse_several(
+    name: &str,
+    text: &str,
+    folder: &Path,
+    reach: Reach,
+) -> Result<ModalCase, CaseInputError> {
+    let read = |file: String| read_named(name, "file of its modes", &file, folder, reach);
+    let modes = modes_file(text).map(read).transpose()?;
+    let modes = modes.map(|(name, text)| ModesFile { name, text });
+    Ok(ModalCase::parse_with(name, text, modes)?)
+}
+
+/// Reads a case file of several modes or absorbers; its text beside the case.
+///
+/// # Errors
+/// [`CaseInputError`]; also for a case of one mode.
+pub fn read_several(path: &Path, reach: Reach) -> Result<(ModalCase, String), CaseInputError> {
+    read_text(path, reach, |name, text, folder| parse_several(name, text, folder, reach))
 }
 
 fn read_text<T>(

@@ -311,12 +311,12 @@ fn shown(problem: &dyn Diagnostic) -> String {
     text
 }
 
-/// With the program's message, and each problem as a dict in `problems`.
-fn reach(allow_outside: bool) -> Reach {
+pub fn reach(allow_outside: bool) -> Reach {
     if allow_outside { Reach::Anywhere } else { Reach::Folder }
 }
 
-fn not_read(py: Python<'_>, error: &CaseInputError) -> PyErr {
+/// With the program's message, and each problem as a dict in `problems`.
+pub fn not_read(py: Python<'_>, error: &CaseInputError) -> PyErr {
     match error {
         CaseInputError::Case(error) => case_error(py, error),
         CaseInputError::Named { source, .. } => FileError::new_err(source.to_string()),

@@ -6,6 +6,7 @@ mod case;
 mod decide;
 mod errors;
 mod many;
+mod modal;
 mod report;
 mod simulate;
 mod work;
@@ -17,6 +18,7 @@ use pyo3::prelude::*;
 fn _vinesink(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<case::Case>()?;
+    module.add_class::<modal::ModalCase>()?;
     module.add_function(wrap_pyfunction!(case::schema, module)?)?;
     module.add_function(wrap_pyfunction!(many::simulate_many, module)?)?;
     module.add_function(wrap_pyfunction!(case::compare, module)?)?;

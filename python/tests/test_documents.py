@@ -12,10 +12,11 @@ NOTEBOOKS = sorted((ROOT / "python" / "examples").glob("*.ipynb"))
 
 
 def test_the_page_runs(tmp_path, monkeypatch):
-    """Blocks of Python one after the other, in an empty folder with the case that the page begins with."""
+    """Blocks of Python one after the other, in an empty folder with the cases that the page names."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
-    (tmp_path / "damper.toml").write_text((ROOT / "cases" / "li2016-8hz-b7p5mm.toml").read_text())
+    for name, case in [("damper.toml", "li2016-8hz-b7p5mm.toml"), ("mast.toml", "several/mast.toml")]:
+        (tmp_path / name).write_text((ROOT / "cases" / case).read_text())
     lines = PAGE.read_text().splitlines()
     blocks = re.finditer(r"(?ms)^```python\n(.*?)^```$", "\n".join(lines) + "\n")
     names: dict[str, object] = {}

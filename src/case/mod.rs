@@ -60,7 +60,7 @@ pub use quantity::QuantityError;
 pub use record::{RecordSource, Recording};
 pub use reduced::Reduced;
 pub use rewrite::{RewriteError, Rewritten, Rounding};
-pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
+pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema, schema_of_several};
 pub use settings::{
     AccuracySettings, AlternativesSettings, ExtraFigure, PageUnits, ReportSettings,
     SimulationSettings,
@@ -322,7 +322,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         let message =
             "the case is of several modes or absorbers, of which this command knows nothing";
         let expected = "expected [oscillator], [absorber] and [excitation], or [reduced]";
-        let help = "`vinesink check`, `report` and `simulate` read it";
+        let help = "`vinesink check`, `report`, `simulate`, `analyze` and `optimize` read it, and `ModalCase` in Python";
         reader.report(key, message, expected, help);
         return None;
     }

@@ -48,6 +48,11 @@ pub fn schema() -> Value {
     printed(&SCHEMA)
 }
 
+/// The JSON Schema of a case of several modes or absorbers.
+pub fn schema_of_several() -> Value {
+    printed(&schema_of::<super::modal::ModalFile>())
+}
+
 fn printed(schema: &Value) -> Value {
     match schema {
         Value::Object(entries) => entries

@@ -11,13 +11,19 @@ use vinesink::program::output;
 /// whose first line is `#:schema vinesink.schema.json`.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
-pub struct Arguments {}
+pub struct Arguments {
+    /// Of a case of several modes or absorbers.
+    #[arg(long)]
+    several: bool,
+}
 
 const EXAMPLES: &str = "\
 Examples:
-  vinesink schema > vinesink.schema.json        beside the cases that refer to it";
+  vinesink schema > vinesink.schema.json        beside the cases that refer to it
+  vinesink schema --several > vinesink-several.schema.json";
 
-pub fn run(_: Arguments) -> Result<bool> {
-    output::print_json(&case::schema())?;
+pub fn run(arguments: Arguments) -> Result<bool> {
+    let schema = if arguments.several { case::schema_of_several() } else { case::schema() };
+    output::print_json(&schema)?;
     Ok(true)
 }

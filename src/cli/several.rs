@@ -4,7 +4,7 @@ use std::path::Path;
 
 use miette::{IntoDiagnostic, Result};
 use vinesink::case::ModalCase;
-use vinesink::modal::{ModalAnswer, ModalOptimum, checks, choices, modes_alone, orbits, seconds};
+use vinesink::modal::{ModalAnswer, ModalOptimum, checks, orbits, seconds};
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
 use vinesink::report::modal::{
@@ -24,9 +24,8 @@ pub fn answered(path: &Path, case: &ModalCase, long: Long) -> Result<ModalAnswer
 /// The files of its report.
 pub fn report(path: &Path, name: &str, case: &ModalCase, long: Long) -> Result<Files> {
     let answer = answered(path, case, long)?;
-    let alone = modes_alone(case, &Parallel).into_diagnostic()?;
-    let dampers = choices(case);
-    files(name, case, &answer, &Beside { dampers: &dampers, alone: &alone }).into_diagnostic()
+    let beside = Beside::of(case, &Parallel).into_diagnostic()?;
+    files(name, case, &answer, &beside).into_diagnostic()
 }
 
 /// Prints what it does under its loads.

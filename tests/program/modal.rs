@@ -49,7 +49,7 @@ fn slips_are_told_where_they_are() {
     refused(
         "place = \"tip\"\nmass",
         "place = \"tpi\"\nmass",
-        &["25: ", "\"tpi\"", "did you mean \"tip\"?"],
+        &["26: ", "\"tpi\"", "did you mean \"tip\"?"],
     );
     refused("shape = { tip = 1.0, middle = 0.340 }", "", &["a mode has no `shape`"]);
     refused("{ tip = 1.0, middle = 0.340 }", "{ tip = 0.0, middle = 0 }", &["is 0 everywhere"]);
@@ -270,6 +270,26 @@ fn better_absorbers_of_one_mode_are_those_of_its_own_search() {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("leave out --objective"));
 }
 
+/// A case with a file beside it; of one that is refused, what is told of each line.
+fn read_beside(case: &str, file: &str, text: &str) -> Result<ModalCase, String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    fs::write(&path, case).expect("written");
+    fs::write(folder.path().join(file), text).expect("written");
+    match read_any(&path, Reach::Folder) {
+        Ok((AnyCase::Several(case), _)) => Ok(*case),
+        Ok(_) => panic!("one mode"),
+        Err(CaseInputError::Case(error)) => {
+            let told = error.problems().map(|one| {
+                let help = one.help.as_deref().unwrap_or("");
+                format!("{}: {}; {}; {help}", one.line, one.message, one.expected)
+            });
+            Err(told.collect::<Vec<_>>().join("\n"))
+        }
+        Err(other) => Err(other.to_string()),
+    }
+}
+
 /// Modes from a file are those of the tables with their numbers; slips in it are told with its lines, and a file of something else
 /// is not shown.
 #[test]
@@ -281,25 +301,8 @@ fn modes_may_be_in_a_file() {
         &whole[..first],
         &whole[absorber.expect("an absorber")..]
     );
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("case.toml");
-    fs::write(&path, &named).expect("written");
     let table = text("cases/several/mast.csv");
-    let read = |table: &str| {
-        fs::write(folder.path().join("mast.csv"), table).expect("written");
-        match read_any(&path, Reach::Folder) {
-            Ok((AnyCase::Several(case), _)) => Ok(*case),
-            Ok(_) => panic!("one mode"),
-            Err(CaseInputError::Case(error)) => {
-                let told = error.problems().map(|one| {
-                    let help = one.help.as_deref().unwrap_or("");
-                    format!("{}: {}; {}; {help}", one.line, one.message, one.expected)
-                });
-                Err(told.collect::<Vec<_>>().join("\n"))
-            }
-            Err(other) => Err(other.to_string()),
-        }
-    };
+    let read = |table: &str| read_beside(&named, "mast.csv", table);
     let of_tables = ModalCase::parse("case.toml", &whole).expect("a shipped case");
     let of_file = read(&table).expect("a shipped file");
     let mut places = of_file.places.clone();
@@ -327,7 +330,9 @@ fn modes_may_be_in_a_file() {
     assert!(told.contains("not a table of modes") && !told.contains("secret"), "{told}");
     let told = read(&format!("{table}{}", "1, 1, 1, 1, 1\n".repeat(6))).expect_err("refused");
     assert!(told.contains("has 9 modes"), "{told}");
-    fs::remove_file(folder.path().join("mast.csv")).expect("there");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    fs::write(&path, &named).expect("written");
     let output = vinesink(&["check", path.to_str().expect("UTF-8")]);
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{told}");
@@ -336,6 +341,84 @@ fn modes_may_be_in_a_file() {
     assert!(told.contains("the file of the modes was not read"), "{told}");
     let both = named.replace("[[absorber]]", "[[mode]]\nfrequency = \"1 Hz\"\n\n[[absorber]]");
     assert!(wrong(&both).contains("both say which modes there are"), "{}", wrong(&both));
+}
+
+/// A Universal File in millimetres, newtons and tonnes: a rigid motion of the base, and the modes of the mast at nodes 1, 7 and 12.
+fn universal_file() -> String {
+    let units = "    -1\n   164\n         9          mm N tonne         2\n   1.0000000000000000D+03   1.0000000000000000D+00   1.0000000000000000D+00\n   0.0000000000000000D+00\n    -1\n";
+    let modes = [[0.0, 1.0, 1.0], [1.1, 1.0, 0.34], [6.894, 1.0, -0.714], [19.31, 1.0, 0.02]];
+    let shape = |[frequency, tip, middle]: [f64; 3]| {
+        let node = |number: u32, z: f64| {
+            format!(
+                "{number:10}\n{:13.5E}{:13.5E}{z:13.5E}{:13.5E}{:13.5E}{:13.5E}\n",
+                0.5, 0.0, 0.0, 0.0, 0.0
+            )
+        };
+        let head = "mast\n\nNONE\nNONE\nNONE\n         1         2         3         8         2         6\n         2         4         1         1\n";
+        let numbers = format!("{frequency:13.5E}{:13.5E}{:13.5E}{:13.5E}\n", 0.03, 0.0, 0.01);
+        let nodes = [node(1, 0.0), node(7, middle), node(12, -tip)].concat();
+        format!("    -1\n    55\n{head}{numbers}{nodes}    -1\n")
+    };
+    format!("{units}{}", modes.map(shape).concat())
+}
+
+/// Modes from a Universal File are those of the tables: tonnes are kilograms, a loss factor is twice a damping ratio, a place is a
+/// node with a direction. What it lacks is told with what it has.
+#[test]
+fn modes_may_be_in_a_universal_file() {
+    let whole = text(MAST);
+    let (first, absorber) = (whole.find("[[mode]]").expect("modes"), whole.find("[[absorber]]"));
+    let modes = "[modes]\nfile = \"mast.unv\"\nplaces = { tip = \"12 -z\", middle = \"7 z\" }\nnumbers = [2, 3, 4]\n";
+    let rest = &whole[absorber.expect("an absorber")..];
+    let named = format!("{}{modes}\n{rest}", &whole[..first]);
+    let file = universal_file();
+    let of_tables = ModalCase::parse("case.toml", &whole).expect("a shipped case");
+    let of_file = read_beside(&named, "mast.unv", &file).expect("a Universal File");
+    for load in &of_tables.loads {
+        let systems = [&of_file, &of_tables].map(|case| case.system(load, 6.5).expect("a system"));
+        assert_eq!(systems[0], systems[1]);
+    }
+    // Without units in SI: a thousandth of the mass.
+    let in_si = &file[file.match_indices("    -1\n").nth(1).expect("units").0 + 7..];
+    let light = read_beside(&named, "mast.unv", in_si).expect("a Universal File");
+    assert_eq!(light.modes[0].mass_kg, 0.03);
+    // The damping of a case takes the place of the file's.
+    let damped = named.replace("numbers", "damping_ratio = \"2 %\"\nnumbers");
+    let damped = read_beside(&damped, "mast.unv", &file).expect("a Universal File");
+    assert!(damped.modes.iter().all(|mode| mode.damping_ratio == 0.02));
+
+    let refused = |from: &str, to: &str| {
+        let (case, text) = (named.replacen(from, to, 1), file.replace(from, to));
+        assert!(case != named || text != file, "{from}");
+        read_beside(&case, "mast.unv", &text).expect_err("refused")
+    };
+    for (from, to, words) in [
+        ("7 z", "8 z", &["\"middle\" is node 8", "begin with 1, 7, 12"][..]),
+        ("7 z", "7 r", &["`middle` of `places` is no node with a direction", "\"12 z\""]),
+        ("places = {", "# {", &["does not name its places", "begin with 1, 7, 12"]),
+        ("numbers = [2", "numbers = [5", &["the file has 4 modes", "from 1 to 4, each once"]),
+        ("numbers = [2", "numbers = [3", &["each once"]),
+        ("numbers = [2", "numbers = [1", &["mode 1 of the file has 0 Hz", "numbers"]),
+        ("3.00000E-2", "0.00000E+0", &["mode 2 of the file has 1.1 Hz and a modal mass of 0 kg"]),
+        ("8         2         6", "8         5         6", &["modes of the file are complex"]),
+        ("1         2         3", "1         3         3", &["modes of the file are complex"]),
+        ("1         2         3", "1         5         3", &["no normal mode", "data sets 55"]),
+        ("         1         2         3", "wrong", &["the kind of data cannot be read"]),
+        ("  1.00000E-2\n", " ?\n", &["the numbers of a mode cannot be read"]),
+        ("\n         7\n", "\n         seven\n", &["a node of a shape cannot be read"]),
+        ("NONE\nNONE\nNONE\n", "NONE\n", &["cannot be read"]),
+        ("0000D+03", "0000D+?3", &["the units of data set 164 cannot be read"]),
+    ] {
+        let told = refused(from, to);
+        assert!(words.iter().all(|word| told.contains(word)), "{from}: {told}");
+    }
+    let columns = named.replace("mast.unv", "mast.csv");
+    let told = read_beside(&columns, "mast.csv", &text("cases/several/mast.csv"));
+    assert!(told.expect_err("refused").contains("`places` has no meaning"));
+    // The last data sets may be cut off anywhere: no panic.
+    for end in (0..file.len()).step_by(7) {
+        let _ = read_beside(&named, "mast.unv", &file[..end]);
+    }
 }
 
 /// What a case asks for is what every start is measured for, and what a run is said to take.

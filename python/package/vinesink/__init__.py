@@ -10,6 +10,8 @@
     case.optimize().case         # the absorber that serves it best
     case.report("reports/damper")
 
+`ModalCase` is a structure of several modes with several absorbers.
+
 Lengths and times are in SI for a case in physical units, and in its own units for a reduced one, unless a name or a
 docstring says otherwise: states and impacts are over the clearance and in fast time tau = omega0 t, as in the files of
 the program. `Case.scales` has the factors between the two.
@@ -19,6 +21,7 @@ from ._case import Case, CaseWarning, Optimum, Scales, SimulationWarning
 from ._errors import CaseError, FileError, InternalError, RefusedError, VinesinkError
 from ._keywords import Keys, Parameters
 from ._many import branch, compare, single_trajectories, sweep
+from ._modal import ModalCase, ModalOptimum
 from ._results import Analysis, Branch, Check, Difference, Motions, Orbits, Record, Simulation, Sweep, Table
 from ._vinesink import __version__
 
@@ -33,6 +36,8 @@ __all__ = [
     "FileError",
     "InternalError",
     "Keys",
+    "ModalCase",
+    "ModalOptimum",
     "Motions",
     "Optimum",
     "Orbits",

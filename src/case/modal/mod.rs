@@ -5,6 +5,7 @@ mod asked;
 mod place;
 mod read;
 mod table;
+mod universal;
 
 use std::ops::Range;
 
@@ -19,6 +20,7 @@ use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::digest::sha256;
 use vinesink_core::names;
 
+pub(super) use read::ModalFile;
 pub use table::ModesFile;
 
 use crate::system::{InvalidModalSystem, ModalAbsorber, ModalParameters, ModalSystem, Mode};
@@ -204,12 +206,11 @@ impl ModalCase {
     /// # Errors
     /// [`CaseError`] with everything that is wrong with either.
     pub fn parse_with(name: &str, text: &str, modes: Option<ModesFile>) -> Result<Self, CaseError> {
-        let of_file = modes.as_ref().map(table::read).transpose()?;
         let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
         let refused = |problems, more| CaseError::new(name, visible, problems, more);
         let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
         let mut reader = Reader::of(visible);
-        match read::read(&mut reader, &document, sha256(text.as_bytes()), of_file) {
+        match read::read(&mut reader, &document, sha256(text.as_bytes()), modes.as_ref())? {
             Some(case) if reader.problems.is_empty() => Ok(Self { modes_file: modes, ..case }),
             _ => Err(refused(reader.problems, reader.more)),
         }

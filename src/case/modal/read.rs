@@ -10,11 +10,14 @@ use toml::de::{DeTable, DeValue};
 
 use super::asked::{ModalCriteriaTable, ModalOptimizeTable, read_bounds, read_criteria};
 use super::place::find_place;
-use super::table::Modes;
+use super::table::{self, Modes, ModesFile};
+use super::universal::{self, Direction};
 use super::{AbsorberKey, ActsOn, Load, ModalCase, PlacedAbsorber, StructuralMode};
 use crate::case::Heading;
+use crate::case::error::CaseError;
 use crate::case::number::Form;
 use crate::case::reader::{Reader, Table, fields, kind};
+use crate::case::schema::one_of;
 use crate::case::settings::SimulationSettings;
 use crate::case::value::ValuePlace;
 use crate::system::{LARGEST_DAMPING_RATIO, MOST_MODES};
@@ -45,13 +48,25 @@ struct ModeTable {
 
 /// The modes of the structure in a file, instead of `[[mode]]`.
 #[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
+#[schemars(extend("additionalProperties" = false))]
 struct ModesTable {
-    /// A file of columns beside the case, or below its folder: frequency, damping_ratio, mass, participation where the base moves,
-    /// and one for each place, with units in brackets; a line for each mode.
+    /// A file beside the case, or below its folder: a Universal File with data sets 55, or columns of frequency, damping_ratio, mass,
+    /// participation where the base moves, and one for each place, with units in brackets; a line for each mode.
     #[schemars(example = &"mast.csv")]
     #[expect(dead_code, reason = "read before the case is")]
     file: String,
+    /// Places of a Universal File: a node and the direction in which it moves, each by a name.
+    #[schemars(with = "Value", extend("type" = "object", "additionalProperties" = { "type": "string" }))]
+    #[schemars(example = json!({ "tip": "12 z" }))]
+    #[expect(dead_code, reason = "read by its own names")]
+    #[serde(default)]
+    places: (),
+    /// Which of the file's modes, from 1; all of them unless given.
+    #[schemars(example = vec![1, 2, 3])]
+    numbers: Option<Vec<u64>>,
+    /// zeta, the damping ratio of each mode instead of the file's, from 0 to 0.85.
+    #[schemars(extend("x-measurand" = "a share", "minimum" = 0, "maximum" = LARGEST_DAMPING_RATIO), example = 0.005, example = "0.5 %")]
+    damping_ratio: Option<f64>,
 }
 
 /// An absorber of the structure.
@@ -128,6 +143,33 @@ fn loads() -> Value {
     ])
 }
 
+/// A design of several modes or absorbers: the tables mode or modes, absorber and excitation.
+#[derive(JsonSchema)]
+#[expect(
+    dead_code,
+    reason = "each table is read by itself, so that one that is wrong hides no other"
+)]
+#[schemars(
+    title = "vinesink case of several modes or absorbers",
+    deny_unknown_fields,
+    extend("oneOf" = one_of("mode", "modes"))
+)]
+pub(in crate::case) struct ModalFile {
+    #[schemars(flatten)]
+    heading: Heading,
+    #[schemars(flatten)]
+    tables: ModalTables,
+}
+
+/// A table, or a list of such tables.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "tables are read one by one")]
+enum OneOrMore<T> {
+    One(T),
+    More(Vec<T>),
+}
+
 /// Tables of such a file.
 #[derive(Deserialize, JsonSchema)]
 #[expect(
@@ -135,10 +177,10 @@ fn loads() -> Value {
     reason = "each table is read by itself, so that one that is wrong hides no other"
 )]
 struct ModalTables {
-    mode: Option<Vec<ModeTable>>,
+    mode: Option<OneOrMore<ModeTable>>,
     modes: Option<ModesTable>,
-    absorber: Vec<ModalAbsorberTable>,
-    excitation: Vec<LoadTable>,
+    absorber: OneOrMore<ModalAbsorberTable>,
+    excitation: OneOrMore<LoadTable>,
     simulation: Option<SimulationSettings>,
     criteria: Option<ModalCriteriaTable>,
     optimize: Option<ModalOptimizeTable>,
@@ -148,12 +190,15 @@ struct ModalTables {
 const STARTS: u32 = 6;
 
 /// Reads the whole file; `None` when something was reported.
+///
+/// # Errors
+/// What is wrong with the file of its modes.
 pub(super) fn read(
     reader: &mut Reader,
     document: &DeTable,
     text_hash: String,
-    of_file: Option<Modes>,
-) -> Option<ModalCase> {
+    file: Option<&ModesFile>,
+) -> Result<Option<ModalCase>, CaseError> {
     let own = fields::<ModalTables>();
     let of_one: Vec<&str> = fields::<crate::case::Tables>()
         .iter()
@@ -175,7 +220,7 @@ pub(super) fn read(
     }
     let heading = reader.read::<Heading>(&root);
     let (places, modes) = match root.has("modes") {
-        true => modes_of_file(reader, &root, of_file),
+        true => modes_of_file(reader, &root, file)?,
         false => read_modes(reader, &root),
     };
     let (mut absorbers, mut values) = (Vec::new(), Vec::new());
@@ -216,10 +261,7 @@ pub(super) fn read(
     }
     let criteria = read_criteria(reader, &root, &places);
     let bounds = read_bounds(reader, &root, &places);
-    let heading = heading?;
-    if !reader.problems.is_empty() {
-        return None;
-    }
+    let Some(heading) = heading.filter(|_| reader.problems.is_empty()) else { return Ok(None) };
     let asked = simulation.as_ref();
     let starts = asked.and_then(|one| u32::try_from(one.starts?).ok()).unwrap_or(STARTS);
     let periods = asked.and_then(|one| one.periods).unwrap_or(0);
@@ -248,11 +290,11 @@ pub(super) fn read(
                     "expected values that fit one another",
                     help,
                 );
-                return None;
+                return Ok(None);
             }
         }
     }
-    Some(case)
+    Ok(Some(case))
 }
 
 /// Places and modes of the tables `[[mode]]`.
@@ -278,19 +320,122 @@ fn read_modes(reader: &mut Reader, root: &Table) -> Modes {
     (places, modes)
 }
 
-/// Those of a file that was read.
-fn modes_of_file(reader: &mut Reader, root: &Table, of_file: Option<Modes>) -> Modes {
+/// Those of a file.
+fn modes_of_file(
+    reader: &mut Reader,
+    root: &Table,
+    file: Option<&ModesFile>,
+) -> Result<Modes, CaseError> {
     if root.has("mode") {
         let message = "[modes] and [[mode]] both say which modes there are";
         reader.report(root.span_of("modes"), message, "expected one of them", "remove one");
     }
-    let table = reader.optional::<ModesTable>(root, "modes");
-    if of_file.is_none() && table.is_some() {
+    let Some((table, read)) = reader.optional::<ModesTable>(root, "modes") else {
+        return Ok(Modes::default());
+    };
+    let Some(file) = file else {
         let message = "the file of the modes was not read";
         let help = "write the modes as [[mode]] where a case is a text without a folder";
         reader.report(root.span_of("modes"), message, "expected a case in a file", help);
+        return Ok(Modes::default());
+    };
+    let (places, mut all) = match universal::is_universal(&file.text) {
+        true => universal_modes(reader, &table, file)?,
+        false if table.has("places") => {
+            let message = "`places` has no meaning beside a file of columns";
+            let expected = "expected a Universal File, or no `places`";
+            let help = "remove the line: the head of the file names its places";
+            reader.report(table.span_of("places"), message, expected, help);
+            return Ok(Modes::default());
+        }
+        false => table::read(file)?,
+    };
+    if let Some(numbers) = &read.numbers {
+        let span = table.span_of_value("numbers");
+        let known = |number: &u64| (1..=all.len() as u64).contains(number);
+        let twice = |(k, number): (usize, &u64)| numbers[..k].contains(number);
+        if numbers.is_empty() || !numbers.iter().all(known) || numbers.iter().enumerate().any(twice)
+        {
+            let message = format!("the file has {} modes", all.len());
+            let expected = format!("expected numbers from 1 to {}, each once", all.len());
+            reader.report(span, message, expected, "write numbers = [1, 2, 3]");
+            return Ok(Modes::default());
+        }
+        all = numbers.iter().map(|number| all[*number as usize - 1].clone()).collect();
     }
-    of_file.unwrap_or_default()
+    if all.len() > MOST_MODES {
+        let message = format!("the file has {} modes", all.len());
+        let expected = format!("expected 1 to {MOST_MODES}");
+        let help = "choose those that matter most: numbers = [1, 2, 3]";
+        reader.report(table.span_of("file"), message, expected, help);
+        return Ok(Modes::default());
+    }
+    for (k, mode) in all.iter_mut().enumerate() {
+        mode.damping_ratio = read.damping_ratio.unwrap_or(mode.damping_ratio);
+        let number = read.numbers.as_ref().map_or(k as u64 + 1, |numbers| numbers[k]);
+        // A file of columns is judged line by line.
+        if let Some((wrong, expected)) = impossible(mode) {
+            let message = format!("mode {number} of the file {wrong}");
+            let help = "choose others with `numbers`, or write them as [[mode]]";
+            reader.report(table.span_of("file"), message, expected, help);
+        }
+    }
+    Ok((places, all))
+}
+
+/// What a mode cannot be, and what was expected.
+fn impossible(mode: &StructuralMode) -> Option<(String, &'static str)> {
+    let StructuralMode { frequency_hz, mass_kg, damping_ratio, shape, .. } = mode;
+    if *frequency_hz <= 0.0 || *mass_kg <= 0.0 {
+        let wrong = format!("has {frequency_hz} Hz and a modal mass of {mass_kg} kg");
+        return Some((wrong, "expected both above 0"));
+    }
+    if !(0.0..=LARGEST_DAMPING_RATIO).contains(damping_ratio) {
+        let wrong = format!("has a damping ratio of {damping_ratio}");
+        return Some((wrong, "expected a damping ratio from 0 to 0.85"));
+    }
+    let still = shape.iter().all(|value| *value == 0.0);
+    still.then(|| ("moves at none of the places".to_owned(), "expected a place at which it moves"))
+}
+
+/// Modes of a Universal File at the places that a case names.
+fn universal_modes(
+    reader: &mut Reader,
+    table: &Table,
+    file: &ModesFile,
+) -> Result<Modes, CaseError> {
+    const HELP: &str = "write places = { tip = \"12 z\" }: a node of the file and its direction";
+    let mut named: Vec<(String, Direction)> = Vec::new();
+    let entries = table.value("places").and_then(|value| value.get_ref().as_table());
+    for (name, value) in entries.into_iter().flatten() {
+        match value.get_ref().as_str().and_then(Direction::parse) {
+            Some(at) => named.push((name.get_ref().to_string(), at)),
+            None => {
+                let message =
+                    format!("`{}` of `places` is no node with a direction", name.get_ref());
+                let expected = "expected a number and x, y or z, as in \"12 z\"";
+                reader.report(value.span(), message, expected, HELP);
+            }
+        }
+    }
+    let (places, at): (Vec<String>, Vec<Direction>) = named.into_iter().unzip();
+    let found = universal::read(file, &at)?;
+    let nodes: Vec<String> = found.nodes.iter().map(u64::to_string).collect();
+    let nodes = format!("expected nodes of the file, which begin with {}", nodes.join(", "));
+    if entries.is_none_or(|all| all.is_empty()) {
+        let message = "a Universal File has nodes, and the case does not name its places";
+        reader.report(table.span_of("places"), message, nodes.as_str(), HELP);
+    }
+    let missing =
+        |(k, _): &(usize, &Direction)| found.modes.iter().any(|mode| mode.shape[*k].is_nan());
+    for (k, at) in at.iter().enumerate().filter(missing) {
+        let message = format!(
+            "\"{}\" is node {}, which a mode of the file does not have",
+            places[k], at.node
+        );
+        reader.report(table.span_of_value("places"), message, nodes.as_str(), "name another node");
+    }
+    Ok(if reader.problems.is_empty() { (places, found.modes) } else { Modes::default() })
 }
 
 /// The tables of a name, once or as a list; reported where there is none, or more than a structure may have.

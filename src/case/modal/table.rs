@@ -6,7 +6,7 @@ use crate::case::quantity::{number_in, unit_in_brackets};
 use crate::case::record::{lines, problem};
 use crate::quantity::Dimension;
 use crate::quantity::unit::Unit;
-use crate::system::{LARGEST_DAMPING_RATIO, MOST_MODES};
+use crate::system::LARGEST_DAMPING_RATIO;
 
 /// A file of modes: its path, for messages, and its text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,11 +50,10 @@ pub(super) fn read(file: &ModesFile) -> Result<Modes, CaseError> {
         refused(vec![*problem]).without_text("a table of modes", &help)
     })?;
     let lines: Vec<&str> = lines.collect();
-    if lines.is_empty() || lines.len() > MOST_MODES {
-        let message = format!("the file has {} modes", lines.len());
-        let expected = format!("expected 1 to {MOST_MODES} lines below the head");
-        let help = "keep those that matter most; more are not computed";
-        return Err(refused(vec![*problem(text, head, message, &expected, help)]));
+    if lines.is_empty() {
+        let message = "the file has no mode".to_owned();
+        let expected = "expected a line for each mode below the head";
+        return Err(refused(vec![*problem(text, head, message, expected, "add the modes")]));
     }
     let (modes, problems): (Vec<_>, Vec<_>) =
         lines.iter().map(|line| mode(text, line, &columns)).partition(Result::is_ok);

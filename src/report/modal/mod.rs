@@ -14,8 +14,11 @@ use super::error::RenderError;
 use super::render::{Files, in_lines, page_files};
 use super::template::{render, worded};
 use crate::case::{ActsOn, Load, ModalCase, StructuralMode};
+use crate::executor::Executor;
 use crate::method::Method;
-use crate::modal::{DamperChoice, JudgedPlace, ModalAnswer, WorstOfPlace};
+use crate::modal::{
+    DamperChoice, JudgedPlace, ModalAnswer, ModalError, WorstOfPlace, choices, modes_alone,
+};
 use crate::motions::ModalMotion;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
@@ -25,17 +28,22 @@ pub use analysis::{analysis, analysis_text};
 pub use optimum::{optimum, optimum_text};
 
 /// What else is known of its loads.
-#[derive(Debug, Clone, Copy)]
-pub struct Beside<'a> {
+#[derive(Debug, Clone, Default)]
+pub struct Beside {
     /// Tuned mass dampers.
-    pub dampers: &'a [DamperChoice],
+    dampers: Vec<DamperChoice>,
     /// For each load what a model of the driven mode alone would say; none where there is none.
-    pub alone: &'a [Option<WorstOfPlace>],
+    alone: Vec<Option<WorstOfPlace>>,
 }
 
-impl Beside<'_> {
-    /// Nothing.
-    pub const NOTHING: Self = Self { dampers: &[], alone: &[] };
+impl Beside {
+    /// All that a report has.
+    ///
+    /// # Errors
+    /// [`ModalError`] where a motion cannot be flown.
+    pub fn of(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
+        Ok(Self { dampers: choices(case), alone: modes_alone(case, on)? })
+    }
 }
 
 /// Units of the pages of a case: lengths in that of the smallest clearance.
@@ -278,7 +286,7 @@ pub fn files(
 
 /// What simulation says of it, with nothing beside: `vinesink/answer@1`.
 pub fn simulation(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Value {
-    document(name, case, answer, &Beside::NOTHING, Content::Simulation)
+    document(name, case, answer, &Beside::default(), Content::Simulation)
 }
 
 /// The same on a terminal.
@@ -300,7 +308,7 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
         "title": case.title,
         "holds": answer.all_hold(),
         "criteria": answer.judged.iter().map(told).collect::<Vec<_>>(),
-        "loads": along(case, answer, &Beside::NOTHING),
+        "loads": along(case, answer, &Beside::default()),
     });
     let page = json!({
         "path": path, "case": name, "warnings": [], "criteria": criteria(case, answer), "outside": null, "choice": null,

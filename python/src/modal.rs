@@ -1,0 +1,134 @@
+//! A case of several modes or absorbers: read, and what the program's commands say of it.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use vinesink::case::ModalCase as Inner;
+use vinesink::case_input;
+use vinesink::modal::{ModalAnswer, ModalOptimum, orbits};
+use vinesink::report::modal::{Beside, analysis, checked, files, optimum, simulation};
+
+use crate::case::{not_read, reach};
+use crate::report;
+use crate::work::{self, WorkState, json, refused};
+
+/// A case as it was read.
+#[pyclass(frozen, module = "vinesink._vinesink")]
+pub struct ModalCase {
+    inner: Inner,
+    text: String,
+    /// The stem of its file; empty for a case from a text.
+    stem: String,
+}
+
+#[pymethods]
+impl ModalCase {
+    /// From its text; the file of its modes is below `folder`, unless it may be anywhere.
+    #[staticmethod]
+    fn parse(
+        py: Python<'_>,
+        name: &str,
+        text: &str,
+        folder: PathBuf,
+        allow_outside: bool,
+    ) -> PyResult<Self> {
+        let inner = case_input::parse_several(name, text, &folder, reach(allow_outside));
+        let inner = inner.map_err(|error| not_read(py, &error))?;
+        Ok(Self { inner, text: text.to_owned(), stem: String::new() })
+    }
+
+    /// From its file.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Self> {
+        let read = case_input::read_several(&path, reach(allow_outside));
+        let (inner, text) = read.map_err(|error| not_read(py, &error))?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Self { inner, text, stem })
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.inner.title
+    }
+
+    #[getter]
+    fn source(&self) -> &str {
+        &self.inner.source
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    #[getter]
+    fn stem(&self) -> &str {
+        &self.stem
+    }
+
+    #[getter]
+    fn places(&self) -> Vec<String> {
+        self.inner.places.clone()
+    }
+
+    /// As `vinesink analyze --format json`.
+    fn analyze(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
+        work::done(py, progress, |_| {
+            json(&analysis(&self.inner, &orbits(&self.inner).map_err(refused)?))
+        })
+    }
+
+    /// As `vinesink simulate --format json`.
+    fn simulate(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
+        work::done(py, progress, |work| {
+            json(&simulation(&self.stem, &self.inner, &self.answer(work)?))
+        })
+    }
+
+    /// As `vinesink check --format json` says it of this case.
+    fn check(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
+        if self.inner.criteria.is_empty() {
+            return Err(refused("the case has no criteria: give it a table [criteria]"));
+        }
+        work::done(py, progress, |work| {
+            let answer = self.answer(work)?;
+            json(&checked(&self.stem, &self.stem, &self.inner, &answer).document)
+        })
+    }
+
+    /// As `vinesink optimize --format json`, the text of the better case, and whether it is a success.
+    fn optimize(
+        &self,
+        py: Python<'_>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(String, Option<String>, bool)> {
+        work::done(py, progress, |work| {
+            let found = ModalOptimum::of(&self.inner, &self.text, work).map_err(refused)?;
+            let better = found.best.first().filter(|_| found.succeeds());
+            let better = better.map(|best| best.text.clone());
+            Ok((json(&optimum(&self.inner, &found))?, better, found.succeeds()))
+        })
+    }
+
+    /// Writes the files of `vinesink report` into a folder.
+    fn report(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        name: &str,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<()> {
+        let render = |work: &WorkState| {
+            let beside = Beside::of(&self.inner, work).map_err(refused)?;
+            files(name, &self.inner, &self.answer(work)?, &beside).map_err(refused)
+        };
+        let files = work::done(py, progress, render)?;
+        report::write(&folder, &files)
+    }
+}
+
+impl ModalCase {
+    fn answer(&self, work: &WorkState) -> PyResult<ModalAnswer> {
+        ModalAnswer::of(&self.inner, work).map_err(refused)
+    }
+}

@@ -1,0 +1,92 @@
+"""Cases of several modes or absorbers: Python and the program say the same, to the bit."""
+
+import pickle
+
+import pytest
+import vinesink
+from conftest import CASES
+
+SEVERAL = CASES / "several"
+# One load at one frequency.
+SHORT = """
+title = "A floor"
+source = "test"
+[[mode]]
+frequency = "2 Hz"
+damping_ratio = "1 %"
+mass = "100 kg"
+shape = { middle = 1.0, quarter = 0.7 }
+[[mode]]
+frequency = "7 Hz"
+damping_ratio = "1 %"
+mass = "100 kg"
+shape = { middle = 0.0, quarter = 1.0 }
+[[absorber]]
+place = "middle"
+mass = "3 kg"
+clearance = "4 mm"
+restitution = 0.5
+[[excitation]]
+kind = "force"
+place = "middle"
+amplitude = "10 N"
+frequency = "2 Hz"
+[criteria]
+peak_displacement = "<= 9 mm"
+"""
+
+
+@pytest.fixture
+def path(tmp_path):
+    path = tmp_path / "floor.toml"
+    path.write_text(SHORT)
+    return path
+
+
+def test_commands(path, printed):
+    case = vinesink.ModalCase.from_toml(path)
+    assert case.places == ["middle", "quarter"] and case.title == "A floor"
+    assert case.analyze().to_dict() == printed("analyze", path)
+    assert case.simulate().to_dict() == printed("simulate", path)
+    (expected,) = printed("check", path)["cases"]
+    found = case.check()
+    assert found.to_dict() | {"path": expected["path"]} == expected
+    assert bool(found) == expected["holds"]
+    assert list(found.to_pandas().name) == [one["name"] for one in expected["criteria"]]
+
+
+def test_optimize(path, printed):
+    expected = printed("optimize", path)
+    found = vinesink.ModalCase.from_toml(path).optimize()
+    assert found.to_dict() == expected
+    assert found.succeeds == bool(found) == (found.case is not None)
+    if found:
+        assert isinstance(found.case, vinesink.ModalCase) and found.case.check()
+
+
+def test_report(path, tmp_path, program):
+    vinesink.ModalCase.from_toml(path).report(tmp_path / "python")
+    assert program("report", path, "--out", tmp_path / "program").returncode == 0
+    files = {one.relative_to(tmp_path / "python") for one in (tmp_path / "python").rglob("*") if one.is_file()}
+    assert {str(one) for one in files} >= {"report.md", "report.html", "report.json"}
+    for one in files:
+        assert (tmp_path / "python" / one).read_bytes() == (tmp_path / "program" / "floor" / one).read_bytes(), one
+
+
+def test_modes_in_a_file_and_other_processes():
+    case = vinesink.ModalCase.from_toml(SEVERAL / "mast-two.toml")
+    assert case.places == ["tip", "middle"]
+    assert pickle.loads(pickle.dumps(case)).analyze() == case.analyze()
+
+
+def test_what_it_is_not(path):
+    with pytest.raises(vinesink.CaseError, match="several modes or absorbers") as raised:
+        vinesink.Case.from_toml(path)
+    assert "ModalCase" in str(raised.value)
+    with pytest.raises(vinesink.CaseError, match="place at which no mode has a shape") as raised:
+        vinesink.ModalCase.from_toml(SHORT.replace('place = "middle"\nmass', 'place = "midle"\nmass'))
+    assert raised.value.problems[0]["line"] == 15
+    with pytest.raises(vinesink.RefusedError, match="no criteria"):
+        vinesink.ModalCase.from_toml(SHORT[: SHORT.index("[criteria]")]).check()
+    with pytest.raises(vinesink.FileError):
+        vinesink.ModalCase.from_toml("no/such.toml")
