@@ -119,8 +119,9 @@ impl ModalCase {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<()> {
         let render = |work: &WorkState| {
-            let beside = Beside::of(&self.inner, work).map_err(refused)?;
-            files(name, &self.inner, &self.answer(work)?, &beside).map_err(refused)
+            let answer = self.answer(work)?;
+            let beside = Beside::of(&self.inner, &answer, work).map_err(refused)?;
+            files(name, &self.inner, &answer, &beside).map_err(refused)
         };
         let files = work::done(py, progress, render)?;
         report::write(&folder, &files)

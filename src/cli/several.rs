@@ -24,7 +24,7 @@ pub fn answered(path: &Path, case: &ModalCase, long: Long) -> Result<ModalAnswer
 /// The files of its report.
 pub fn report(path: &Path, name: &str, case: &ModalCase, long: Long) -> Result<Files> {
     let answer = answered(path, case, long)?;
-    let beside = Beside::of(case, &Parallel).into_diagnostic()?;
+    let beside = Beside::of(case, &answer, &Parallel).into_diagnostic()?;
     files(name, case, &answer, &beside).into_diagnostic()
 }
 

@@ -133,7 +133,12 @@ impl AlongLoad {
 }
 
 impl AtFrequency {
-    fn of(case: &ModalCase, load: &Load, at: f64, starts: u32) -> Result<Self, ModalError> {
+    pub(super) fn of(
+        case: &ModalCase,
+        load: &Load,
+        at: f64,
+        starts: u32,
+    ) -> Result<Self, ModalError> {
         let system = case.system(load, at)?;
         let motions = modal_motions(&system, &case.shapes(), starts, case.periods)?;
         Ok(Self { at, motions })

@@ -5,6 +5,7 @@
 
 mod along;
 mod dampers;
+mod forces;
 mod linear;
 mod optimum;
 
@@ -19,6 +20,7 @@ use crate::system::InvalidModalSystem;
 
 pub use along::{AlongLoad, AtFrequency, WorstOfPlace, seconds};
 pub use dampers::{DamperChoice, choices};
+pub use forces::{ForceStep, OverForce};
 pub use linear::{linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
 
@@ -124,6 +126,20 @@ pub fn orbits(case: &ModalCase) -> Result<Vec<(f64, Vec<ModalOrbit>)>, ModalErro
     case.loads.iter().map(of).collect()
 }
 
+/// The mode in which a load acts, or that which is nearest to its range.
+fn driven_mode(case: &ModalCase, load: &Load) -> usize {
+    let off = |k: &usize| {
+        let own = case.modes[*k].frequency_hz;
+        let [from, to] = load.range_hz;
+        libm::log(own.clamp(from, to) / own).abs()
+    };
+    let nearest = (0..case.modes.len()).min_by(|a, b| off(a).total_cmp(&off(b)));
+    match load.on {
+        ActsOn::Mode(mode) => mode,
+        _ => nearest.unwrap_or_default(),
+    }
+}
+
 /// For each load the worst displacement that a model of the driven mode alone has: of the mode in which the load acts, or of
 /// that which is nearest to its range.
 ///
@@ -137,16 +153,7 @@ pub fn modes_alone(
         return Ok(vec![None; case.loads.len()]);
     }
     let each = case.loads.iter().enumerate().map(|(number, load)| {
-        let off = |k: &usize| {
-            let own = case.modes[*k].frequency_hz;
-            let [from, to] = load.range_hz;
-            libm::log(own.clamp(from, to) / own).abs()
-        };
-        let nearest = (0..case.modes.len()).min_by(|a, b| off(a).total_cmp(&off(b)));
-        let driven = match load.on {
-            ActsOn::Mode(mode) => mode,
-            _ => nearest.unwrap_or_default(),
-        };
+        let driven = driven_mode(case, load);
         let on_mode = match load.on {
             ActsOn::Mode(_) => ActsOn::Mode(0),
             other => other,

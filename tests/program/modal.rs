@@ -1,12 +1,14 @@
 //! Structures of several modes with several absorbers, from their case files to their reports.
 
 use std::fs;
+use std::path::Path;
 
 use assert_cmd::Command;
 use serde_json::Value;
 use vinesink::case::{Case, ModalCase, is_modal};
 use vinesink::case_input::{AnyCase, CaseInputError, read_any};
-use vinesink::modal::seconds;
+use vinesink::executor::Serial;
+use vinesink::modal::{ForceStep, ModalAnswer, OverForce, seconds};
 use vinesink::motions::{longest_flight, modal_motions};
 use vinesink::store::Reach;
 
@@ -419,6 +421,53 @@ fn modes_may_be_in_a_universal_file() {
     for end in (0..file.len()).step_by(7) {
         let _ = read_beside(&named, "mast.unv", &file[..end]);
     }
+}
+
+/// Other amplitudes: at the load's own the worst is that of the answer, absorbers work between their folds and symmetry breaking,
+/// limits end where motions say so, and a report tells it.
+#[test]
+fn a_report_tells_what_other_amplitudes_do() {
+    let (case, _) = read_any(Path::new("cases/several/floor.toml"), Reach::Folder).expect("a case");
+    let AnyCase::Several(case) = case else { panic!("one mode") };
+    let answer = ModalAnswer::of(&case, &Serial).expect("flown");
+    for (k, load) in case.loads.iter().enumerate() {
+        let worst = answer.worst(None, Some(k)).expect("a motion");
+        let found = OverForce::of(&case, load, Some(worst.at), &Serial).expect("flown");
+        let found = found.expect("a steady motion");
+        assert!(found.at.contains(&worst.at) && found.at.len() == 2);
+        assert_eq!(found.steps.len(), 9);
+        let most = |step: &ForceStep| {
+            let places = step.motions.iter().flat_map(|one| &one.places);
+            places.map(|place| place.peak).fold(0.0, f64::max)
+        };
+        // All of its motions repeat, so that half of the starts find them.
+        assert_eq!(found.steps[4].times, 1.0);
+        assert!((most(&found.steps[4]) / worst.peak - 1.0).abs() < 1e-9);
+        // A structure alone is linear.
+        let bare = |step: &ForceStep| step.bare / step.times;
+        assert!(
+            found.steps.iter().all(|one| (bare(one) / bare(&found.steps[0]) - 1.0).abs() < 1e-12)
+        );
+        // The limits by the motions: one criterion, of the largest displacement anywhere.
+        let limit = case.criteria[0].criterion.limit;
+        assert!(case.criteria.len() == 1 && case.criteria[0].place.is_none());
+        let [holds, fails] = found.limits(&case);
+        assert!(holds.expect("at small forces") >= 1.0, "the criterion holds");
+        let first = found.steps.iter().find(|step| most(step) > limit).map(|step| step.times);
+        assert_eq!(fails, first);
+        assert!(fails.is_none_or(|fails| fails > holds.expect("above")));
+    }
+    // Three absorbers of 5, 10 and 20 mm on one mode: sqrt(R/(1 + R)) and the symmetry breaking of PHYSICS, r = 0.6.
+    let (graded, _) =
+        read_any(Path::new("cases/several/graded.toml"), Reach::Folder).expect("a case");
+    let AnyCase::Several(graded) = graded else { panic!("one mode") };
+    let found = OverForce::of(&graded, &graded.loads[0], None, &Serial).expect("flown");
+    let found = found.expect("a steady motion");
+    for (range, clearance) in found.working.iter().zip([0.005, 0.010, 0.020]) {
+        let [from, to] = range.expect("not at a node");
+        assert!((from / clearance - 0.1572).abs() < 5e-5 && (to / clearance - 0.7321).abs() < 5e-5);
+    }
+    assert_eq!(found.limits(&graded), [None, None], "no limit is asked for");
 }
 
 /// What a case asks for is what every start is measured for, and what a run is said to take.

@@ -1,16 +1,16 @@
-//! The largest displacement under each load, drawn.
+//! The largest displacement under each load, over the frequency and over the amplitude, drawn.
 
 use serde_json::Value;
 
-use super::{Beside, units};
+use super::{Beside, amplitude_of, units};
 use crate::case::{ActsOn, Load, ModalCase};
 use crate::linear::ModalDamper;
-use crate::modal::{ModalAnswer, linear_peak, linear_places};
+use crate::modal::{ModalAnswer, OverForce, linear_peak, linear_places};
 use crate::motions::ModalMotion;
 use crate::quantity::catalogue as of;
 use crate::report::chart::AxisOf;
 use crate::report::figure::{
-    Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
+    AxisScale, Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
 use crate::report::transient::DAMPER;
 
@@ -37,9 +37,7 @@ pub(super) fn loads(
         count += 1;
         let highest = along.places.iter().flat_map(|one| &one.motions).flat_map(|one| &one.places);
         let highest = highest.map(|one| one.peak).fold(0.0, f64::max);
-        let limit =
-            case.criteria.iter().map(|one| one.criterion.limit).fold(f64::INFINITY, f64::min);
-        let limit = Some(limit).filter(|limit| limit.is_finite());
+        let limit = tightest(case);
         let top = 1.15 * limit.map_or(highest, |limit| limit.max(highest));
         let x = AxisOf::si(units, &of::EXCITATION_FREQUENCY).axis([from, to]);
         let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
@@ -77,6 +75,73 @@ pub(super) fn loads(
     let layout = Layout::rows(&vec![1.0; count.max(1)]);
     let height = 90 + 250 * u32::try_from(count).unwrap_or(1);
     figure.with_layout(layout).with_size(720, height).with_facts("captions/loads", facts.clone())
+}
+
+/// Width of the bar of an absorber with the free room beside it, over that of the panel.
+const BAR: f64 = 0.03;
+/// An absorber at work.
+const WORKS: Style = Style::new(Color::BluishGreen, 6.0, Dash::Solid);
+
+/// Largest displacement of any place over the amplitude of each load, with a bar between the displacements at which each absorber
+/// works.
+pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure {
+    let units = units(case);
+    let mut figure = Figure::new("forces", "");
+    let mut count = 0;
+    for (k, (load, found)) in case.loads.iter().zip(&beside.forces).enumerate() {
+        let Some(OverForce { steps, working, .. }) = found else { continue };
+        let [Some(first), Some(last)] = [steps.first(), steps.last()] else { continue };
+        count += 1;
+        let seen = |acts: bool| {
+            let most =
+                |motion: &ModalMotion| motion.places.iter().map(|one| one.peak).fold(0.0, f64::max);
+            let each = steps.iter().flat_map(move |step| {
+                let motions = step.motions.iter().filter(move |one| !(acts && one.rests()));
+                motions.map(move |one| [step.times * load.amplitude, most(one)])
+            });
+            each.collect::<Vec<_>>()
+        };
+        let limit = tightest(case);
+        let upper = working.iter().flatten().map(|[_, to]| *to);
+        let told = upper.chain(limit).fold(0.0, f64::max);
+        let most = seen(false).into_iter().map(|[_, y]| y).fold(told, f64::max);
+        // How far beyond a limit decides nothing.
+        let top = 1.15 * if limit.is_some() { most.min(2.0 * told) } else { most };
+        let range = [first.times, last.times].map(|times| times * load.amplitude);
+        let mut x = AxisOf::si(units, amplitude_of(load)).axis(range);
+        x.scale = AxisScale::Log;
+        let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
+        let bare = steps.iter().map(|step| [step.times * load.amplitude, step.bare]).collect();
+        let mut panel = Panel::new(x, y)
+            .with(Layer::curve(Role::BareOscillator, bare).labelled("without absorbers"))
+            .with(Layer::vertical(load.amplitude, Role::Forcing).labelled("the load"));
+        if let Some(limit) = limit {
+            panel = panel.with(Layer::horizontal(limit, LIMIT).labelled("limit"));
+        }
+        for (j, range_of) in working.iter().enumerate() {
+            let Some([from, to]) = range_of else { continue };
+            // From the right edge on, evenly on a logarithmic axis.
+            let part = 1.0 - BAR * (1 + j) as f64;
+            let at = range[0] * libm::pow(range[1] / range[0], part);
+            let bar = Layer::curve(WORKS, vec![[at, *from], [at, *to]]);
+            panel = match case.absorbers.len() {
+                1 => panel.with(bar.labelled("the absorber works")),
+                _ => panel.with(bar).with(Layer::note([at, to + 0.05 * top], (j + 1).to_string())),
+            };
+        }
+        let marker = Marker::filled(Shape::Circle).sized(5.0);
+        let points = Layer::marked(marker, Role::Simulation.color(), seen(true));
+        panel = panel.with(points.labelled("with absorbers"));
+        figure = figure.with_panel(panel.with_heading(heading(case, k, load)));
+    }
+    let layout = Layout::rows(&vec![1.0; count.max(1)]);
+    let height = 90 + 250 * u32::try_from(count).unwrap_or(1);
+    figure.with_layout(layout).with_size(720, height).with_facts("captions/forces", facts.clone())
+}
+
+/// The smallest limit of any place.
+fn tightest(case: &ModalCase) -> Option<f64> {
+    case.criteria.iter().map(|one| one.criterion.limit).min_by(f64::total_cmp)
 }
 
 fn heading(case: &ModalCase, number: usize, load: &Load) -> String {

@@ -17,7 +17,8 @@ use crate::case::{ActsOn, Load, ModalCase, StructuralMode};
 use crate::executor::Executor;
 use crate::method::Method;
 use crate::modal::{
-    DamperChoice, JudgedPlace, ModalAnswer, ModalError, WorstOfPlace, choices, modes_alone,
+    DamperChoice, ForceStep, JudgedPlace, ModalAnswer, ModalError, OverForce, WorstOfPlace,
+    choices, modes_alone,
 };
 use crate::motions::ModalMotion;
 use crate::quantity::catalogue as of;
@@ -34,6 +35,8 @@ pub struct Beside {
     dampers: Vec<DamperChoice>,
     /// For each load what a model of the driven mode alone would say; none where there is none.
     alone: Vec<Option<WorstOfPlace>>,
+    /// For each load what it does with other amplitudes; none where there is no steady motion.
+    forces: Vec<Option<OverForce>>,
 }
 
 impl Beside {
@@ -41,8 +44,16 @@ impl Beside {
     ///
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
-    pub fn of(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
-        Ok(Self { dampers: choices(case), alone: modes_alone(case, on)? })
+    pub fn of(
+        case: &ModalCase,
+        answer: &ModalAnswer,
+        on: &dyn Executor,
+    ) -> Result<Self, ModalError> {
+        let worst = |k: usize| answer.worst(None, Some(k)).map(|worst| worst.at);
+        let each = case.loads.iter().enumerate();
+        let forces = each.map(|(k, load)| OverForce::of(case, load, worst(k), on));
+        let forces = forces.collect::<Result<_, _>>()?;
+        Ok(Self { dampers: choices(case), alone: modes_alone(case, on)?, forces })
     }
 }
 
@@ -106,8 +117,31 @@ fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
     json!(counted(&answer.criteria(), rows.collect()))
 }
 
+/// What the amplitude of a load is of.
+fn amplitude_of(load: &Load) -> &'static Kind {
+    if load.on == ActsOn::Base { &of::BASE_AMPLITUDE } else { &of::FORCE_AMPLITUDE }
+}
+
+/// What a load does with other amplitudes.
+fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
+    let amplitude = |times: f64| simulated(amplitude_of(load), times * load.amplitude);
+    let [holds, fails] = of_load.limits(case).map(|times| times.map(amplitude));
+    let working = of_load
+        .working
+        .iter()
+        .map(|range| range.map(|range| range.map(|at| closed(&of::PEAK, at))));
+    let step = |one: &ForceStep| json!({ "amplitude": amplitude(one.times), "motions": one.motions.iter().map(motion_row).collect::<Vec<_>>() });
+    json!({
+        "at": of_load.at.iter().map(|at| given(&of::EXCITATION_FREQUENCY, *at)).collect::<Vec<_>>(),
+        "holds_up_to": holds,
+        "fails_from": fails,
+        "working": working.collect::<Vec<_>>(),
+        "steps": of_load.steps.iter().map(step).collect::<Vec<_>>(),
+    })
+}
+
 fn load_row(case: &ModalCase, load: &Load) -> Value {
-    let kind = if load.on == ActsOn::Base { &of::BASE_AMPLITUDE } else { &of::FORCE_AMPLITUDE };
+    let kind = amplitude_of(load);
     let (place, mode) = match load.on {
         ActsOn::Place(place) => (Some(&case.places[place]), None),
         ActsOn::Mode(mode) => (None, Some(mode + 1)),
@@ -167,6 +201,7 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
                 simulated(&of::PEAK, one.peak).with_error(one.error)
             }),
             "dampers": beside.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, one.worst[k])).collect::<Vec<_>>(),
+            "forces": beside.forces.get(k).and_then(|one| one.as_ref()).map(|one| forces_row(case, &along.load, one)),
             "places": along.places.iter().map(|one| json!({
                 "at": one.at, "unit": "Hz", "motions": one.motions.iter().map(motion_row).collect::<Vec<_>>(),
             })).collect::<Vec<_>>(),
@@ -273,8 +308,11 @@ pub fn files(
     beside: &Beside,
 ) -> Result<Files, RenderError> {
     let mut document = document(name, case, answer, beside, Content::Report);
-    let figure = figure::loads(case, answer, beside, &document);
-    let drawn = if figure.panels.is_empty() { Vec::new() } else { vec![figure] };
+    let mut drawn = vec![
+        figure::loads(case, answer, beside, &document),
+        figure::forces(case, beside, &document),
+    ];
+    drawn.retain(|figure| !figure.panels.is_empty());
     let figures = worded(drawn, &units(case))?;
     document["figures"] = figures.iter().map(super::document::figure_row).collect();
     let tone = document["verdict"]["tone"].as_str().unwrap_or_default().to_owned();

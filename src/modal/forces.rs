@@ -1,0 +1,110 @@
+//! What a load does with other amplitudes: how far it may grow, and at which displacement each absorber works.
+
+use super::along::AtFrequency;
+use super::{ModalError, driven_mode, linear_peak};
+use crate::analysis::Grading;
+use crate::case::{Load, ModalCase};
+use crate::executor::{Executor, map};
+use crate::motions::ModalMotion;
+
+/// Steps of the root of two to either side of the load's own amplitude: from a quarter to four times it.
+const STEPS: usize = 4;
+
+/// What a load does with other amplitudes, at one frequency or two.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OverForce {
+    /// In Hz, ascending: the natural frequency of the mode that it is about, or the middle of its range; and where its own amplitude
+    /// is worst.
+    pub at: Vec<f64>,
+    /// By ascending amplitude.
+    pub steps: Vec<ForceStep>,
+    /// For each absorber the largest displacements of the structure in that mode, in m, between which it is in symmetric 1:1
+    /// resonance by itself, at leading order; none of one at a node.
+    pub working: Vec<Option<[f64; 2]>>,
+}
+
+/// What it does with one amplitude.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceStep {
+    /// The amplitude over the load's own.
+    pub times: f64,
+    /// The long-term motions at all frequencies.
+    pub motions: Vec<ModalMotion>,
+    /// The largest displacement of any place without absorbers, in m.
+    pub bare: f64,
+}
+
+impl OverForce {
+    /// Of a load of a case that is worst at a frequency, searched with half of its starts; none where the structure has no steady
+    /// motion.
+    ///
+    /// # Errors
+    /// [`ModalError`] where a motion cannot be flown.
+    pub fn of(
+        case: &ModalCase,
+        load: &Load,
+        worst_at: Option<f64>,
+        on: &dyn Executor,
+    ) -> Result<Option<Self>, ModalError> {
+        let mut at: Vec<f64> = std::iter::once(load.centre(case)).chain(worst_at).collect();
+        at.retain(|at| case.system(load, *at).is_ok());
+        at.sort_by(f64::total_cmp);
+        at.dedup();
+        if at.is_empty() {
+            return Ok(None);
+        }
+        let times = |step: usize| libm::exp2(0.5 * (step as f64 - STEPS as f64));
+        let with = |step: usize| Load { amplitude: times(step) * load.amplitude, ..*load };
+        let starts = case.starts.div_ceil(2);
+        let look = |k: usize| AtFrequency::of(case, &with(k / at.len()), at[k % at.len()], starts);
+        let found = map(on, "motions under other amplitudes", (2 * STEPS + 1) * at.len(), look);
+        let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let step = |(step, found): (usize, &[AtFrequency])| ForceStep {
+            times: times(step),
+            motions: found.iter().flat_map(|one| one.motions.iter().cloned()).collect(),
+            bare: at.iter().map(|at| linear_peak(case, &with(step), *at, &[])).fold(0.0, f64::max),
+        };
+        let steps = found.chunks(at.len()).enumerate().map(step).collect();
+        Ok(Some(Self { at, steps, working: working(case, driven_mode(case, load)) }))
+    }
+
+    /// The largest amplitude, over the load's own, up to which all limits hold with their errors, and the least from which on one
+    /// fails; none where there is no such step, or no limit.
+    pub fn limits(&self, case: &ModalCase) -> [Option<f64>; 2] {
+        if case.criteria.is_empty() {
+            return [None; 2];
+        }
+        let worst = |step: &ForceStep, reach: bool| {
+            let each = case.criteria.iter().map(|asked| {
+                let places = 0..case.places.len();
+                let places = places.filter(|p| asked.place.is_none_or(|one| one == *p));
+                let all = places.flat_map(|p| step.motions.iter().map(move |one| (p, one)));
+                // A motion that still settles may fail no limit, and holds none.
+                let peak = |(p, motion): (usize, &ModalMotion)| match (reach, motion.settled) {
+                    (true, true) => motion.places[p].peak + motion.places[p].error,
+                    (true, false) => f64::INFINITY,
+                    (false, true) => motion.places[p].peak,
+                    (false, false) => 0.0,
+                };
+                all.map(peak).fold(0.0, f64::max) / asked.criterion.limit
+            });
+            each.fold(0.0, f64::max)
+        };
+        let holds = self.steps.iter().take_while(|step| worst(step, true) <= 1.0).last();
+        let fails = self.steps.iter().find(|step| worst(step, false) > 1.0);
+        [holds, fails].map(|step| step.map(|step| step.times))
+    }
+}
+
+/// For each absorber between which largest displacements in a mode it works.
+fn working(case: &ModalCase, mode: usize) -> Vec<Option<[f64; 2]>> {
+    let shape = &case.modes[mode].shape;
+    let most = shape.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    let of = case.absorbers.iter().map(|absorber| {
+        let here = shape[absorber.place].abs();
+        let Grading { lower, upper, .. } = Grading::of(absorber.restitution);
+        let scale = most * absorber.clearance_m / here;
+        (here > 0.0).then(|| [lower * scale, upper * scale])
+    });
+    of.collect()
+}
