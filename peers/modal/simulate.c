@@ -3,7 +3,7 @@
    Reads, in SI units: modes N, absorbers M; of each mode its frequency in Hz, damping ratio, mass, force and its shape at the place
    that is watched and at each absorber; of each absorber mass, clearance and restitution; the excitation's frequency in Hz, a seed,
    periods that are left out and periods that are measured. Prints the largest displacement of the place in m, its root mean
-   square, and impacts of each absorber in a period.
+   square, impacts of each absorber in a period, and the phase of the last impact of each, over the period, with its speed then.
    cc -O2 simulate.c -lm */
 #include <math.h>
 #include <stdio.h>
@@ -89,9 +89,10 @@ int main(void)
     for (int j = 0; j < absorbers; j++) ball[j] = number(), clearance[j] = number(), restitution[j] = number();
     omega = 2 * M_PI * number();
     srand((unsigned)number());
-    double fastest = omega, out = number() * 2 * M_PI / omega, measured = number() * 2 * M_PI / omega, peak = 0, squares = 0;
+    double fastest = omega, out = number(), measured = number(), peak = 0, squares = 0;
     double share = 1.2 * rand() / RAND_MAX;
     long impacts[MOST] = {0};
+    double last[MOST][2] = {{0}};
     for (int k = 0; k < modes; k++) {
         double a = w[k] * w[k] - omega * omega, b = 2 * damping[k] * w[k] * omega, size = a * a + b * b;
         steady[k][0] = force[k] / mass[k] * a / size;
@@ -100,15 +101,17 @@ int main(void)
         v[k] = share * omega * steady[k][0];
         if (w[k] > fastest) fastest = w[k];
     }
-    double step = 2 * M_PI / fastest / STEPS;
+    /* A whole number of steps in a period of the excitation: times stay small, and exact. */
+    long each = (long)ceil(STEPS * fastest / omega);
+    double step = 2 * M_PI / omega / (double)each;
     for (int k = 0; k < modes; k++) free_motion(k, step, whole[k]);
     for (int j = 0; j < absorbers; j++) {
         y[j] = at(j, q) + clearance[j] * 1.9 * ((double)rand() / RAND_MAX - 0.5);
         u[j] = at(j, v);
     }
-    long steps = (long)((out + measured) / step), first = (long)(out / step);
+    long steps = (long)(out + measured) * each, first = (long)out * each;
     for (long i = 0; i < steps; i++) {
-        double t = i * step, left = step;
+        double t = (double)(i % each) * step, left = step;
         /* So many contacts in a step are of chatter, whose rest is lost. */
         for (int contacts = 0; left > 0; contacts++) {
             double q0[MOST], v0[MOST], y0[MOST];
@@ -135,6 +138,7 @@ int main(void)
                 double impulse = (1 + restitution[j]) * relative / yields;
                 for (int k = 0; k < modes; k++) v[k] -= impulse * shape[k][j] / mass[k];
                 u[j] += impulse / ball[j];
+                last[j][0] = fmod(omega * t / (2 * M_PI), 1), last[j][1] = fabs(u[j]);
                 if (i >= first) impacts[j]++;
             }
             if (i >= first && fabs(sum(q, watched)) > peak) peak = fabs(sum(q, watched));
@@ -146,7 +150,8 @@ int main(void)
         }
     }
     printf("%.9e %.9e", peak, sqrt(squares / (double)(steps - first)));
-    for (int j = 0; j < absorbers; j++) printf(" %.6f", (double)impacts[j] / (measured * omega / (2 * M_PI)));
+    for (int j = 0; j < absorbers; j++) printf(" %.6f", (double)impacts[j] / measured);
+    for (int j = 0; j < absorbers; j++) printf(" %.15f %.15e", last[j][0], last[j][1]);
     printf("\n");
     return 0;
 }

@@ -208,13 +208,15 @@ fn energy_is_kept_whatever_rests_on_walls() {
 }
 
 /// Against the search that goes step by step: the same impacts, one by one. Motions that are chaotic part where rounding has
-/// grown; both then go on from the same state.
+/// grown; both then go on from the same state. `VINESINK_FLIGHTS=1000000` compares as many of each size.
 #[test]
 fn no_impact_is_missed() {
+    let wanted = std::env::var("VINESINK_FLIGHTS").ok().and_then(|text| text.parse().ok());
+    let wanted = wanted.unwrap_or(10_000);
     let mut noise = Noise(11);
     for (modes, absorbers) in [(2, 2), (3, 1), (1, 3)] {
         let (mut compared, mut resting) = (0, 0);
-        while compared < 10_000 {
+        while compared < wanted {
             let system = random(&mut noise, modes, absorbers);
             let from = start(&mut noise, &system);
             let mut fast = ModalSimulation::new(&system, &from, 0.3).expect("inside");
