@@ -35,8 +35,8 @@ pub struct ForceStep {
 }
 
 impl OverForce {
-    /// Of a load of a case that is worst at a frequency, searched with half of its starts; none where the structure has no steady
-    /// motion.
+    /// Of a load of a case that is worst at a frequency, searched with half of its starts in the usual windows; none where the structure
+    /// has no steady motion.
     ///
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
@@ -55,8 +55,9 @@ impl OverForce {
         }
         let times = |step: usize| libm::exp2(0.5 * (step as f64 - STEPS as f64));
         let with = |step: usize| Load { amplitude: times(step) * load.amplitude, ..*load };
+        let usual = &ModalCase { periods: 0, ..case.clone() };
         let starts = case.starts.div_ceil(2);
-        let look = |k: usize| AtFrequency::of(case, &with(k / at.len()), at[k % at.len()], starts);
+        let look = |k: usize| AtFrequency::of(usual, &with(k / at.len()), at[k % at.len()], starts);
         let found = map(on, "motions under other amplitudes", (2 * STEPS + 1) * at.len(), look);
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         let step = |(step, found): (usize, &[AtFrequency])| ForceStep {

@@ -207,38 +207,50 @@ fn energy_is_kept_whatever_rests_on_walls() {
     assert!(resting > 8, "{resting}");
 }
 
-/// Against the search that goes step by step: the same impacts, one by one. Motions that are chaotic part where rounding has
-/// grown; both then go on from the same state. `VINESINK_FLIGHTS=1000000` compares as many of each size.
+/// Against the search that goes step by step, flight by flight from the same state: the same absorber, the same wall, the same
+/// instant. `VINESINK_FLIGHTS=1000000` compares as many of each size.
 #[test]
 fn no_impact_is_missed() {
     let wanted = std::env::var("VINESINK_FLIGHTS").ok().and_then(|text| text.parse().ok());
-    let wanted = wanted.unwrap_or(10_000);
+    let wanted = wanted.unwrap_or(100_000);
     let mut noise = Noise(11);
     for (modes, absorbers) in [(2, 2), (3, 1), (1, 3)] {
-        let (mut compared, mut resting) = (0, 0);
+        let (mut compared, mut resting, mut ties, mut worst) = (0, 0, 0, 0.0_f64);
         while compared < wanted {
             let system = random(&mut noise, modes, absorbers);
             let from = start(&mut noise, &system);
             let mut fast = ModalSimulation::new(&system, &from, 0.3).expect("inside");
-            for _ in 0..12 {
+            for _ in 0..60 {
                 let mut slow = fast.clone().step_by_step();
                 let (mut a, mut b) = (Log::default(), Log::default());
-                fast.run(1, 400, &mut a);
-                slow.run(1, 400, &mut b);
-                if a.1 + b.1 > 0 || a.0.len().max(b.0.len()) > 60 {
+                fast.run(1, 1, &mut a);
+                slow.run(1, 1, &mut b);
+                if a.1 + b.1 > 0 {
                     // Where a chattering sequence is cut off rounding decides.
                     resting += 1;
                     continue;
                 }
                 assert_eq!(a.0.len(), b.0.len(), "{system:?}");
                 for (one, other) in a.0.iter().zip(&b.0) {
-                    assert_eq!((one.absorber, one.side), (other.absorber, other.side));
-                    assert!((one.tau - other.tau).abs() < 1e-8, "{one:?} {other:?}");
+                    let apart = (one.tau - other.tau).abs();
+                    if (one.absorber, one.side) != (other.absorber, other.side) {
+                        // Two at one instant, of which rounding decides which is first.
+                        assert!(apart < 1e-13, "{one:?} {other:?}");
+                        ties += 1;
+                        continue;
+                    }
+                    // What is left of the gap is rounding of the lengths, here up to some tens.
+                    let speed = (one.x_velocity[0] - one.y_velocity[0]).abs();
+                    worst = worst.max(apart * speed);
+                    assert!(apart * speed < 1e-12, "{one:?} {other:?}");
                 }
                 compared += a.0.len();
             }
         }
-        println!("{modes} {absorbers}: {compared} {resting}");
+        println!(
+            "{modes} {absorbers}: {compared} impacts, {resting} sequences, {ties} ties, gap {worst:.1e}"
+        );
+        assert!(ties * 10_000 <= compared && 5 * resting < compared);
     }
 }
 

@@ -17,8 +17,8 @@ use crate::case::{ActsOn, Load, ModalCase, StructuralMode};
 use crate::executor::Executor;
 use crate::method::Method;
 use crate::modal::{
-    DamperChoice, ForceStep, JudgedPlace, ModalAnswer, ModalError, OverForce, WorstOfPlace,
-    choices, modes_alone,
+    DamperChoice, ForceStep, JudgedPlace, ModalAnswer, ModalError, OffStructure, OverForce,
+    WorstOfPlace, choices, modes_alone, off_structures,
 };
 use crate::motions::ModalMotion;
 use crate::quantity::catalogue as of;
@@ -37,6 +37,8 @@ pub struct Beside {
     alone: Vec<Option<WorstOfPlace>>,
     /// For each load what it does with other amplitudes; none where there is no steady motion.
     forces: Vec<Option<OverForce>>,
+    /// Where the natural frequencies are off.
+    off: Vec<OffStructure>,
 }
 
 impl Beside {
@@ -53,7 +55,9 @@ impl Beside {
         let each = case.loads.iter().enumerate();
         let forces = each.map(|(k, load)| OverForce::of(case, load, worst(k), on));
         let forces = forces.collect::<Result<_, _>>()?;
-        Ok(Self { dampers: choices(case), alone: modes_alone(case, on)?, forces })
+        let dampers = choices(case);
+        let off = off_structures(case, &dampers, on)?;
+        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, off })
     }
 }
 
@@ -182,6 +186,17 @@ fn worst_row(case: &ModalCase, worst: &WorstOfPlace) -> Value {
     })
 }
 
+/// What is known where the natural frequencies are off.
+fn off_row(case: &ModalCase, of_off: &OffStructure) -> Value {
+    json!({
+        "off": of_off.off.abs(),
+        "lower": of_off.off < 0.0,
+        "bare": closed(&of::BARE_PEAK, of_off.bare),
+        "worst": of_off.worst.map(|one| worst_row(case, &one)),
+        "dampers": of_off.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, *one)).collect::<Vec<_>>(),
+    })
+}
+
 /// What is known along each load.
 fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
     let rows = answer.along.iter().enumerate().map(|(k, along)| {
@@ -291,6 +306,7 @@ pub fn document(
         "worst": worst.map(|one| worst_row(case, &one)),
         "loads": along(case, answer, beside),
         "dampers": dampers.collect::<Vec<_>>(),
+        "off": beside.off.iter().map(|one| off_row(case, one)).collect::<Vec<_>>(),
         "starts": case.starts,
         "figures": [],
     });

@@ -1,0 +1,78 @@
+//! Absorbers and dampers on a structure whose natural frequencies are not those that they were made for.
+
+use super::along::AlongLoad;
+use super::dampers::DamperChoice;
+use super::linear::{amplitudes, largest};
+use super::{ModalAnswer, ModalError, WorstOfPlace};
+use crate::case::{ModalCase, StructuralMode};
+use crate::executor::Executor;
+use crate::linear::ModalDamper;
+
+/// By how much all natural frequencies are off, either way.
+const OFF: f64 = 0.1;
+
+/// The largest displacement of any place under any load where all natural frequencies are off; loads and devices stay.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OffStructure {
+    /// Natural frequencies over those of the case, less 1.
+    pub off: f64,
+    /// Without absorbers, in m.
+    pub bare: f64,
+    /// With the absorbers.
+    pub worst: Option<WorstOfPlace>,
+    /// With each choice of dampers, in m.
+    pub dampers: Vec<f64>,
+}
+
+/// The structure of a case a tenth lower and higher, searched with half of the starts in the usual windows.
+///
+/// # Errors
+/// [`ModalError`] where a motion cannot be flown.
+pub fn off_structures(
+    case: &ModalCase,
+    dampers: &[DamperChoice],
+    on: &dyn Executor,
+) -> Result<Vec<OffStructure>, ModalError> {
+    [-OFF, OFF].into_iter().map(|off| OffStructure::of(case, off, dampers, on)).collect()
+}
+
+impl OffStructure {
+    fn of(
+        case: &ModalCase,
+        off: f64,
+        choices: &[DamperChoice],
+        on: &dyn Executor,
+    ) -> Result<Self, ModalError> {
+        let mode = |mode: &StructuralMode| StructuralMode {
+            frequency_hz: (1.0 + off) * mode.frequency_hz,
+            ..mode.clone()
+        };
+        let modes = case.modes.iter().map(mode).collect();
+        let starts = case.starts.div_ceil(2);
+        let case = &ModalCase { modes, starts, periods: 0, ..case.clone() };
+        let along = case.loads.iter().map(|load| AlongLoad::of(case, load, on));
+        let answer = ModalAnswer { along: along.collect::<Result<_, _>>()?, judged: Vec::new() };
+        let linear = |dampers: &[ModalDamper]| {
+            let each = case.loads.iter().map(|load| {
+                let peak = |at: f64| amplitudes(case, load, at, dampers).places;
+                let most = |at: f64| peak(at).into_iter().fold(0.0, f64::max);
+                largest(load.range_hz, case, most)[0]
+            });
+            each.fold(0.0, f64::max)
+        };
+        let with = |choice: &DamperChoice| {
+            // Their frequencies are over the first mode's.
+            let own = |one: &ModalDamper| ModalDamper {
+                frequency: one.frequency / (1.0 + off),
+                ..one.clone()
+            };
+            linear(&choice.dampers.iter().map(own).collect::<Vec<_>>())
+        };
+        Ok(Self {
+            off,
+            bare: linear(&[]),
+            worst: answer.worst(None, None),
+            dampers: choices.iter().map(with).collect(),
+        })
+    }
+}
