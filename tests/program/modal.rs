@@ -8,7 +8,7 @@ use serde_json::Value;
 use vinesink::case::{Case, ModalCase, is_modal};
 use vinesink::case_input::{AnyCase, CaseInputError, read_any};
 use vinesink::executor::Serial;
-use vinesink::modal::{ForceStep, ModalAnswer, OverForce, seconds};
+use vinesink::modal::{ForceStep, ModalAnswer, OverForce, choices, off_structures, seconds};
 use vinesink::motions::{longest_flight, modal_motions};
 use vinesink::store::Reach;
 
@@ -468,6 +468,39 @@ fn a_report_tells_what_other_amplitudes_do() {
         assert!((from / clearance - 0.1572).abs() < 5e-5 && (to / clearance - 0.7321).abs() < 5e-5);
     }
     assert_eq!(found.limits(&graded), [None, None], "no limit is asked for");
+}
+
+/// Natural frequencies that are off: without absorbers as stiffness has it, with them as a case with these frequencies and half of the
+/// starts is answered.
+#[test]
+fn a_report_tells_what_other_natural_frequencies_do() {
+    let mut quick = ModalCase::parse("case.toml", &text(MAST)).expect("a shipped case");
+    quick.starts = 1;
+    quick.loads.truncate(1);
+    let found = off_structures(&quick, &choices(&quick), &Serial).expect("flown");
+    // 0.3583 N over a stiffness that goes with the square of the frequency, over twice the damping ratio.
+    for (one, stiffer) in found.iter().zip([0.81, 1.21]) {
+        let stiffness = 30.0 * (std::f64::consts::TAU * 1.1).powi(2) * stiffer;
+        assert!((one.bare / (0.3583 / stiffness / 0.01) - 1.0).abs() < 1e-4, "{}", one.bare);
+        assert_eq!(one.dampers.len(), 1);
+        assert!(one.dampers[0] > 0.0 && one.dampers[0] < one.bare);
+    }
+    let floor = text("cases/several/floor.toml");
+    let case = ModalCase::parse("case.toml", &floor).expect("a shipped case");
+    let found = off_structures(&case, &[], &Serial).expect("flown");
+    let mut changed = floor.replacen("[criteria]", "[simulation]\nstarts = 3\n[criteria]", 1);
+    for mode in &case.modes {
+        let [own, higher] = [1.0, 1.1].map(|times| times * mode.frequency_hz);
+        let line = format!("frequency = \"{own} Hz\"");
+        assert!(changed.contains(&line), "{line}");
+        changed = changed.replacen(&line, &format!("frequency = \"{higher} Hz\""), 1);
+    }
+    let changed = ModalCase::parse("case.toml", &changed).expect("it is a case");
+    let answer = ModalAnswer::of(&changed, &Serial).expect("flown");
+    let (one, other) = (found[1].worst.expect("a motion"), answer.worst(None, None));
+    let other = other.expect("a motion");
+    assert_eq!((one.place, one.load), (other.place, other.load));
+    assert!((one.peak / other.peak - 1.0).abs() < 1e-9, "{} {}", one.peak, other.peak);
 }
 
 /// What a case asks for is what every start is measured for, and what a run is said to take.
