@@ -105,7 +105,7 @@ fn working(case: &ModalCase, mode: usize) -> Vec<Option<[f64; 2]>> {
         let here = shape[absorber.place].abs();
         let Grading { lower, upper, .. } = Grading::of(absorber.restitution);
         let scale = most * absorber.clearance_m / here;
-        (here > 0.0).then(|| [lower * scale, upper * scale])
+        (here > 0.0).then_some([lower * scale, upper * scale])
     });
     of.collect()
 }

@@ -480,7 +480,8 @@ fn a_report_tells_what_other_natural_frequencies_do() {
     let found = off_structures(&quick, &choices(&quick), &Serial).expect("flown");
     // 0.3583 N over a stiffness that goes with the square of the frequency, over twice the damping ratio.
     for (one, stiffer) in found.iter().zip([0.81, 1.21]) {
-        let stiffness = 30.0 * (std::f64::consts::TAU * 1.1).powi(2) * stiffer;
+        let omega = std::f64::consts::TAU * 1.1;
+        let stiffness = 30.0 * omega * omega * stiffer;
         assert!((one.bare / (0.3583 / stiffness / 0.01) - 1.0).abs() < 1e-4, "{}", one.bare);
         assert_eq!(one.dampers.len(), 1);
         assert!(one.dampers[0] > 0.0 && one.dampers[0] < one.bare);
