@@ -345,21 +345,34 @@ fn modes_may_be_in_a_file() {
     assert!(wrong(&both).contains("both say which modes there are"), "{}", wrong(&both));
 }
 
-/// A Universal File in millimetres, newtons and tonnes: a rigid motion of the base, and the modes of the mast at nodes 1, 7 and 12.
-fn universal_file() -> String {
+/// A Universal File in millimetres, newtons and tonnes: a rigid motion of the base, and the modes of the mast at nodes 1, 7 and 12, in
+/// data sets 55; or 2414, with complex numbers that have no imaginary part, as some programs write them.
+fn universal_file(set: u32) -> String {
     let units = "    -1\n   164\n         9          mm N tonne         2\n   1.0000000000000000D+03   1.0000000000000000D+00   1.0000000000000000D+00\n   0.0000000000000000D+00\n    -1\n";
     let modes = [[0.0, 1.0, 1.0], [1.1, 1.0, 0.34], [6.894, 1.0, -0.714], [19.31, 1.0, 0.02]];
+    let line = |numbers: &[f64]| {
+        numbers.iter().map(|number| format!("{number:13.5E}")).collect::<String>() + "\n"
+    };
     let shape = |[frequency, tip, middle]: [f64; 3]| {
-        let node = |number: u32, z: f64| {
-            format!(
-                "{number:10}\n{:13.5E}{:13.5E}{z:13.5E}{:13.5E}{:13.5E}{:13.5E}\n",
-                0.5, 0.0, 0.0, 0.0, 0.0
-            )
+        let node = |number: u32, z: f64| match set {
+            55 => format!("{number:10}\n{}", line(&[0.5, 0.0, z, 0.0, 0.0, 0.0])),
+            _ => format!("{number:10}\n{}", line(&[0.5, 0.0, 0.0, 0.0, z, 0.0])),
         };
-        let head = "mast\n\nNONE\nNONE\nNONE\n         1         2         3         8         2         6\n         2         4         1         1\n";
-        let numbers = format!("{frequency:13.5E}{:13.5E}{:13.5E}{:13.5E}\n", 0.03, 0.0, 0.01);
+        let words = "mast\n\nNONE\nNONE\nNONE\n";
+        let (mass, loss) = (0.03, 0.01);
+        let head = match set {
+            55 => format!(
+                "{words}         1         2         3         8         2         6\n         2         4         1         1\n{}",
+                line(&[frequency, mass, 0.0, loss])
+            ),
+            _ => format!(
+                "         1\nmode\n         1\n{words}         1         2         2         8         5         3\n  0 0 1 0 1 1 0 0\n  0 0\n{}{}",
+                line(&[0.0, frequency, 0.0, mass, 0.0, loss]),
+                line(&[0.0; 6])
+            ),
+        };
         let nodes = [node(1, 0.0), node(7, middle), node(12, -tip)].concat();
-        format!("    -1\n    55\n{head}{numbers}{nodes}    -1\n")
+        format!("    -1\n{set:6}\n{head}{nodes}    -1\n")
     };
     format!("{units}{}", modes.map(shape).concat())
 }
@@ -373,7 +386,7 @@ fn modes_may_be_in_a_universal_file() {
     let modes = "[modes]\nfile = \"mast.unv\"\nplaces = { tip = \"12 -z\", middle = \"7 z\" }\nnumbers = [2, 3, 4]\n";
     let rest = &whole[absorber.expect("an absorber")..];
     let named = format!("{}{modes}\n{rest}", &whole[..first]);
-    let file = universal_file();
+    let file = universal_file(55);
     let of_tables = ModalCase::parse("case.toml", &whole).expect("a shipped case");
     let of_file = read_beside(&named, "mast.unv", &file).expect("a Universal File");
     for load in &of_tables.loads {
@@ -384,6 +397,24 @@ fn modes_may_be_in_a_universal_file() {
     let in_si = &file[file.match_indices("    -1\n").nth(1).expect("units").0 + 7..];
     let light = read_beside(&named, "mast.unv", in_si).expect("a Universal File");
     assert_eq!(light.modes[0].mass_kg, 0.03);
+    let analysis = universal_file(2414);
+    let of_analysis = read_beside(&named, "mast.unv", &analysis).expect("a Universal File");
+    assert_eq!(format!("{:?}", of_analysis.modes), format!("{:?}", of_file.modes));
+    for (from, to, words) in [
+        // What has an imaginary part is no real mode; three others are left.
+        ("  -7.14000E-1    0.00000E0", "  -7.14000E-1   1.00000E-2", "the file has 3 modes"),
+        ("mode\n         1\n", "mode\n         2\n", "the file has 3 modes"),
+        ("         1         2         2         8", "         1", "kind of data cannot be read"),
+    ] {
+        assert!(analysis.contains(from), "{from}");
+        let told = read_beside(&named, "mast.unv", &analysis.replacen(from, to, 1));
+        let told = told.expect_err("refused");
+        assert!(told.contains(words), "{from}: {told}");
+    }
+    // The masses of a case take the place of the file's.
+    let normalised = named.replace("numbers", "mass = \"2 kg\"\nnumbers");
+    let normalised = read_beside(&normalised, "mast.unv", &file).expect("a Universal File");
+    assert!(normalised.modes.iter().all(|mode| mode.mass_kg == 2.0));
     // The damping of a case takes the place of the file's.
     let damped = named.replace("numbers", "damping_ratio = \"2 %\"\nnumbers");
     let damped = read_beside(&damped, "mast.unv", &file).expect("a Universal File");
@@ -402,9 +433,13 @@ fn modes_may_be_in_a_universal_file() {
         ("numbers = [2", "numbers = [3", &["each once"]),
         ("numbers = [2", "numbers = [1", &["mode 1 of the file has 0 Hz", "numbers"]),
         ("3.00000E-2", "0.00000E+0", &["mode 2 of the file has 1.1 Hz and a modal mass of 0 kg"]),
-        ("8         2         6", "8         5         6", &["modes of the file are complex"]),
+        ("8         2         6", "8         9         6", &["no normal mode"]),
         ("1         2         3", "1         3         3", &["modes of the file are complex"]),
-        ("1         2         3", "1         5         3", &["no normal mode", "data sets 55"]),
+        (
+            "1         2         3",
+            "1         5         3",
+            &["no normal mode", "data sets 55 or 2414"],
+        ),
         ("         1         2         3", "wrong", &["the kind of data cannot be read"]),
         ("  1.00000E-2\n", " ?\n", &["the numbers of a mode cannot be read"]),
         ("\n         7\n", "\n         seven\n", &["a node of a shape cannot be read"]),

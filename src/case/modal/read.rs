@@ -50,7 +50,7 @@ struct ModeTable {
 #[derive(Deserialize, JsonSchema)]
 #[schemars(extend("additionalProperties" = false))]
 struct ModesTable {
-    /// A file beside the case, or below its folder: a Universal File with data sets 55, or columns of frequency, damping_ratio, mass,
+    /// A file beside the case, or below its folder: a Universal File with data sets 55 or 2414, or columns of frequency, damping_ratio, mass,
     /// participation where the base moves, and one for each place, with units in brackets; a line for each mode.
     #[schemars(example = &"mast.csv")]
     #[expect(dead_code, reason = "read before the case is")]
@@ -64,6 +64,9 @@ struct ModesTable {
     /// Which of the file's modes, from 1; all of them unless given.
     #[schemars(example = vec![1, 2, 3])]
     numbers: Option<Vec<u64>>,
+    /// M, the modal mass of each mode instead of the file's, above 0: 1 kg where shapes are normalised to it.
+    #[schemars(extend("x-measurand" = "a mass", "exclusiveMinimum" = 0), example = "1 kg")]
+    mass: Option<f64>,
     /// zeta, the damping ratio of each mode instead of the file's, from 0 to 0.85.
     #[schemars(extend("x-measurand" = "a share", "minimum" = 0, "maximum" = LARGEST_DAMPING_RATIO), example = 0.005, example = "0.5 %")]
     damping_ratio: Option<f64>,
@@ -372,11 +375,12 @@ fn modes_of_file(
     }
     for (k, mode) in all.iter_mut().enumerate() {
         mode.damping_ratio = read.damping_ratio.unwrap_or(mode.damping_ratio);
+        mode.mass_kg = read.mass.unwrap_or(mode.mass_kg);
         let number = read.numbers.as_ref().map_or(k as u64 + 1, |numbers| numbers[k]);
         // A file of columns is judged line by line.
         if let Some((wrong, expected)) = impossible(mode) {
             let message = format!("mode {number} of the file {wrong}");
-            let help = "choose others with `numbers`, or write them as [[mode]]";
+            let help = "choose others with `numbers`; write mass = \"1 kg\" where shapes are normalised to that";
             reader.report(table.span_of("file"), message, expected, help);
         }
     }

@@ -1,4 +1,4 @@
-//! Modes from a Universal File: its data sets 55, a shape each, and 164, the units. After the description of these data
+//! Modes from a Universal File: its data sets 55 and 2414, a shape each, and 164, the units. After the description of these data
 //! sets by the Structural Dynamics Research Laboratory of the University of Cincinnati.
 
 use std::collections::BTreeSet;
@@ -13,16 +13,35 @@ const DELIMITER: &str = "-1";
 /// Columns of a real number in a shape, and in the units.
 const WIDTH: usize = 13;
 const WIDTH_OF_UNITS: usize = 25;
-/// Lines of a data set 55 before its first node.
-const HEAD: usize = 8;
+/// Where the numbers of a mode stand in a data set.
+struct Set {
+    /// The line that says what is at each node.
+    kinds: usize,
+    /// The line with the numbers of the mode, and where in it are frequency, modal mass, and viscous and hysteretic damping.
+    numbers: usize,
+    at: [usize; 4],
+    /// Lines before the first node.
+    head: usize,
+}
+
+/// Data at nodes.
+const SET_55: Set = Set { kinds: 5, numbers: 7, at: [0, 1, 2, 3], head: 8 };
+/// Analysis data, which may be at nodes.
+const SET_2414: Set = Set { kinds: 8, numbers: 11, at: [1, 3, 4, 5], head: 13 };
+/// The line of the latter that says where they are, and what it says of nodes.
+const LOCATION: usize = 2;
+const AT_NODES: &str = "1";
 /// Kinds of analysis: normal modes, and complex ones of either order.
 const NORMAL: i64 = 2;
 const COMPLEX: [i64; 2] = [3, 7];
 /// Kinds of data of a displacement: unknown, general, displacement; and translations, without or with rotations.
 const DISPLACEMENT: [i64; 3] = [0, 1, 8];
 const VECTOR: [i64; 2] = [2, 3];
-/// Real numbers; complex ones are 5.
+/// Real and complex numbers, of single and double precision.
 const REAL: [i64; 2] = [2, 4];
+const PAIRS: [i64; 2] = [5, 6];
+/// Largest imaginary part of a real mode that is written with complex numbers, over its largest real part.
+const IMAGINARY: f64 = 1e-6;
 /// Nodes that a message names.
 const NAMED: usize = 5;
 
@@ -74,11 +93,14 @@ pub(super) fn read(file: &ModesFile, at: &[Direction]) -> Result<Universal, Case
     for (number, lines) in data_sets(text) {
         match number {
             "164" => kg = unit_of_mass(text, &lines).map_err(refused)?,
-            "55" => match shape(text, &lines, at, &mut found.nodes).map_err(refused)? {
-                Shape::Mode(mode) => found.modes.push(mode),
-                Shape::Complex => complex = true,
-                Shape::Other => {}
-            },
+            "55" | "2414" => {
+                let set = if number == "55" { SET_55 } else { SET_2414 };
+                match shape(text, &lines, &set, at, &mut found.nodes).map_err(refused)? {
+                    Shape::Mode(mode) => found.modes.push(mode),
+                    Shape::Complex => complex = true,
+                    Shape::Other => {}
+                }
+            }
             _ => {}
         }
     }
@@ -87,7 +109,7 @@ pub(super) fn read(file: &ModesFile, at: &[Direction]) -> Result<Universal, Case
             true => "the modes of the file are complex".to_owned(),
             false => "the file has no normal mode".to_owned(),
         };
-        let expected = "expected data sets 55 of normal modes, real displacements";
+        let expected = "expected data sets 55 or 2414 of normal modes, real displacements";
         let help = "export normal modes with their modal masses, or write [[mode]]";
         return Err(refused(problem(text, first_line(text), message, expected, help)));
     }
@@ -123,7 +145,7 @@ fn unit_of_mass(text: &str, lines: &[&str]) -> Result<f64, Box<Problem>> {
     }
 }
 
-/// What a data set 55 is.
+/// What a data set is.
 enum Shape {
     Mode(StructuralMode),
     Complex,
@@ -133,6 +155,7 @@ enum Shape {
 fn shape(
     text: &str,
     lines: &[&str],
+    set: &Set,
     at: &[Direction],
     nodes: &mut BTreeSet<u64>,
 ) -> Result<Shape, Box<Problem>> {
@@ -140,44 +163,63 @@ fn shape(
         problem(text, line, message.to_owned(), expected, "export the file anew")
     };
     let last = lines.last().copied().unwrap_or(first_line(text));
-    if lines.len() < HEAD {
-        return Err(wrong(last, "a data set 55 ends early", "expected eight lines and the nodes"));
+    if lines.len() < set.head {
+        return Err(wrong(
+            last,
+            "the data set of a mode ends early",
+            "expected its head and nodes",
+        ));
     }
-    let kinds = integers(lines[5]);
+    if set.head == SET_2414.head && lines[LOCATION].trim() != AT_NODES {
+        return Ok(Shape::Other);
+    }
+    let kinds = integers(lines[set.kinds]);
     let Some([_, analysis, vector, of, data, count]) = kinds.as_deref() else {
-        return Err(wrong(lines[5], "the kind of data cannot be read", "expected six numbers"));
+        let expected = "expected six numbers";
+        return Err(wrong(lines[set.kinds], "the kind of data cannot be read", expected));
     };
-    if COMPLEX.contains(analysis) || *analysis == NORMAL && !REAL.contains(data) {
+    if COMPLEX.contains(analysis) {
         return Ok(Shape::Complex);
     }
     let moves = DISPLACEMENT.contains(of) && VECTOR.contains(vector);
     if *analysis != NORMAL || !moves || !(3..=6).contains(count) {
         return Ok(Shape::Other);
     }
-    let numbers = reals(lines[7], WIDTH);
-    let Some([frequency_hz, mass_kg, viscous, rest @ ..]) = numbers.as_deref() else {
+    let (real, pairs) = (REAL.contains(data), PAIRS.contains(data));
+    if !real && !pairs {
+        return Ok(Shape::Other);
+    }
+    let numbers = reals(lines[set.numbers], WIDTH).unwrap_or_default();
+    let [Some(frequency_hz), Some(mass_kg), Some(viscous), hysteretic] =
+        set.at.map(|k| numbers.get(k).copied())
+    else {
         let expected = "expected frequency, modal mass and damping ratio";
-        return Err(wrong(lines[7], "the numbers of a mode cannot be read", expected));
+        return Err(wrong(lines[set.numbers], "the numbers of a mode cannot be read", expected));
     };
     // At resonance a loss factor is twice a damping ratio.
-    let hysteretic = rest.first().copied().unwrap_or(0.0);
-    let damping_ratio = if *viscous > 0.0 { *viscous } else { 0.5 * hysteretic };
-    let mut shape = vec![f64::NAN; at.len()];
-    for record in lines[HEAD..].chunks(1 + (*count as usize).div_ceil(6)) {
+    let damping_ratio = if viscous > 0.0 { viscous } else { 0.5 * hysteretic.unwrap_or(0.0) };
+    let (mut shape, mut most) = (vec![f64::NAN; at.len()], [0.0_f64; 2]);
+    let each = if pairs { 2 } else { 1 };
+    for record in lines[set.head..].chunks(1 + (each * *count as usize).div_ceil(6)) {
         let node = integers(record[0]).and_then(|all| u64::try_from(*all.first()?).ok());
         let values = record.get(1).and_then(|line| reals(line, WIDTH));
-        let (Some(node), Some(values)) = (node, values.filter(|all| all.len() >= 3)) else {
+        let (Some(node), Some(values)) = (node, values.filter(|all| all.len() >= 3 * each)) else {
             let expected = "expected its number, and its displacements in the next line";
             return Err(wrong(record[0], "a node of a shape cannot be read", expected));
         };
         if nodes.len() < NAMED {
             nodes.insert(node);
         }
+        for (k, value) in values[..3 * each].iter().enumerate() {
+            most[k % each] = most[k % each].max(value.abs());
+        }
         for (value, direction) in shape.iter_mut().zip(at).filter(|(_, one)| one.node == node) {
-            *value = direction.sign * values[direction.axis];
+            *value = direction.sign * values[each * direction.axis];
         }
     }
-    let (frequency_hz, mass_kg) = (*frequency_hz, *mass_kg);
+    if pairs && most[1] > IMAGINARY * most[0] {
+        return Ok(Shape::Complex);
+    }
     let participation = f64::NAN;
     Ok(Shape::Mode(StructuralMode { frequency_hz, damping_ratio, mass_kg, shape, participation }))
 }
