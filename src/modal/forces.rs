@@ -9,6 +9,8 @@ use crate::motions::ModalMotion;
 
 /// Steps of the root of two to either side of the load's own amplitude: from a quarter to four times it.
 const STEPS: usize = 4;
+/// Relative distance up to which two frequencies are one.
+const APART: f64 = 1e-3;
 
 /// What a load does with other amplitudes, at one frequency or two.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,10 +48,13 @@ impl OverForce {
         worst_at: Option<f64>,
         on: &dyn Executor,
     ) -> Result<Option<Self>, ModalError> {
-        let mut at: Vec<f64> = std::iter::once(load.centre(case)).chain(worst_at).collect();
+        let mut at: Vec<f64> = worst_at.into_iter().collect();
+        let centre = load.centre(case);
+        if at.iter().all(|at| (at / centre - 1.0).abs() > APART) {
+            at.push(centre);
+        }
         at.retain(|at| case.system(load, *at).is_ok());
         at.sort_by(f64::total_cmp);
-        at.dedup();
         if at.is_empty() {
             return Ok(None);
         }

@@ -469,7 +469,8 @@ fn a_report_tells_what_other_amplitudes_do() {
         let worst = answer.worst(None, Some(k)).expect("a motion");
         let found = OverForce::of(&case, load, Some(worst.at), &Serial).expect("flown");
         let found = found.expect("a steady motion");
-        assert!(found.at.contains(&worst.at) && found.at.len() == 2);
+        // The second load is worst at its mode's own frequency.
+        assert!(found.at.contains(&worst.at) && found.at.len() == 2 - k);
         assert_eq!(found.steps.len(), 9);
         let most = |step: &ForceStep| {
             let places = step.motions.iter().flat_map(|one| &one.places);

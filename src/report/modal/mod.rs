@@ -197,6 +197,20 @@ fn off_row(case: &ModalCase, of_off: &OffStructure) -> Value {
     })
 }
 
+/// The worst of structures that are off, with the absorbers and with each choice of dampers; none where there are none.
+fn worst_off(all: &[OffStructure]) -> Option<Value> {
+    let largest = |of: &dyn Fn(&OffStructure) -> f64| all.iter().map(of).fold(0.0, f64::max);
+    let choices = all.first()?.dampers.len();
+    let peak = largest(&|one| one.worst.map_or(0.0, |worst| worst.peak));
+    let reach = largest(&|one| one.worst.map_or(0.0, |worst| worst.peak + worst.error));
+    let dampers = (0..choices).map(|k| closed(&of::DAMPER_PEAK, largest(&|one| one.dampers[k])));
+    Some(json!({
+        "off": largest(&|one| one.off),
+        "peak": simulated(&of::PEAK, peak).with_error(reach - peak),
+        "dampers": dampers.collect::<Vec<_>>(),
+    }))
+}
+
 /// What is known along each load.
 fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
     let rows = answer.along.iter().enumerate().map(|(k, along)| {
@@ -307,6 +321,7 @@ pub fn document(
         "loads": along(case, answer, beside),
         "dampers": dampers.collect::<Vec<_>>(),
         "off": beside.off.iter().map(|one| off_row(case, one)).collect::<Vec<_>>(),
+        "worst_off": worst_off(&beside.off),
         "starts": case.starts,
         "figures": [],
     });
