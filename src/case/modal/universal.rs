@@ -259,8 +259,8 @@ mod tests {
 
     #[test]
     fn numbers_that_touch_are_told_apart_by_columns() {
-        let line = "-1.23456E-101 2.00000E+00-3.00000E-01";
-        assert_eq!(reals(line, WIDTH), Some(vec![-1.23456e-101, 2.0, -0.3]));
+        let line = "-1.234560E-01 2.000000E+00-3.000000E-01";
+        assert_eq!(reals(line, WIDTH), Some(vec![-0.123456, 2.0, -0.3]));
         assert_eq!(reals(" 1.0D+03  1.0D+00", WIDTH_OF_UNITS), Some(vec![1000.0, 1.0]));
         assert_eq!(reals("1.0 nan", WIDTH), None);
     }
