@@ -1,10 +1,10 @@
 //! Every long-term motion along a load, looked for more closely around the worst of each place.
 
 use super::ModalError;
-use super::linear::{amplitudes, largest};
+use super::linear::{amplitudes, largest, linear_places};
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
-use crate::motions::{ModalMotion, longest_flight, modal_motions};
+use crate::motions::{ModalMotion, longest_flight, modal_at_rest, modal_motions};
 use crate::numerics::scan;
 
 /// What is known along a load.
@@ -52,6 +52,10 @@ pub struct WorstOfPlace {
 /// place.
 const EVEN: u32 = 13;
 const ROUNDS: u32 = 3;
+/// Least distance of a neighbour, over the range: less than that of the closest round.
+const NEAREST: f64 = 0.005;
+/// How often the ends of a range of frequencies are halved.
+const HALVINGS: u32 = 50;
 
 /// About how many seconds its motions take on one processor: of an impact, and impacts in a period of each absorber.
 pub fn seconds(case: &ModalCase) -> f64 {
@@ -77,7 +81,9 @@ impl AlongLoad {
                 let damped = case.modes.iter().filter(|mode| mode.damping_ratio > 0.0);
                 let resonances = damped.map(|mode| mode.frequency_hz);
                 let within = resonances.filter(|at| from < *at && *at < to);
-                scan::places([from, to], EVEN - 1).chain(within).collect()
+                let even = scan::places([from, to], EVEN - 1).chain(within);
+                let at_rest = farthest_at_rest(case, load).into_iter().map(|one| one.0);
+                even.chain(at_rest).collect()
             }
             false => vec![from],
         };
@@ -89,6 +95,7 @@ impl AlongLoad {
             let found = map(on, "motions along the loads", wanted.len(), look);
             places.extend(found.into_iter().collect::<Result<Vec<_>, _>>()?);
             places.sort_by(|a, b| a.at.total_cmp(&b.at));
+            places.dedup_by(|a, b| a.at == b.at);
             if round < ROUNDS {
                 wanted = beside_worst(&places, case.places.len());
             }
@@ -109,12 +116,18 @@ impl AlongLoad {
         let worst = motions().max_by(|a, b| of(a.1).peak.total_cmp(&of(b.1).peak));
         let (k, motion) = worst?;
         let (at, peak) = (self.places[k].at, of(motion).peak);
-        let beside = |k: Option<usize>| {
-            let there = self.places.get(k?)?;
-            Some([there.at - at, there.peak(place)? - peak])
+        // What rests is looked for between the frequencies as well. Others are held against neighbours of their kind, none so near
+        // that chance decides a slope.
+        let [from, to] = self.load.range_hz;
+        let apart = |there: &&AtFrequency| (there.at - at).abs() >= NEAREST * (to - from);
+        let beside = |there: Option<&AtFrequency>| {
+            let there = there?;
+            Some([there.at - at, there.peak(place, false)? - peak])
         };
-        let between = match (beside(k.checked_sub(1)), beside(Some(k + 1))) {
-            (Some(left), Some(right)) => top_above(left, right),
+        let left = beside(self.places[..k].iter().rev().find(apart));
+        let right = beside(self.places[k + 1..].iter().find(apart));
+        let between = match (left, right) {
+            (Some(left), Some(right)) if !motion.rests() => top_above(left, right),
             _ => 0.0,
         };
         let reach = motions().map(|(_, one)| of(one).peak + of(one).error).fold(peak, f64::max);
@@ -144,10 +157,41 @@ impl AtFrequency {
         Ok(Self { at, motions })
     }
 
-    /// The largest displacement of a place.
-    fn peak(&self, place: usize) -> Option<f64> {
-        self.motions.iter().map(|one| one.places[place].peak).max_by(f64::total_cmp)
+    /// The largest displacement of a place, also with every absorber at rest or not.
+    fn peak(&self, place: usize, rests: bool) -> Option<f64> {
+        let motions = self.motions.iter().filter(|one| rests || !one.rests());
+        motions.map(|one| one.places[place].peak).max_by(f64::total_cmp)
     }
+}
+
+/// For each place of the structure the frequency at which it moves farthest while every absorber rests, with that motion: often where
+/// a wall begins to reach one.
+pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, ModalMotion)> {
+    let shapes = case.shapes();
+    let at_rest = |at: f64| modal_at_rest(&case.system(load, at).ok()?, &shapes);
+    let mut all: Vec<f64> = linear_places(load.range_hz, case);
+    let edge = |pair: &[f64]| {
+        let [mut rests, mut reached] = match [pair[0], pair[1]].map(|at| at_rest(at).is_some()) {
+            [true, false] => [pair[0], pair[1]],
+            [false, true] => [pair[1], pair[0]],
+            _ => return None,
+        };
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (rests + reached);
+            *if at_rest(middle).is_some() { &mut rests } else { &mut reached } = middle;
+        }
+        Some(rests)
+    };
+    let edges: Vec<f64> = all.windows(2).filter_map(edge).collect();
+    all.extend(edges);
+    let found: Vec<(f64, ModalMotion)> =
+        all.into_iter().filter_map(|at| Some((at, at_rest(at)?))).collect();
+    let of_place = |p: usize| {
+        found.iter().max_by(|a, b| a.1.places[p].peak.total_cmp(&b.1.places[p].peak)).cloned()
+    };
+    let mut farthest: Vec<_> = (0..case.places.len()).filter_map(of_place).collect();
+    farthest.dedup_by(|a, b| a.0 == b.0);
+    farthest
 }
 
 /// By how much the top of the parabola through the origin and two points to its left and right, which are no higher, is above the
@@ -160,11 +204,11 @@ fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -> f6
     if c < 0.0 { (-0.25 * p * p / c).max(0.0) } else { 0.0 }
 }
 
-/// Frequencies half way to the neighbours of the worst of each place.
+/// Frequencies half way to the neighbours of the worst of each place: of all motions, and of those in which an absorber moves.
 fn beside_worst(places: &[AtFrequency], count: usize) -> Vec<f64> {
     let mut wanted: Vec<f64> = Vec::new();
-    for p in 0..count {
-        let peak = |k: &usize| places[*k].peak(p).unwrap_or_default();
+    for (p, rests) in (0..count).flat_map(|p| [(p, true), (p, false)]) {
+        let peak = |k: &usize| places[*k].peak(p, rests).unwrap_or_default();
         let Some(k) = (0..places.len()).max_by(|a, b| peak(a).total_cmp(&peak(b))) else {
             continue;
         };

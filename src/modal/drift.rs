@@ -5,6 +5,7 @@ use super::dampers::DamperChoice;
 use super::linear::{amplitudes, largest};
 use super::{ModalAnswer, ModalError, WorstOfPlace};
 use crate::case::{ModalCase, StructuralMode};
+use crate::criteria::Judged;
 use crate::executor::Executor;
 use crate::linear::ModalDamper;
 
@@ -20,6 +21,8 @@ pub struct OffStructure {
     pub bare: f64,
     /// With the absorbers.
     pub worst: Option<WorstOfPlace>,
+    /// Its criteria.
+    pub criteria: Vec<Judged>,
     /// With each choice of dampers, in m.
     pub dampers: Vec<f64>,
 }
@@ -51,7 +54,9 @@ impl OffStructure {
         let starts = case.starts.div_ceil(2);
         let case = &ModalCase { modes, starts, periods: 0, ..case.clone() };
         let along = case.loads.iter().map(|load| AlongLoad::of(case, load, on));
-        let answer = ModalAnswer { along: along.collect::<Result<_, _>>()?, judged: Vec::new() };
+        let mut answer =
+            ModalAnswer { along: along.collect::<Result<_, _>>()?, judged: Vec::new() };
+        answer.judged = case.criteria.iter().filter_map(|one| answer.judge(case, one)).collect();
         let linear = |dampers: &[ModalDamper]| {
             let each = case.loads.iter().map(|load| {
                 let peak = |at: f64| amplitudes(case, load, at, dampers).places;
@@ -72,6 +77,7 @@ impl OffStructure {
             off,
             bare: linear(&[]),
             worst: answer.worst(None, None),
+            criteria: answer.criteria(),
             dampers: choices.iter().map(with).collect(),
         })
     }

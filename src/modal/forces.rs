@@ -1,6 +1,6 @@
 //! What a load does with other amplitudes: how far it may grow, and at which displacement each absorber works.
 
-use super::along::AtFrequency;
+use super::along::{AlongLoad, AtFrequency};
 use super::{ModalError, driven_mode, linear_peak};
 use crate::analysis::Grading;
 use crate::case::{Load, ModalCase};
@@ -36,18 +36,30 @@ pub struct ForceStep {
     pub bare: f64,
 }
 
+/// What all limits come to with other amplitudes, over the load's own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ForceLimits {
+    /// The largest with which all hold with their errors, below the first that fails; none of those that were looked at.
+    pub holds: Option<f64>,
+    /// Those below the first that fails with which it is too close to call.
+    pub open: Vec<f64>,
+    /// The least with which one fails; none of those that were looked at.
+    pub fails: Option<f64>,
+}
+
 impl OverForce {
-    /// Of a load of a case that is worst at a frequency, searched with half of its starts in the usual windows; none where the structure
-    /// has no steady motion.
+    /// Of what is known along a load that is worst at a frequency: other amplitudes are searched with half of the case's starts in the
+    /// usual windows. None where the structure has no steady motion.
     ///
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
     pub fn of(
         case: &ModalCase,
-        load: &Load,
+        along: &AlongLoad,
         worst_at: Option<f64>,
         on: &dyn Executor,
     ) -> Result<Option<Self>, ModalError> {
+        let load = &along.load;
         let mut at: Vec<f64> = worst_at.into_iter().collect();
         let centre = load.centre(case);
         if at.iter().all(|at| (at / centre - 1.0).abs() > APART) {
@@ -62,7 +74,14 @@ impl OverForce {
         let with = |step: usize| Load { amplitude: times(step) * load.amplitude, ..*load };
         let usual = &ModalCase { periods: 0, ..case.clone() };
         let starts = case.starts.div_ceil(2);
-        let look = |k: usize| AtFrequency::of(usual, &with(k / at.len()), at[k % at.len()], starts);
+        let look = |k: usize| {
+            let (step, at) = (k / at.len(), at[k % at.len()]);
+            let known = along.places.iter().find(|one| step == STEPS && one.at == at);
+            known.map_or_else(
+                || AtFrequency::of(usual, &with(step), at, starts),
+                |one| Ok(one.clone()),
+            )
+        };
         let found = map(on, "motions under other amplitudes", (2 * STEPS + 1) * at.len(), look);
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         let step = |(step, found): (usize, &[AtFrequency])| ForceStep {
@@ -74,11 +93,10 @@ impl OverForce {
         Ok(Some(Self { at, steps, working: working(case, driven_mode(case, load)) }))
     }
 
-    /// The largest amplitude, over the load's own, up to which all limits hold with their errors, and the least from which on one
-    /// fails; none where there is no such step, or no limit.
-    pub fn limits(&self, case: &ModalCase) -> [Option<f64>; 2] {
+    /// What limits come to; none without them.
+    pub fn limits(&self, case: &ModalCase) -> Option<ForceLimits> {
         if case.criteria.is_empty() {
-            return [None; 2];
+            return None;
         }
         let worst = |step: &ForceStep, reach: bool| {
             let each = case.criteria.iter().map(|asked| {
@@ -96,9 +114,12 @@ impl OverForce {
             });
             each.fold(0.0, f64::max)
         };
-        let holds = self.steps.iter().take_while(|step| worst(step, true) <= 1.0).last();
-        let fails = self.steps.iter().find(|step| worst(step, false) > 1.0);
-        [holds, fails].map(|step| step.map(|step| step.times))
+        let fails = self.steps.iter().find(|step| worst(step, false) > 1.0).map(|step| step.times);
+        let before = self.steps.iter().filter(|step| fails.is_none_or(|fails| step.times < fails));
+        let (hold, open): (Vec<&ForceStep>, Vec<_>) =
+            before.partition(|step| worst(step, true) <= 1.0);
+        let open = open.into_iter().map(|step| step.times).collect();
+        Some(ForceLimits { holds: hold.last().map(|step| step.times), open, fails })
     }
 }
 

@@ -22,7 +22,7 @@ use crate::system::InvalidModalSystem;
 pub use along::{AlongLoad, AtFrequency, WorstOfPlace, seconds};
 pub use dampers::{DamperChoice, choices};
 pub use drift::{OffStructure, off_structures};
-pub use forces::{ForceStep, OverForce};
+pub use forces::{ForceLimits, ForceStep, OverForce};
 pub use linear::{linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
 

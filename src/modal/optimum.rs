@@ -7,6 +7,7 @@
 
 use std::cmp::Ordering;
 
+use super::along::farthest_at_rest;
 use super::{ModalAnswer, ModalError};
 use crate::case::{Bounds, Load, ModalCase, PlacedAbsorber, Rounding};
 use crate::criteria::Outcome;
@@ -19,7 +20,7 @@ const CANDIDATES: usize = 24;
 const MOST_CANDIDATES: usize = 96;
 /// Starts of a candidate at each frequency, and frequencies along a load beside that at which the case's own absorbers are worst.
 const FEW_STARTS: u32 = 2;
-const FEW: usize = 7;
+const FEW: usize = 13;
 /// Candidates that are judged in full, and how far they are apart, over the bounds.
 const JUDGED: usize = 3;
 const APART: f64 = 0.04;
@@ -101,7 +102,9 @@ impl ModalOptimum {
         let count = numbers(case);
         let score = |parts: &[f64], best: f64| {
             let candidate = candidate(case, parts);
-            let (known, mut reach) = (best.max(-own_reach), 0.0_f64);
+            let at_rest = case.loads.iter().flat_map(|load| farthest_at_rest(&candidate, load));
+            let at_rest: Vec<ModalMotion> = at_rest.map(|one| one.1).collect();
+            let (known, mut reach) = (best.max(-own_reach), over_limits(&at_rest, &limits));
             for (load, at, _) in &looked_at {
                 let found = candidate.system(load, *at).ok();
                 let found = found
@@ -130,7 +133,7 @@ impl ModalOptimum {
 
 /// How often one `check` of the case a search of its absorbers takes, at most.
 pub fn checks(case: &ModalCase) -> f64 {
-    let (first, few) = ((CANDIDATES * numbers(case)).min(MOST_CANDIDATES), 0.12);
+    let (first, few) = ((CANDIDATES * numbers(case)).min(MOST_CANDIDATES), 0.2);
     first as f64 * few + (JUDGED + 1) as f64
 }
 
@@ -165,9 +168,21 @@ fn frequencies(
     let mut found = Vec::new();
     for along in &own.along {
         let over = |k: usize| over_limits(&along.places[k].motions, limits);
+        let moving = |k: usize| {
+            let all = along.places[k].motions.iter().filter(|one| !one.rests());
+            over_limits(&all.cloned().collect::<Vec<_>>(), limits)
+        };
         let last = along.places.len() - 1;
-        let mut chosen: Vec<usize> = (0..FEW).map(|k| k * last / (FEW - 1)).collect();
+        let [from, to] = along.load.range_hz;
+        let nearest = |at: f64| {
+            let off = |k: &usize| (along.places[*k].at - at).abs();
+            (0..=last).min_by(|a, b| off(a).total_cmp(&off(b)))
+        };
+        let even = (0..FEW).map(|k| from + (to - from) * k as f64 / (FEW - 1) as f64);
+        let mut chosen: Vec<usize> = even.filter_map(nearest).collect();
         chosen.extend((0..=last).max_by(|a, b| over(*a).total_cmp(&over(*b))));
+        // Where others rest is told for each by itself.
+        chosen.extend((0..=last).max_by(|a, b| moving(*a).total_cmp(&moving(*b))));
         let resonant =
             |k: &usize| case.modes.iter().any(|one| one.frequency_hz == along.places[*k].at);
         chosen.extend((0..=last).filter(resonant));

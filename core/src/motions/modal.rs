@@ -90,7 +90,7 @@ pub fn modal_motions(
 ) -> Result<Vec<ModalMotion>, ModalStartError> {
     let orbits = attracting(system, places)?;
     let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
-    let mut rest = resting(system, places);
+    let mut rest = modal_at_rest(system, places);
     for k in 0..starts {
         let motion = from_start(system, places, &start(system, k), periods, &orbits)?;
         // What is left of a transient then is no other motion.
@@ -136,8 +136,9 @@ fn attracting(
     each.collect()
 }
 
-/// Every absorber at rest where no wall reaches it: in closed form.
-fn resting(system: &ModalSystem, places: &[Vec<f64>]) -> Option<ModalMotion> {
+/// Every absorber at rest where no wall reaches it, with the largest displacement of places with these values of each mode: in
+/// closed form. None where a wall reaches one.
+pub fn modal_at_rest(system: &ModalSystem, places: &[Vec<f64>]) -> Option<ModalMotion> {
     let reach = |j: usize| system.steady_motion_at(j).amplitude();
     let rests = |(j, one): (usize, &ModalAbsorber)| reach(j) < one.clearance;
     if !system.absorbers().iter().enumerate().all(rests) {

@@ -342,12 +342,13 @@ fn modes_of_file(
         reader.report(root.span_of("modes"), message, "expected a case in a file", help);
         return Ok(Modes::default());
     };
+    let mut kg = 1.0;
     let (places, mut all) = match universal::is_universal(&file.text) {
-        true => universal_modes(reader, &table, file)?,
+        true => universal_modes(reader, &table, file, &mut kg)?,
         false if table.has("places") => {
-            let message = "`places` has no meaning beside a file of columns";
+            let message = "`places` has no meaning: the file does not begin with a line -1, as a Universal File does";
             let expected = "expected a Universal File, or no `places`";
-            let help = "remove the line: the head of the file names its places";
+            let help = "name another file, or remove the line where the file is one of columns, whose head names its places";
             reader.report(table.span_of("places"), message, expected, help);
             return Ok(Modes::default());
         }
@@ -380,8 +381,12 @@ fn modes_of_file(
         // A file of columns is judged line by line.
         if let Some((wrong, expected)) = impossible(mode) {
             let message = format!("mode {number} of the file {wrong}");
-            let help = "choose others with `numbers`; write mass = \"1 kg\" where shapes are normalised to that";
+            let unit = if kg == 1000.0 { "1 t".to_owned() } else { format!("{kg} kg") };
+            let help = format!(
+                "choose others with `numbers`; where shapes are normalised to the file's unit of mass write mass = \"{unit}\""
+            );
             reader.report(table.span_of("file"), message, expected, help);
+            break;
         }
     }
     Ok((places, all))
@@ -407,6 +412,7 @@ fn universal_modes(
     reader: &mut Reader,
     table: &Table,
     file: &ModesFile,
+    kg: &mut f64,
 ) -> Result<Modes, CaseError> {
     const HELP: &str = "write places = { tip = \"12 z\" }: a node of the file and its direction";
     let mut named: Vec<(String, Direction)> = Vec::new();
@@ -424,20 +430,20 @@ fn universal_modes(
     }
     let (places, at): (Vec<String>, Vec<Direction>) = named.into_iter().unzip();
     let found = universal::read(file, &at)?;
+    *kg = found.unit_of_mass;
     let nodes: Vec<String> = found.nodes.iter().map(u64::to_string).collect();
     let nodes = format!("expected nodes of the file, which begin with {}", nodes.join(", "));
     if entries.is_none_or(|all| all.is_empty()) {
         let message = "a Universal File has nodes, and the case does not name its places";
         reader.report(table.span_of("places"), message, nodes.as_str(), HELP);
     }
-    let missing =
-        |(k, _): &(usize, &Direction)| found.modes.iter().any(|mode| mode.shape[*k].is_nan());
-    for (k, at) in at.iter().enumerate().filter(missing) {
-        let message = format!(
-            "\"{}\" is node {}, which a mode of the file does not have",
-            places[k], at.node
-        );
-        reader.report(table.span_of_value("places"), message, nodes.as_str(), "name another node");
+    for (k, at) in at.iter().enumerate() {
+        let lacks = |mode: &StructuralMode| mode.shape[k].is_nan();
+        let Some(mode) = found.modes.iter().position(lacks) else { continue };
+        let message =
+            format!("\"{}\" is node {}, which mode {} does not have", places[k], at.node, mode + 1);
+        let help = "name a node that every mode of the file has";
+        reader.report(table.span_of_value("places"), message, nodes.as_str(), help);
     }
     Ok(if reader.problems.is_empty() { (places, found.modes) } else { Modes::default() })
 }

@@ -70,12 +70,14 @@ impl Direction {
 }
 
 /// What a file has.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Universal {
     /// Its normal modes in SI units, with their shapes in the directions asked for: not a number where a node is missing.
     pub modes: Vec<StructuralMode>,
     /// Its first nodes.
     pub nodes: BTreeSet<u64>,
+    /// Its unit of mass in kg; without data set 164 it is taken to be in SI.
+    pub unit_of_mass: f64,
 }
 
 /// Whether a text is a Universal File.
@@ -87,12 +89,18 @@ pub(super) fn is_universal(text: &str) -> bool {
 pub(super) fn read(file: &ModesFile, at: &[Direction]) -> Result<Universal, CaseError> {
     let text = file.text.as_str();
     let refused = |problem: Box<Problem>| CaseError::new(&file.name, text, vec![*problem], 0);
-    // A mass is a force over an acceleration; without units the file is taken to be in SI.
-    let mut kg = 1.0;
-    let (mut found, mut complex) = (Universal::default(), false);
-    for (number, lines) in data_sets(text) {
+    let mut found = Universal { modes: Vec::new(), nodes: BTreeSet::new(), unit_of_mass: 1.0 };
+    let mut complex = false;
+    for DataSet { number, lines, is_closed } in data_sets(text) {
+        if !is_closed {
+            let message = format!("the file ends within data set {number}");
+            let expected = "expected a line -1 behind it";
+            let last = lines.last().copied().unwrap_or(first_line(text));
+            let help = "export the file anew: it may be truncated";
+            return Err(refused(problem(text, last, message, expected, help)));
+        }
         match number {
-            "164" => kg = unit_of_mass(text, &lines).map_err(refused)?,
+            "164" => found.unit_of_mass = unit_of_mass(text, &lines).map_err(refused)?,
             "55" | "2414" => {
                 let set = if number == "55" { SET_55 } else { SET_2414 };
                 match shape(text, &lines, &set, at, &mut found.nodes).map_err(refused)? {
@@ -113,17 +121,30 @@ pub(super) fn read(file: &ModesFile, at: &[Direction]) -> Result<Universal, Case
         let help = "export normal modes with their modal masses, or write [[mode]]";
         return Err(refused(problem(text, first_line(text), message, expected, help)));
     }
+    let kg = found.unit_of_mass;
     found.modes.iter_mut().for_each(|mode| mode.mass_kg *= kg);
     Ok(found)
 }
 
-/// The numbers and the lines of all data sets.
-fn data_sets(text: &str) -> impl Iterator<Item = (&str, Vec<&str>)> {
+/// A data set, and whether the line that ends it is there.
+struct DataSet<'t> {
+    number: &'t str,
+    lines: Vec<&'t str>,
+    is_closed: bool,
+}
+
+fn data_sets(text: &str) -> impl Iterator<Item = DataSet<'_>> {
     let mut lines = text.lines();
     std::iter::from_fn(move || {
         lines.find(|line| line.trim() == DELIMITER)?;
         let number = lines.next()?.trim();
-        Some((number, lines.by_ref().take_while(|line| line.trim() != DELIMITER).collect()))
+        let mut is_closed = false;
+        let within = |line: &&str| {
+            is_closed = line.trim() == DELIMITER;
+            !is_closed
+        };
+        let lines = lines.by_ref().take_while(within).collect();
+        Some(DataSet { number, lines, is_closed })
     })
 }
 

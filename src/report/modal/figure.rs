@@ -102,11 +102,9 @@ pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure
             each.collect::<Vec<_>>()
         };
         let limit = tightest(case);
-        let upper = working.iter().flatten().map(|[_, to]| *to);
-        let told = upper.chain(limit).fold(0.0, f64::max);
-        let most = seen(false).into_iter().map(|[_, y]| y).fold(told, f64::max);
-        // How far beyond a limit decides nothing.
-        let top = 1.15 * if limit.is_some() { most.min(2.0 * told) } else { most };
+        // An absorber may work far above what is seen, and how far beyond a limit decides nothing.
+        let most = seen(false).into_iter().map(|[_, y]| y).fold(0.0, f64::max);
+        let top = 1.15 * limit.map_or(most, |limit| most.clamp(limit, 3.0 * limit));
         let range = [first.times, last.times].map(|times| times * load.amplitude);
         let mut x = AxisOf::si(units, amplitude_of(load)).axis(range);
         x.scale = AxisScale::Log;
@@ -119,14 +117,16 @@ pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure
             panel = panel.with(Layer::horizontal(limit, LIMIT).labelled("limit"));
         }
         for (j, range_of) in working.iter().enumerate() {
-            let Some([from, to]) = range_of else { continue };
+            let Some([from, to]) = range_of.filter(|[from, _]| *from < top) else { continue };
             // From the right edge on, evenly on a logarithmic axis.
             let part = 1.0 - BAR * (1 + j) as f64;
             let at = range[0] * libm::pow(range[1] / range[0], part);
-            let bar = Layer::curve(WORKS, vec![[at, *from], [at, *to]]);
+            let bar = Layer::curve(WORKS, vec![[at, from], [at, to]]);
             panel = match case.absorbers.len() {
                 1 => panel.with(bar.labelled("the absorber works")),
-                _ => panel.with(bar).with(Layer::note([at, to + 0.05 * top], (j + 1).to_string())),
+                _ => panel
+                    .with(bar)
+                    .with(Layer::note([at, to.min(0.9 * top) + 0.05 * top], (j + 1).to_string())),
             };
         }
         let marker = Marker::filled(Shape::Circle).sized(5.0);

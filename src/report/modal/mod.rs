@@ -14,6 +14,7 @@ use super::error::RenderError;
 use super::render::{Files, in_lines, page_files};
 use super::template::{render, worded};
 use crate::case::{ActsOn, Load, ModalCase, StructuralMode};
+use crate::criteria::Outcome;
 use crate::executor::Executor;
 use crate::method::Method;
 use crate::modal::{
@@ -52,8 +53,8 @@ impl Beside {
         on: &dyn Executor,
     ) -> Result<Self, ModalError> {
         let worst = |k: usize| answer.worst(None, Some(k)).map(|worst| worst.at);
-        let each = case.loads.iter().enumerate();
-        let forces = each.map(|(k, load)| OverForce::of(case, load, worst(k), on));
+        let each = answer.along.iter().enumerate();
+        let forces = each.map(|(k, along)| OverForce::of(case, along, worst(k), on));
         let forces = forces.collect::<Result<_, _>>()?;
         let dampers = choices(case);
         let off = off_structures(case, &dampers, on)?;
@@ -95,6 +96,16 @@ fn word(answer: &ModalAnswer) -> Word {
     badge(&answer.criteria()).unwrap_or_else(without)
 }
 
+/// What a list says of it.
+fn headline(answer: &ModalAnswer) -> Option<&'static str> {
+    let worst = answer.worst(None, None)?;
+    Some(match worst.peak {
+        peak if peak + worst.error < bare(answer) => "less",
+        peak if peak > bare(answer) => "worse",
+        _ => "little",
+    })
+}
+
 /// The largest displacement of any place under any load without absorbers.
 fn bare(answer: &ModalAnswer) -> f64 {
     let all = answer.along.iter().flat_map(|along| &along.bare);
@@ -129,7 +140,13 @@ fn amplitude_of(load: &Load) -> &'static Kind {
 /// What a load does with other amplitudes.
 fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
     let amplitude = |times: f64| simulated(amplitude_of(load), times * load.amplitude);
-    let [holds, fails] = of_load.limits(case).map(|times| times.map(amplitude));
+    let limits = of_load.limits(case).map(|limits| {
+        json!({
+            "holds": limits.holds.map(amplitude),
+            "open": limits.open.into_iter().map(amplitude).collect::<Vec<_>>(),
+            "fails": limits.fails.map(amplitude),
+        })
+    });
     let working = of_load
         .working
         .iter()
@@ -137,8 +154,7 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
     let step = |one: &ForceStep| json!({ "amplitude": amplitude(one.times), "motions": one.motions.iter().map(motion_row).collect::<Vec<_>>() });
     json!({
         "at": of_load.at.iter().map(|at| given(&of::EXCITATION_FREQUENCY, *at)).collect::<Vec<_>>(),
-        "holds_up_to": holds,
-        "fails_from": fails,
+        "limits": limits,
         "working": working.collect::<Vec<_>>(),
         "steps": of_load.steps.iter().map(step).collect::<Vec<_>>(),
     })
@@ -193,6 +209,8 @@ fn off_row(case: &ModalCase, of_off: &OffStructure) -> Value {
         "lower": of_off.off < 0.0,
         "bare": closed(&of::BARE_PEAK, of_off.bare),
         "worst": of_off.worst.map(|one| worst_row(case, &one)),
+        "word": badge(&of_off.criteria),
+        "failing": of_off.criteria.iter().filter(|one| one.outcome() == Outcome::Fails).count(),
         "dampers": of_off.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, *one)).collect::<Vec<_>>(),
     })
 }
@@ -309,7 +327,7 @@ pub fn document(
     });
     let fields = json!({
         "name": name,
-        "verdict": { "tone": word.tone(), "word": word },
+        "verdict": { "tone": word.tone(), "word": word, "headline": headline(answer) },
         "quantities": quantities,
         "criteria": criteria(case, answer),
         "notes": [],
