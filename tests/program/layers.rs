@@ -28,7 +28,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("equations", &["symbolic", "system"]),
     ("analysis", &["bifurcation", "cavity", "equations", "numerics", "system", "operation_count"]),
     ("cavity", &["equations", "numerics", "system", "operation_count"]),
-    ("orbits", &["bifurcation", "numerics", "symbolic", "system", "operation_count"]),
+    ("orbits", &["bifurcation", "executor", "numerics", "symbolic", "system", "operation_count"]),
     ("simulation", &["numerics", "system", "operation_count"]),
     ("evidence/reference", &["system"]),
     // What a structure is subjected to, what it does without the absorber, and flights with it: no case in them.
@@ -69,6 +69,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "modal",
         &[
+            "analysis",
             "case",
             "criteria",
             "dampers",
