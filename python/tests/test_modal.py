@@ -88,5 +88,7 @@ def test_what_it_is_not(path):
     assert raised.value.problems[0]["line"] == 15
     with pytest.raises(vinesink.RefusedError, match="no criteria"):
         vinesink.ModalCase.from_toml(SHORT[: SHORT.index("[criteria]")]).check()
+    with pytest.raises(AttributeError):
+        vinesink.ModalCase.from_toml(path).clearance = "2 mm"
     with pytest.raises(vinesink.FileError):
         vinesink.ModalCase.from_toml("no/such.toml")

@@ -52,10 +52,10 @@ pub struct WorstOfPlace {
 /// place.
 const EVEN: u32 = 13;
 const ROUNDS: u32 = 3;
-/// Least distance of a neighbour, over the range: less than that of the closest round.
-const NEAREST: f64 = 0.005;
 /// How often the ends of a range of frequencies are halved.
 const HALVINGS: u32 = 50;
+/// Least distance of a neighbour, over the range: less than that of the closest round, and none so near that chance decides a slope.
+const NEAREST: f64 = 0.005;
 
 /// About how many seconds its motions take on one processor: of an impact, and impacts in a period of each absorber.
 pub fn seconds(case: &ModalCase) -> f64 {
@@ -116,32 +116,38 @@ impl AlongLoad {
         let worst = motions().max_by(|a, b| of(a.1).peak.total_cmp(&of(b.1).peak));
         let (k, motion) = worst?;
         let (at, peak) = (self.places[k].at, of(motion).peak);
-        // What rests is looked for between the frequencies as well. Others are held against neighbours of their kind, none so near
-        // that chance decides a slope.
-        let [from, to] = self.load.range_hz;
-        let apart = |there: &&AtFrequency| (there.at - at).abs() >= NEAREST * (to - from);
-        let beside = |there: Option<&AtFrequency>| {
-            let there = there?;
-            Some([there.at - at, there.peak(place, false)? - peak])
-        };
-        let left = beside(self.places[..k].iter().rev().find(apart));
-        let right = beside(self.places[k + 1..].iter().find(apart));
-        let between = match (left, right) {
-            (Some(left), Some(right)) if !motion.rests() => top_above(left, right),
-            _ => 0.0,
-        };
         let reach = motions().map(|(_, one)| of(one).peak + of(one).error).fold(peak, f64::max);
+        // What rests is looked for between the frequencies as well; what moves is held against neighbours of its kind.
+        let moving = motions().filter(|(_, one)| !one.rests());
+        let moving = moving.max_by(|a, b| of(a.1).peak.total_cmp(&of(b.1).peak));
+        let between = moving.map_or(0.0, |(k, one)| self.between(k, place, of(one).peak));
+        let error = match moving {
+            Some((_, one)) if motion.rests() => reach.max(of(one).peak + between) - peak,
+            _ => reach - peak + between,
+        };
         let settled = motions().filter(|(_, one)| one.settled).map(|(_, one)| of(one).peak);
         Some(WorstOfPlace {
             load,
             place,
             at,
             peak,
-            error: reach - peak + between,
+            error,
             settled_peak: settled.fold(0.0, f64::max),
             settled: motions().all(|(_, one)| one.settled),
             rests: motion.rests(),
         })
+    }
+
+    /// By how much motions in which absorbers move may displace a place farther than at the frequency where they do so most: the top
+    /// of the parabola through that and its neighbours.
+    fn between(&self, k: usize, place: usize, peak: f64) -> f64 {
+        let at = self.places[k].at;
+        let beside = |there: Option<&AtFrequency>| {
+            let there = there?;
+            Some([there.at - at, there.peak(place, false)? - peak])
+        };
+        let [left, right] = neighbours(&self.places, k).map(beside);
+        left.zip(right).map_or(0.0, |(left, right)| top_above(left, right))
     }
 }
 
@@ -164,12 +170,36 @@ impl AtFrequency {
     }
 }
 
+/// The largest displacement of the structure against an absorber at rest, over its clearance; infinite where nothing limits it.
+fn reach_at_rest(case: &ModalCase, load: &Load, at: f64) -> f64 {
+    let Ok(system) = case.system(load, at) else { return f64::INFINITY };
+    let absorbers = system.absorbers().iter().enumerate();
+    let reach = absorbers.map(|(j, one)| system.steady_motion_at(j).amplitude() / one.clearance);
+    reach.fold(0.0, f64::max)
+}
+
 /// For each place of the structure the frequency at which it moves farthest while every absorber rests, with that motion: often where
 /// a wall begins to reach one.
 pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, ModalMotion)> {
     let shapes = case.shapes();
     let at_rest = |at: f64| modal_at_rest(&case.system(load, at).ok()?, &shapes);
-    let mut all: Vec<f64> = linear_places(load.range_hz, case);
+    let mut all = linear_places(load.range_hz, case);
+    // An absorber may be near a node of the structure's motion in a range of frequencies that no two of these hold.
+    let reaches: Vec<f64> = all.iter().map(|at| reach_at_rest(case, load, *at)).collect();
+    let lowest =
+        |k: &usize| reaches[*k] >= 1.0 && reaches[*k] <= reaches[*k - 1].min(reaches[*k + 1]);
+    for k in (1..all.len().saturating_sub(1)).filter(lowest).collect::<Vec<_>>() {
+        let mut least = (reaches[k], all[k]);
+        scan::narrow([all[k - 1], all[k + 1]], |at| {
+            let reach = reach_at_rest(case, load, at);
+            if reach < least.0 {
+                least = (reach, at);
+            }
+            Some(-reach)
+        });
+        all.extend((least.0 < 1.0).then_some(least.1));
+    }
+    all.sort_by(f64::total_cmp);
     let edge = |pair: &[f64]| {
         let [mut rests, mut reached] = match [pair[0], pair[1]].map(|at| at_rest(at).is_some()) {
             [true, false] => [pair[0], pair[1]],
@@ -184,10 +214,25 @@ pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, Modal
     };
     let edges: Vec<f64> = all.windows(2).filter_map(edge).collect();
     all.extend(edges);
-    let found: Vec<(f64, ModalMotion)> =
+    all.sort_by(f64::total_cmp);
+    let there: Vec<(f64, ModalMotion)> =
         all.into_iter().filter_map(|at| Some((at, at_rest(at)?))).collect();
     let of_place = |p: usize| {
-        found.iter().max_by(|a, b| a.1.places[p].peak.total_cmp(&b.1.places[p].peak)).cloned()
+        let peak = |motion: &ModalMotion| motion.places[p].peak;
+        let k =
+            (0..there.len()).max_by(|a, b| peak(&there[*a].1).total_cmp(&peak(&there[*b].1)))?;
+        let mut best = there[k].clone();
+        // The top of a resonance is between two of them.
+        let around = [k.saturating_sub(1), (k + 1).min(there.len() - 1)].map(|k| there[k].0);
+        scan::narrow(around, |at| {
+            let found = at_rest(at);
+            let value = found.as_ref().map_or(0.0, peak);
+            if let Some(motion) = found.filter(|_| value > peak(&best.1)) {
+                best = (at, motion);
+            }
+            Some(value)
+        });
+        Some(best)
     };
     let mut farthest: Vec<_> = (0..case.places.len()).filter_map(of_place).collect();
     farthest.dedup_by(|a, b| a.0 == b.0);
@@ -204,6 +249,14 @@ fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -> f6
     if c < 0.0 { (-0.25 * p * p / c).max(0.0) } else { 0.0 }
 }
 
+/// The next frequencies to either side of one, but for those that are almost the same.
+fn neighbours(places: &[AtFrequency], k: usize) -> [Option<&AtFrequency>; 2] {
+    let [first, .., last] = places else { return [None; 2] };
+    let apart =
+        |there: &&AtFrequency| (there.at - places[k].at).abs() >= NEAREST * (last.at - first.at);
+    [places[..k].iter().rev().find(apart), places[k + 1..].iter().find(apart)]
+}
+
 /// Frequencies half way to the neighbours of the worst of each place: of all motions, and of those in which an absorber moves.
 fn beside_worst(places: &[AtFrequency], count: usize) -> Vec<f64> {
     let mut wanted: Vec<f64> = Vec::new();
@@ -213,8 +266,7 @@ fn beside_worst(places: &[AtFrequency], count: usize) -> Vec<f64> {
             continue;
         };
         let here = places[k].at;
-        for other in [k.checked_sub(1), Some(k + 1)].into_iter().flatten() {
-            let Some(there) = places.get(other) else { continue };
+        for there in neighbours(places, k).into_iter().flatten() {
             let middle = 0.5 * (here + there.at);
             if !wanted.contains(&middle) {
                 wanted.push(middle);
@@ -222,4 +274,42 @@ fn beside_worst(places: &[AtFrequency], count: usize) -> Vec<f64> {
         }
     }
     wanted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against a few thousand frequencies, on designs that nobody chose: whichever absorber ends the rest.
+    #[test]
+    fn no_frequency_at_rest_moves_a_place_farther() {
+        let mut noise = 7_u64;
+        let mut between = |from: f64, to: f64| {
+            noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            from + (to - from) * (noise >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        for number in 0..60 {
+            let [low, high] = [between(0.2, 1.9), between(8.0, 60.0)];
+            let [own, other] = [between(0.05, 3.0), between(0.05, 3.0)];
+            let text = format!(
+                "title = 't'\nsource = 's'\n[[mode]]\nfrequency = '2 Hz'\ndamping_ratio = 0.02\nmass = '1 t'\n\
+                 shape = {{ a = 1.0, b = -0.4 }}\n[[mode]]\nfrequency = '5.2 Hz'\ndamping_ratio = 0.01\nmass = '1 t'\n\
+                 shape = {{ a = 0.3, b = 1.0 }}\n[[absorber]]\nplace = 'a'\nmass = '9 kg'\nclearance = '{own} mm'\nrestitution = 0.5\n\
+                 [[absorber]]\nplace = 'b'\nmass = '9 kg'\nclearance = '{other} mm'\nrestitution = 0.5\n\
+                 [[excitation]]\nkind = 'force'\nplace = 'a'\namplitude = '100 N'\nfrom = '{low} Hz'\nto = '{high} Hz'\n"
+            );
+            let case = ModalCase::parse("case.toml", &text).expect("a case");
+            let load = &case.loads[0];
+            let shapes = case.shapes();
+            let farthest = farthest_at_rest(&case, load);
+            for p in 0..2 {
+                let at = |k: u32| low + (high - low) * f64::from(k) / 3e3;
+                let motion = |k: u32| modal_at_rest(&case.system(load, at(k)).ok()?, &shapes);
+                let scanned = (0..=3_000).filter_map(motion).map(|one| one.places[p].peak);
+                let scanned = scanned.fold(0.0, f64::max);
+                let found = farthest.iter().map(|one| one.1.places[p].peak).fold(0.0, f64::max);
+                assert!(found >= scanned, "{number} {p}: {found} {scanned}");
+            }
+        }
+    }
 }

@@ -1,9 +1,9 @@
 //! Tuned mass dampers beside the absorbers of a structure of several modes.
 
-use super::linear::{amplitudes, largest, linear_peak, linear_places};
+use super::linear::{amplitudes, largest, largest_peak, linear_peak, linear_places};
 use crate::case::{ActsOn, Load, ModalCase};
 use crate::dampers::simplex;
-use crate::linear::{ModalAmplitudes, ModalDamper};
+use crate::linear::ModalDamper;
 
 /// Dampers of equal mass, together as heavy as the absorbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,18 +95,14 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
     };
     let sizes: Vec<f64> = (0..start.len()).map(|k| SIMPLEX[k % 2]).collect();
     let dampers = built(&simplex(start, &sizes, STEPS, RESTARTS, cost));
-    let most = |load: &Load, of: &dyn Fn(&ModalAmplitudes) -> f64| {
-        largest(load.range_hz, case, |at| of(&amplitudes(case, load, at, &dampers)))[0]
-    };
-    let worst = |load: &Load| {
-        let places = 0..case.places.len();
-        places.map(|p| most(load, &|found| found.places[p])).fold(0.0, f64::max)
-    };
     let stroke = |d: usize| {
-        case.loads.iter().map(|load| most(load, &|found| found.strokes[d])).fold(0.0, f64::max)
+        let most = |load: &Load| {
+            largest(load.range_hz, case, |at| amplitudes(case, load, at, &dampers).strokes[d])[0]
+        };
+        case.loads.iter().map(most).fold(0.0, f64::max)
     };
     DamperChoice {
-        worst: case.loads.iter().map(worst).collect(),
+        worst: case.loads.iter().map(|load| largest_peak(case, load, &dampers)).collect(),
         strokes: (0..count).map(stroke).collect(),
         dampers,
         places,

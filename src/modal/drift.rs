@@ -1,8 +1,7 @@
 //! Absorbers and dampers on a structure whose natural frequencies are not those that they were made for.
 
-use super::along::AlongLoad;
 use super::dampers::DamperChoice;
-use super::linear::{amplitudes, largest};
+use super::linear::largest_peak;
 use super::{ModalAnswer, ModalError, WorstOfPlace};
 use crate::case::{ModalCase, StructuralMode};
 use crate::criteria::Judged;
@@ -53,17 +52,9 @@ impl OffStructure {
         let modes = case.modes.iter().map(mode).collect();
         let starts = case.starts.div_ceil(2);
         let case = &ModalCase { modes, starts, periods: 0, ..case.clone() };
-        let along = case.loads.iter().map(|load| AlongLoad::of(case, load, on));
-        let mut answer =
-            ModalAnswer { along: along.collect::<Result<_, _>>()?, judged: Vec::new() };
-        answer.judged = case.criteria.iter().filter_map(|one| answer.judge(case, one)).collect();
+        let answer = ModalAnswer::of(case, on)?;
         let linear = |dampers: &[ModalDamper]| {
-            let each = case.loads.iter().map(|load| {
-                let peak = |at: f64| amplitudes(case, load, at, dampers).places;
-                let most = |at: f64| peak(at).into_iter().fold(0.0, f64::max);
-                largest(load.range_hz, case, most)[0]
-            });
-            each.fold(0.0, f64::max)
+            case.loads.iter().map(|load| largest_peak(case, load, dampers)).fold(0.0, f64::max)
         };
         let with = |choice: &DamperChoice| {
             // Their frequencies are over the first mode's.

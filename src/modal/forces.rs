@@ -1,9 +1,10 @@
 //! What a load does with other amplitudes: how far it may grow, and at which displacement each absorber works.
 
 use super::along::{AlongLoad, AtFrequency};
-use super::{ModalError, driven_mode, linear_peak};
+use super::{ModalAnswer, ModalError, driven_mode, linear_peak};
 use crate::analysis::Grading;
-use crate::case::{Load, ModalCase};
+use crate::case::{Load, ModalCase, PlacedAbsorber};
+use crate::criteria::{Judged, Outcome};
 use crate::executor::{Executor, map};
 use crate::motions::ModalMotion;
 
@@ -34,6 +35,8 @@ pub struct ForceStep {
     pub motions: Vec<ModalMotion>,
     /// The largest displacement of any place without absorbers, in m.
     pub bare: f64,
+    /// What each criterion comes to.
+    pub outcomes: Vec<Outcome>,
 }
 
 /// What all limits come to with other amplitudes, over the load's own.
@@ -84,10 +87,16 @@ impl OverForce {
         };
         let found = map(on, "motions under other amplitudes", (2 * STEPS + 1) * at.len(), look);
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let step = |(step, found): (usize, &[AtFrequency])| ForceStep {
-            times: times(step),
-            motions: found.iter().flat_map(|one| one.motions.iter().cloned()).collect(),
-            bare: at.iter().map(|at| linear_peak(case, &with(step), *at, &[])).fold(0.0, f64::max),
+        let step = |(step, found): (usize, &[AtFrequency])| {
+            let (load, places) = (with(step), found.to_vec());
+            let here = ModalCase { loads: vec![load], ..usual.clone() };
+            let bare = at.iter().map(|at| linear_peak(case, &load, *at, &[]));
+            let bare = bare.fold(0.0, f64::max);
+            let motions = found.iter().flat_map(|one| one.motions.iter().cloned()).collect();
+            let along = AlongLoad { load, places, bare: along.bare.clone() };
+            let outcomes = ModalAnswer::judged(&here, vec![along]).criteria();
+            let outcomes = outcomes.iter().map(Judged::outcome).collect();
+            ForceStep { times: times(step), motions, bare, outcomes }
         };
         let steps = found.chunks(at.len()).enumerate().map(step).collect();
         Ok(Some(Self { at, steps, working: working(case, driven_mode(case, load)) }))
@@ -98,40 +107,29 @@ impl OverForce {
         if case.criteria.is_empty() {
             return None;
         }
-        let worst = |step: &ForceStep, reach: bool| {
-            let each = case.criteria.iter().map(|asked| {
-                let places = 0..case.places.len();
-                let places = places.filter(|p| asked.place.is_none_or(|one| one == *p));
-                let all = places.flat_map(|p| step.motions.iter().map(move |one| (p, one)));
-                // A motion that still settles may fail no limit, and holds none.
-                let peak = |(p, motion): (usize, &ModalMotion)| match (reach, motion.settled) {
-                    (true, true) => motion.places[p].peak + motion.places[p].error,
-                    (true, false) => f64::INFINITY,
-                    (false, true) => motion.places[p].peak,
-                    (false, false) => 0.0,
-                };
-                all.map(peak).fold(0.0, f64::max) / asked.criterion.limit
-            });
-            each.fold(0.0, f64::max)
-        };
-        let fails = self.steps.iter().find(|step| worst(step, false) > 1.0).map(|step| step.times);
+        let failed = |step: &ForceStep| step.outcomes.contains(&Outcome::Fails);
+        let fails = self.steps.iter().find(|step| failed(step)).map(|step| step.times);
         let before = self.steps.iter().filter(|step| fails.is_none_or(|fails| step.times < fails));
-        let (hold, open): (Vec<&ForceStep>, Vec<_>) =
-            before.partition(|step| worst(step, true) <= 1.0);
+        let holds = |step: &&ForceStep| step.outcomes.iter().all(|one| *one == Outcome::Holds);
+        let (hold, open): (Vec<&ForceStep>, Vec<_>) = before.partition(holds);
         let open = open.into_iter().map(|step| step.times).collect();
         Some(ForceLimits { holds: hold.last().map(|step| step.times), open, fails })
     }
 }
 
-/// For each absorber between which largest displacements in a mode it works.
+/// Displacements of its place, in m, between which an absorber is in symmetric 1:1 resonance by itself, at leading order.
+pub fn working_range(absorber: &PlacedAbsorber) -> [f64; 2] {
+    let Grading { lower, upper, .. } = Grading::of(absorber.restitution);
+    [lower, upper].map(|end| end * absorber.clearance_m)
+}
+
+/// The same for each absorber in a mode, by the largest displacement of the structure; none of one at a node.
 fn working(case: &ModalCase, mode: usize) -> Vec<Option<[f64; 2]>> {
     let shape = &case.modes[mode].shape;
     let most = shape.iter().map(|value| value.abs()).fold(0.0, f64::max);
     let of = case.absorbers.iter().map(|absorber| {
         let here = shape[absorber.place].abs();
-        let Grading { lower, upper, .. } = Grading::of(absorber.restitution);
-        let scale = most * absorber.clearance_m / here;
-        (here > 0.0).then_some([lower * scale, upper * scale])
+        (here > 0.0).then(|| working_range(absorber).map(|end| end * most / here))
     });
     of.collect()
 }

@@ -29,6 +29,14 @@ pub fn linear_peak(case: &ModalCase, load: &Load, at: f64, dampers: &[ModalDampe
     amplitudes(case, load, at, dampers).places.into_iter().fold(0.0, f64::max)
 }
 
+/// The largest amplitude of any place along a load.
+pub(super) fn largest_peak(case: &ModalCase, load: &Load, dampers: &[ModalDamper]) -> f64 {
+    let of_place = |p: usize| {
+        largest(load.range_hz, case, |at| amplitudes(case, load, at, dampers).places[p])[0]
+    };
+    (0..case.places.len()).map(of_place).fold(0.0, f64::max)
+}
+
 /// Frequencies in Hz at which it is looked at along a range, ascending.
 pub fn linear_places(range: [f64; 2], case: &ModalCase) -> Vec<f64> {
     let around = case.modes.iter().flat_map(|mode| {

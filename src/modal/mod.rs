@@ -22,7 +22,7 @@ use crate::system::InvalidModalSystem;
 pub use along::{AlongLoad, AtFrequency, WorstOfPlace, seconds};
 pub use dampers::{DamperChoice, choices};
 pub use drift::{OffStructure, off_structures};
-pub use forces::{ForceLimits, ForceStep, OverForce};
+pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
 
@@ -67,10 +67,14 @@ impl ModalAnswer {
     /// [`ModalError`] where a motion cannot be flown.
     pub fn of(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
         let along = case.loads.iter().map(|load| AlongLoad::of(case, load, on));
-        let along = along.collect::<Result<Vec<_>, _>>()?;
+        Ok(Self::judged(case, along.collect::<Result<_, _>>()?))
+    }
+
+    /// Of what is known along the loads of a case.
+    fn judged(case: &ModalCase, along: Vec<AlongLoad>) -> Self {
         let mut answer = Self { along, judged: Vec::new() };
         answer.judged = case.criteria.iter().filter_map(|one| answer.judge(case, one)).collect();
-        Ok(answer)
+        answer
     }
 
     /// The worst of a place, or of all, under a load, or under any.

@@ -486,6 +486,16 @@ fn absorbers_rest_up_to_where_a_wall_reaches_them() {
     let peak = peaks.map(|one| one.places[0].peak).fold(0.0, f64::max);
     assert!((peak / 4.563e-3 - 1.0).abs() < 1e-9, "{peak}");
     assert!(!worst.all_hold(), "{:?}", worst.judged);
+
+    // A cavity that nothing reaches: the top of a resonance, F/(2 zeta k sqrt(1 - zeta^2)), below its natural frequency.
+    let mut damped = case("from = '1.8 Hz'\nto = '2.3 Hz'");
+    let zeta = 0.15;
+    (damped.modes[0].damping_ratio, damped.absorbers[0].clearance_m) = (zeta, 1.0);
+    let answer = ModalAnswer::of(&damped, &Serial).expect("flown");
+    let worst = answer.worst(None, None).expect("a motion");
+    let omega = std::f64::consts::TAU * 2.1;
+    let top = 280.0 / (20_000.0 * omega * omega * 2.0 * zeta * (1.0 - zeta * zeta).sqrt());
+    assert!(worst.rests && (worst.peak / top - 1.0).abs() < 1e-9, "{} {top}", worst.peak);
 }
 
 /// Other amplitudes: at the load's own the worst is that of the answer, absorbers work between their folds and symmetry breaking,
@@ -499,15 +509,15 @@ fn a_report_tells_what_other_amplitudes_do() {
         let worst = answer.worst(None, Some(k)).expect("a motion");
         let found = OverForce::of(&case, &answer.along[k], Some(worst.at), &Serial).expect("flown");
         let found = found.expect("a steady motion");
-        // The second load is worst at its mode's own frequency.
-        assert!(found.at.contains(&worst.at) && found.at.len() == 2 - k);
+        let own = case.loads[k].centre(&case);
+        assert!(found.at.contains(&worst.at) && found.at.contains(&own) && found.at.len() == 2);
         assert_eq!(found.steps.len(), 9);
         let most = |step: &ForceStep| {
             let places = step.motions.iter().flat_map(|one| &one.places);
             places.map(|place| place.peak).fold(0.0, f64::max)
         };
-        // All of its motions repeat, so that half of the starts find them.
-        assert_eq!(found.steps[4].times, 1.0);
+        // At the load's own amplitude they are the motions of the answer.
+        assert_eq!([0, 4, 5, 8].map(|k| found.steps[k].times), [0.25, 1.0, 2.0_f64.sqrt(), 4.0]);
         assert!((most(&found.steps[4]) / worst.peak - 1.0).abs() < 1e-9);
         // A structure alone is linear.
         let bare = |step: &ForceStep| step.bare / step.times;
@@ -536,6 +546,10 @@ fn a_report_tells_what_other_amplitudes_do() {
         assert!((from / clearance - 0.1572).abs() < 5e-5 && (to / clearance - 0.7321).abs() < 5e-5);
     }
     assert_eq!(found.limits(&graded), None, "no limit is asked for");
+    // Two frequencies that are almost the same are one.
+    let near = 1.0005 * graded.loads[0].centre(&graded);
+    let found = OverForce::of(&graded, &answer.along[0], Some(near), &Serial).expect("flown");
+    assert_eq!(found.expect("a steady motion").at, [near]);
 }
 
 /// Natural frequencies that are off: without absorbers as stiffness has it, with them as a case with these frequencies and half of the

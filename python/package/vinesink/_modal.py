@@ -50,6 +50,8 @@ class ModalCase:
     Numbers are in SI. `text` is the case file; messages name its lines.
     """
 
+    # What else is assigned is refused: a case does not change.
+    __slots__ = ("_allow_outside", "_core", "_folder")
     _core: _vinesink.ModalCase
     _folder: str
     _allow_outside: bool

@@ -2,6 +2,7 @@
 //! may act, one at a time.
 
 mod asked;
+mod file;
 mod place;
 mod read;
 mod table;

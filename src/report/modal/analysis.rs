@@ -3,9 +3,9 @@
 use serde_json::{Value, json};
 
 use super::{given, load_row, units};
-use crate::analysis::Grading;
 use crate::case::ModalCase;
 use crate::method::Method;
+use crate::modal::working_range;
 use crate::orbits::ModalOrbit;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
@@ -32,8 +32,7 @@ pub fn analysis(case: &ModalCase, found: &[(f64, Vec<ModalOrbit>)]) -> Value {
         json!({ "at": at, "unit": "Hz", "orbits": orbits.iter().map(orbit).collect::<Vec<_>>() })
     });
     let absorbers = case.absorbers.iter().map(|one| {
-        let Grading { lower, upper, .. } = Grading::of(one.restitution);
-        let [lower, upper] = [lower, upper].map(|end| end * one.clearance_m);
+        let [lower, upper] = working_range(one);
         json!({ "place": case.places[one.place], "from": lower, "to": upper })
     });
     let fields =

@@ -28,13 +28,11 @@ pub(super) fn loads(
 ) -> Figure {
     let units = units(case);
     let mut figure = Figure::new("loads", "");
-    let mut count = 0;
     for (k, along) in answer.along.iter().enumerate() {
         let [from, to] = along.load.range_hz;
         if from == to {
             continue;
         }
-        count += 1;
         let highest = along.places.iter().flat_map(|one| &one.motions).flat_map(|one| &one.places);
         let highest = highest.map(|one| one.peak).fold(0.0, f64::max);
         let limit = tightest(case);
@@ -60,8 +58,6 @@ pub(super) fn loads(
         }
         // Not those in which every absorber rests, which are on the line without them.
         let seen = along.places.iter().flat_map(|one| {
-            let most =
-                |motion: &ModalMotion| motion.places.iter().map(|one| one.peak).fold(0.0, f64::max);
             let acts = |motion: &&ModalMotion| !motion.rests();
             one.motions.iter().filter(acts).map(move |motion| [one.at, most(motion)])
         });
@@ -72,9 +68,7 @@ pub(super) fn loads(
         );
         figure = figure.with_panel(panel.with_heading(heading(case, k, &along.load)));
     }
-    let layout = Layout::rows(&vec![1.0; count.max(1)]);
-    let height = 90 + 250 * u32::try_from(count).unwrap_or(1);
-    figure.with_layout(layout).with_size(720, height).with_facts("captions/loads", facts.clone())
+    in_rows(figure).with_facts("captions/loads", facts.clone())
 }
 
 /// Width of the bar of an absorber with the free room beside it, over that of the panel.
@@ -87,14 +81,10 @@ const WORKS: Style = Style::new(Color::BluishGreen, 6.0, Dash::Solid);
 pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure {
     let units = units(case);
     let mut figure = Figure::new("forces", "");
-    let mut count = 0;
     for (k, (load, found)) in case.loads.iter().zip(&beside.forces).enumerate() {
         let Some(OverForce { steps, working, .. }) = found else { continue };
         let [Some(first), Some(last)] = [steps.first(), steps.last()] else { continue };
-        count += 1;
         let seen = |acts: bool| {
-            let most =
-                |motion: &ModalMotion| motion.places.iter().map(|one| one.peak).fold(0.0, f64::max);
             let each = steps.iter().flat_map(move |step| {
                 let motions = step.motions.iter().filter(move |one| !(acts && one.rests()));
                 motions.map(move |one| [step.times * load.amplitude, most(one)])
@@ -134,9 +124,19 @@ pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure
         panel = panel.with(points.labelled("with absorbers"));
         figure = figure.with_panel(panel.with_heading(heading(case, k, load)));
     }
-    let layout = Layout::rows(&vec![1.0; count.max(1)]);
+    in_rows(figure).with_facts("captions/forces", facts.clone())
+}
+
+/// The largest displacement of any place.
+fn most(motion: &ModalMotion) -> f64 {
+    motion.places.iter().map(|one| one.peak).fold(0.0, f64::max)
+}
+
+/// With its panels below one another.
+fn in_rows(figure: Figure) -> Figure {
+    let count = figure.panels.len().max(1);
     let height = 90 + 250 * u32::try_from(count).unwrap_or(1);
-    figure.with_layout(layout).with_size(720, height).with_facts("captions/forces", facts.clone())
+    figure.with_layout(Layout::rows(&vec![1.0; count])).with_size(720, height)
 }
 
 /// The smallest limit of any place.

@@ -85,25 +85,29 @@ fn closed(kind: &'static Kind, value: f64) -> Quantity {
     Quantity::new(kind, value, Method::ClosedForm)
 }
 
-/// The word of what all criteria come to; of a case without them whether it moves less than without absorbers.
+/// The word of what all criteria come to; of a case without them that of the structure against itself alone.
 fn word(answer: &ModalAnswer) -> Word {
-    let without = || match answer.worst(None, None) {
+    badge(&answer.criteria()).unwrap_or_else(|| against_alone(answer))
+}
+
+/// Whether it moves less than without absorbers.
+fn against_alone(answer: &ModalAnswer) -> Word {
+    match answer.worst(None, None) {
         Some(worst) if worst.peak + worst.error < bare(answer) => Word::Works,
         Some(worst) if worst.peak > bare(answer) => Word::MakesItWorse,
         Some(_) => Word::DoesNothing,
         None => Word::NoAnswer,
-    };
-    badge(&answer.criteria()).unwrap_or_else(without)
+    }
 }
 
-/// What a list says of it.
+/// The same as a list has it.
 fn headline(answer: &ModalAnswer) -> Option<&'static str> {
-    let worst = answer.worst(None, None)?;
-    Some(match worst.peak {
-        peak if peak + worst.error < bare(answer) => "less",
-        peak if peak > bare(answer) => "worse",
-        _ => "little",
-    })
+    match against_alone(answer) {
+        Word::Works => Some("less"),
+        Word::MakesItWorse => Some("worse"),
+        Word::DoesNothing => Some("little"),
+        _ => None,
+    }
 }
 
 /// The largest displacement of any place under any load without absorbers.

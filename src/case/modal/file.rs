@@ -1,0 +1,183 @@
+//! The table `[modes]`: modes in a file, which of them count, and what replaces its numbers.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::StructuralMode;
+use super::table::{self, Modes, ModesFile};
+use super::universal::{self, Direction};
+use crate::case::error::CaseError;
+use crate::case::reader::{Reader, Table};
+use crate::system::{LARGEST_DAMPING_RATIO, MOST_MODES};
+
+/// The modes of the structure in a file, instead of `[[mode]]`.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(extend("additionalProperties" = false))]
+pub(super) struct ModesTable {
+    /// A file beside the case, or below its folder: a Universal File with data sets 55 or 2414, or columns of frequency, damping_ratio, mass,
+    /// participation where the base moves, and one for each place, with units in brackets; a line for each mode.
+    #[schemars(example = &"mast.csv")]
+    #[expect(dead_code, reason = "read before the case is")]
+    file: String,
+    /// Places of a Universal File: a node and the direction in which it moves, each by a name.
+    #[schemars(with = "Value", extend("type" = "object", "additionalProperties" = { "type": "string" }))]
+    #[schemars(example = json!({ "tip": "12 z" }))]
+    #[expect(dead_code, reason = "read by its own names")]
+    #[serde(default)]
+    places: (),
+    /// Which of the file's modes, from 1; all of them unless given.
+    #[schemars(example = vec![1, 2, 3])]
+    numbers: Option<Vec<u64>>,
+    /// M, the modal mass of each mode instead of the file's, above 0: 1 kg where shapes are normalised to it.
+    #[schemars(extend("x-measurand" = "a mass", "exclusiveMinimum" = 0), example = "1 kg")]
+    mass: Option<f64>,
+    /// zeta, the damping ratio of each mode instead of the file's, from 0 to 0.85.
+    #[schemars(extend("x-measurand" = "a share", "minimum" = 0, "maximum" = LARGEST_DAMPING_RATIO), example = 0.005, example = "0.5 %")]
+    damping_ratio: Option<f64>,
+}
+
+/// Places and modes of the file that `[modes]` names.
+///
+/// # Errors
+/// What is wrong with that file.
+pub(super) fn modes_of_file(
+    reader: &mut Reader,
+    root: &Table,
+    file: Option<&ModesFile>,
+) -> Result<Modes, CaseError> {
+    if root.has("mode") {
+        let message = "[modes] and [[mode]] both say which modes there are";
+        reader.report(root.span_of("modes"), message, "expected one of them", "remove one");
+    }
+    let Some((table, read)) = reader.optional::<ModesTable>(root, "modes") else {
+        return Ok(Modes::default());
+    };
+    let Some(file) = file else {
+        let message = "the file of the modes was not read";
+        let help = "write the modes as [[mode]] where a case is a text without a folder";
+        reader.report(root.span_of("modes"), message, "expected a case in a file", help);
+        return Ok(Modes::default());
+    };
+    let before = reader.problems.len();
+    let FileModes { places, modes: mut all, unit_of_mass } = match universal::is_universal(
+        &file.text,
+    ) {
+        true => universal_modes(reader, &table, file)?,
+        false if table.has("places") => {
+            let message = "`places` has no meaning: the file does not begin with a line -1, as a Universal File does";
+            let expected = "expected a Universal File, or no `places`";
+            let help = "name another file, or remove the line where the file is one of columns, whose head names its places";
+            reader.report(table.span_of("places"), message, expected, help);
+            return Ok(Modes::default());
+        }
+        false => {
+            let (places, modes) = table::read(file)?;
+            FileModes { places, modes, unit_of_mass: 1.0 }
+        }
+    };
+    if reader.problems.len() > before {
+        return Ok(Modes::default());
+    }
+    if let Some(numbers) = &read.numbers {
+        let span = table.span_of_value("numbers");
+        let known = |number: &u64| (1..=all.len() as u64).contains(number);
+        let twice = |(k, number): (usize, &u64)| numbers[..k].contains(number);
+        if numbers.is_empty() || !numbers.iter().all(known) || numbers.iter().enumerate().any(twice)
+        {
+            let message = format!("the file has {} modes", all.len());
+            let expected = format!("expected numbers from 1 to {}, each once", all.len());
+            reader.report(span, message, expected, "write numbers = [1, 2, 3]");
+            return Ok(Modes::default());
+        }
+        all = numbers.iter().map(|number| all[*number as usize - 1].clone()).collect();
+    }
+    if all.len() > MOST_MODES {
+        let message = format!("the file has {} modes", all.len());
+        let expected = format!("expected 1 to {MOST_MODES}");
+        let help = "choose those that matter most: numbers = [1, 2, 3]";
+        reader.report(table.span_of("file"), message, expected, help);
+        return Ok(Modes::default());
+    }
+    for (k, mode) in all.iter_mut().enumerate() {
+        mode.damping_ratio = read.damping_ratio.unwrap_or(mode.damping_ratio);
+        mode.mass_kg = read.mass.unwrap_or(mode.mass_kg);
+        let number = read.numbers.as_ref().map_or(k as u64 + 1, |numbers| numbers[k]);
+        // A file of columns is judged line by line.
+        if let Some((wrong, expected)) = impossible(mode) {
+            let message = format!("mode {number} of the file {wrong}");
+            let unit = match unit_of_mass {
+                1000.0 => "1 t".to_owned(),
+                kg => format!("{kg} kg"),
+            };
+            let help = format!(
+                "choose others with `numbers`; where shapes are normalised to the file's unit of mass write mass = \"{unit}\""
+            );
+            reader.report(table.span_of("file"), message, expected, help);
+            break;
+        }
+    }
+    Ok((places, all))
+}
+
+/// What a mode cannot be, and what was expected.
+fn impossible(mode: &StructuralMode) -> Option<(String, &'static str)> {
+    let StructuralMode { frequency_hz, mass_kg, damping_ratio, shape, .. } = mode;
+    if *frequency_hz <= 0.0 || *mass_kg <= 0.0 {
+        let wrong = format!("has {frequency_hz} Hz and a modal mass of {mass_kg} kg");
+        return Some((wrong, "expected both above 0"));
+    }
+    if !(0.0..=LARGEST_DAMPING_RATIO).contains(damping_ratio) {
+        let wrong = format!("has a damping ratio of {damping_ratio}");
+        return Some((wrong, "expected a damping ratio from 0 to 0.85"));
+    }
+    let still = shape.iter().all(|value| *value == 0.0);
+    still.then(|| ("moves at none of the places".to_owned(), "expected a place at which it moves"))
+}
+
+/// What a file has, at the places that a case names.
+struct FileModes {
+    places: Vec<String>,
+    modes: Vec<StructuralMode>,
+    /// In kg.
+    unit_of_mass: f64,
+}
+
+/// That of a Universal File.
+fn universal_modes(
+    reader: &mut Reader,
+    table: &Table,
+    file: &ModesFile,
+) -> Result<FileModes, CaseError> {
+    const HELP: &str = "write places = { tip = \"12 z\" }: a node of the file and its direction";
+    let mut named: Vec<(String, Direction)> = Vec::new();
+    let entries = table.value("places").and_then(|value| value.get_ref().as_table());
+    for (name, value) in entries.into_iter().flatten() {
+        match value.get_ref().as_str().and_then(Direction::parse) {
+            Some(at) => named.push((name.get_ref().to_string(), at)),
+            None => {
+                let message =
+                    format!("`{}` of `places` is no node with a direction", name.get_ref());
+                let expected = "expected a number and x, y or z, as in \"12 z\"";
+                reader.report(value.span(), message, expected, HELP);
+            }
+        }
+    }
+    let (places, at): (Vec<String>, Vec<Direction>) = named.into_iter().unzip();
+    let found = universal::read(file, &at)?;
+    let nodes: Vec<String> = found.nodes.iter().map(u64::to_string).collect();
+    let nodes = format!("expected nodes of the file, which begin with {}", nodes.join(", "));
+    if entries.is_none_or(|all| all.is_empty()) {
+        let message = "a Universal File has nodes, and the case does not name its places";
+        reader.report(table.span_of("places"), message, nodes.as_str(), HELP);
+    }
+    for (k, at) in at.iter().enumerate() {
+        let lacks = |mode: &StructuralMode| mode.shape[k].is_nan();
+        let Some(mode) = found.modes.iter().position(lacks) else { continue };
+        let message =
+            format!("\"{}\" is node {}, which mode {} does not have", places[k], at.node, mode + 1);
+        let help = "name a node that every mode of the file has";
+        reader.report(table.span_of_value("places"), message, nodes.as_str(), help);
+    }
+    Ok(FileModes { places, modes: found.modes, unit_of_mass: found.unit_of_mass })
+}
