@@ -6,6 +6,7 @@ use crate::linear::{BandSystems, reduction};
 use crate::motions::{Fact, Motion, Value};
 use crate::quantity::catalogue as of;
 use crate::quantity::{ErrorKind, Kind, Units};
+use crate::simulation::Reading;
 use crate::system::{Shaking, System};
 
 /// Which structure a measure is of.
@@ -28,6 +29,20 @@ impl Device {
             Self::Damper => "tuned-mass-damper",
         }
     }
+}
+
+/// What a sensor at a place of a structure shows: the largest of what it reads, or the root mean square.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PlaceMeasure {
+    /// What it reads.
+    pub reads: Reading,
+    /// Whether the root mean square counts.
+    pub mean: bool,
+}
+
+impl PlaceMeasure {
+    /// The largest displacement.
+    pub const PEAK: Self = Self { reads: Reading::Displacement, mean: false };
 }
 
 /// Something that has a number, a word or a yes.
@@ -218,6 +233,20 @@ impl Measure {
             self,
             Self::PeakVelocity | Self::RmsVelocity | Self::PeakAcceleration | Self::RmsAcceleration
         )
+    }
+
+    /// What it is of a place; none of what a sensor does not show.
+    pub const fn of_place(self) -> Option<PlaceMeasure> {
+        let (reads, mean) = match self {
+            Self::Peak => (Reading::Displacement, false),
+            Self::Rms => (Reading::Displacement, true),
+            Self::PeakVelocity => (Reading::Velocity, false),
+            Self::RmsVelocity => (Reading::Velocity, true),
+            Self::PeakAcceleration => (Reading::Acceleration, false),
+            Self::RmsAcceleration => (Reading::Acceleration, true),
+            _ => return None,
+        };
+        Some(PlaceMeasure { reads, mean })
     }
 
     /// The device whose largest displacement it compares with; none of what compares nothing.

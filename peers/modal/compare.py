@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Compares the motions of cases of several modes and absorbers with those of `simulate.c`, at the frequency where each load is
-worst: largest displacement and root mean square of the worst place, from several starts.
+worst: the largest of the worst place and its root mean square, from several starts; of its displacement, and of its velocity and
+acceleration where criteria ask for these.
 
     python3 peers/modal/compare.py target/release/vinesink cases/several/*.toml
 
@@ -15,6 +16,8 @@ import tomllib
 
 UNITS = {"Hz": 1.0, "kg": 1.0, "g": 1e-3, "t": 1e3, "m": 1.0, "mm": 1e-3, "um": 1e-6, "N": 1.0, "kN": 1e3, "%": 1e-2}
 STARTS, OUT, MEASURED = 4, 8, 1500
+# What is compared: its name, where `simulate.c` prints it, and in which unit.
+READINGS = [("displacement", 0, "mm"), ("velocity", 2, "mm/s"), ("acceleration", 4, "mm/s2")]
 
 
 def number(value):
@@ -53,8 +56,8 @@ def main():
         program = str(pathlib.Path(folder, "simulate"))
         source = str(pathlib.Path(__file__).with_name("simulate.c"))
         subprocess.run(["cc", "-O2", "-o", program, source, "-lm"], check=True)
-        print("| case | load | at | place | peak, mm | independently | rms, mm | independently |")
-        print("| --- | ---: | ---: | --- | ---: | ---: | ---: | ---: |")
+        print("| case | load | at | place | of its | largest | independently | rms | independently |")
+        print("| --- | ---: | ---: | --- | --- | ---: | ---: | ---: | ---: |")
         for path in paths:
             case = tomllib.loads(pathlib.Path(path).read_text())
             run = subprocess.run([vinesink, "simulate", path, "--format", "json"], capture_output=True, text=True)
@@ -65,14 +68,19 @@ def main():
                 p = answer["places_of_shapes"].index(place)
                 motions = [one["places"][p] for one in found["motions"] if not one["rests"]]
                 other = [simulated(program, case, load, place, frequency, seed) for seed in range(1, STARTS + 1)]
-                told = [
-                    ", ".join(f"{1e3 * one['peak']['value']:.3f} (+{1e3 * one['peak']['error']:.2g})" for one in motions),
-                    ", ".join(f"{1e3 * one[0]:.3f}" for one in other),
-                    ", ".join(f"{1e3 * one['rms']['value']:.3f}" for one in motions),
-                    ", ".join(f"{1e3 * one[1]:.3f}" for one in other),
-                ]
-                name = pathlib.Path(path).stem
-                print(f"| {name} | {k} | {frequency:.4g} Hz | {place} | {' | '.join(told)} |", flush=True)
+                for name, column, unit in READINGS:
+                    read = [one if name == "displacement" else one.get(name) for one in motions]
+                    if None in read:
+                        continue
+                    of = lambda key, form: ", ".join(form(one[key]) for one in read) + f" {unit}"
+                    told = [
+                        of("peak", lambda one: f"{1e3 * one['value']:.4g} (+{1e3 * one['error']:.2g})"),
+                        ", ".join(f"{1e3 * one[column]:.4g}" for one in other),
+                        of("rms", lambda one: f"{1e3 * one['value']:.4g} ({1e3 * one['error']:.2g})"),
+                        ", ".join(f"{1e3 * one[column + 1]:.4g}" for one in other),
+                    ]
+                    told = [pathlib.Path(path).stem, str(k), f"{frequency:.4g} Hz", place, name, *told]
+                    print(f"| {' | '.join(told)} |", flush=True)
 
 
 main()

@@ -3,7 +3,8 @@
    Reads, in SI units: modes N, absorbers M; of each mode its frequency in Hz, damping ratio, mass, force and its shape at the place
    that is watched and at each absorber; of each absorber mass, clearance and restitution; the excitation's frequency in Hz, a seed,
    periods that are left out and periods that are measured. Prints the largest displacement of the place in m, its root mean
-   square, impacts of each absorber in a period, and the phase of the last impact of each, over the period, with its speed then.
+   square, the same of its velocity and of its acceleration between contacts, impacts of each absorber in a period, and the phase of
+   the last impact of each, over the period, with its speed then.
    cc -O2 simulate.c -lm */
 #include <math.h>
 #include <stdio.h>
@@ -70,6 +71,27 @@ static int beyond(void)
     return worst;
 }
 
+/* The acceleration of the place that is watched. */
+static double acceleration(double t)
+{
+    double all = 0, s = sin(omega * t);
+    for (int k = 0; k < modes; k++)
+        all += watched[k] * (force[k] / mass[k] * s - 2 * damping[k] * w[k] * v[k] - w[k] * w[k] * q[k]);
+    return all;
+}
+
+/* Displacement, velocity and acceleration of the place: the largest, and sums of squares at ends of steps. */
+static double peaks[3], squares[3];
+
+static void measure(double t, int ends)
+{
+    double now[3] = {sum(q, watched), sum(v, watched), acceleration(t)};
+    for (int n = 0; n < 3; n++) {
+        if (fabs(now[n]) > peaks[n]) peaks[n] = fabs(now[n]);
+        if (ends) squares[n] += now[n] * now[n];
+    }
+}
+
 static double number(void)
 {
     double value;
@@ -89,7 +111,7 @@ int main(void)
     for (int j = 0; j < absorbers; j++) ball[j] = number(), clearance[j] = number(), restitution[j] = number();
     omega = 2 * M_PI * number();
     srand((unsigned)number());
-    double fastest = omega, out = number(), measured = number(), peak = 0, squares = 0;
+    double fastest = omega, out = number(), measured = number();
     double share = 1.2 * rand() / RAND_MAX;
     long impacts[MOST] = {0};
     double last[MOST][2] = {{0}};
@@ -132,6 +154,7 @@ int main(void)
             }
             t += inside;
             left -= inside;
+            if (i >= first) measure(t, 0);
             double relative = at(j, v) - u[j], yields = 1 / ball[j];
             for (int k = 0; k < modes; k++) yields += shape[k][j] * shape[k][j] / mass[k];
             if (relative * (at(j, q) - y[j]) > 0) {
@@ -141,17 +164,13 @@ int main(void)
                 last[j][0] = fmod(omega * t / (2 * M_PI), 1), last[j][1] = fabs(u[j]);
                 if (i >= first) impacts[j]++;
             }
-            if (i >= first && fabs(sum(q, watched)) > peak) peak = fabs(sum(q, watched));
+            if (i >= first) measure(t, 0);
         }
-        if (i >= first) {
-            double x = sum(q, watched);
-            squares += x * x;
-            if (fabs(x) > peak) peak = fabs(x);
-        }
+        if (i >= first) measure((double)(i % each + 1) * step, 1);
     }
-    printf("%.9e %.9e", peak, sqrt(squares / (double)(steps - first)));
-    for (int j = 0; j < absorbers; j++) printf(" %.6f", (double)impacts[j] / measured);
-    for (int j = 0; j < absorbers; j++) printf(" %.15f %.15e", last[j][0], last[j][1]);
+    for (int n = 0; n < 3; n++) printf("%.9e %.9e ", peaks[n], sqrt(squares[n] / (double)(steps - first)));
+    for (int j = 0; j < absorbers; j++) printf("%.6f ", (double)impacts[j] / measured);
+    for (int j = 0; j < absorbers; j++) printf("%.15f %.15e ", last[j][0], last[j][1]);
     printf("\n");
     return 0;
 }

@@ -21,7 +21,7 @@ use vinesink_core::names;
 names! { key:
     /// Keys of the table, each for a measure. Over a band the worst place of it counts.
     #[derive(schemars::JsonSchema)]
-    enum Subject {
+    pub(super) enum Subject {
         /// Share of the band in area Z3 of the theory, strips included.
         Z3Share = "z3_share",
         /// Share of the band with a stable symmetric 1:1 orbit.
@@ -93,7 +93,7 @@ impl Criterion {
 }
 
 impl Subject {
-    fn measure(self) -> Measure {
+    pub(super) fn measure(self) -> Measure {
         match self {
             Self::Z3Share => Measure::Z3Share,
             Self::StableShare => Measure::StableShare,
@@ -123,7 +123,7 @@ impl Subject {
         }
     }
 
-    fn dimension(self) -> Option<Dimension> {
+    pub(super) fn dimension(self) -> Option<Dimension> {
         self.measure().kind(Device::Absorber).map(|kind| kind.dimension)
     }
 }

@@ -85,7 +85,7 @@ pub(super) fn add_names<T: JsonSchema>(schema: &mut Schema, of: impl Fn(&str) ->
 /// Gives a table one more key, behind those of its struct.
 pub(super) fn add_key(schema: &mut Schema, key: &str, property: Value) {
     let object = schema.ensure_object();
-    object["properties"][key] = property;
+    object.entry("properties").or_insert_with(|| json!({}))[key] = property;
     let keys = object.entry("x-keys").or_insert_with(|| json!([]));
     keys.as_array_mut().into_iter().for_each(|keys| keys.push(key.into()));
 }

@@ -4,6 +4,7 @@ use super::ModalError;
 use super::linear::{amplitudes, largest, linear_places};
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
+use crate::measure::PlaceMeasure;
 use crate::motions::{ModalMotion, longest_flight, modal_at_rest, modal_motions};
 use crate::numerics::scan;
 
@@ -14,7 +15,7 @@ pub struct AlongLoad {
     pub load: Load,
     /// Frequencies in Hz, ascending, with their motions.
     pub places: Vec<AtFrequency>,
-    /// For each place of the structure its largest displacement without absorbers, and where in Hz.
+    /// For each place of the structure its largest displacement without absorbers in m, and where in Hz.
     pub bare: Vec<[f64; 2]>,
 }
 
@@ -27,7 +28,7 @@ pub struct AtFrequency {
     pub motions: Vec<ModalMotion>,
 }
 
-/// The largest displacement of a place along a load, of any motion.
+/// The largest of what is measured of a place along a load, of any motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstOfPlace {
     /// Which load.
@@ -36,14 +37,14 @@ pub struct WorstOfPlace {
     pub place: usize,
     /// Where in Hz.
     pub at: f64,
-    /// In m.
-    pub peak: f64,
+    /// What it is, in SI units.
+    pub value: f64,
     /// By how much it may be larger: by the error of any motion along the load, and by what may lie between the frequencies.
     pub error: f64,
-    /// The largest of the motions that have settled.
-    pub settled_peak: f64,
+    /// The largest that it is at least in a motion that has settled.
+    pub settled: f64,
     /// Whether every motion has settled.
-    pub settled: bool,
+    pub all_settled: bool,
     /// Whether every absorber rests in it.
     pub rests: bool,
 }
@@ -97,7 +98,7 @@ impl AlongLoad {
             places.sort_by(|a, b| a.at.total_cmp(&b.at));
             places.dedup_by(|a, b| a.at == b.at);
             if round < ROUNDS {
-                wanted = beside_worst(&places, case.places.len());
+                wanted = beside_worst(&places, case);
             }
         }
         let bare = (0..case.places.len())
@@ -107,48 +108,58 @@ impl AlongLoad {
 
     /// The worst of a place; none where no motion was found. Between the frequencies it may be worse by as much as the top of the
     /// parabola through the worst and its neighbours is higher.
-    pub fn worst(&self, load: usize, place: usize) -> Option<WorstOfPlace> {
+    pub fn worst(&self, load: usize, place: usize, asked: PlaceMeasure) -> Option<WorstOfPlace> {
         let motions = || {
             let each = self.places.iter().enumerate();
             each.flat_map(|(k, here)| here.motions.iter().map(move |motion| (k, motion)))
         };
-        let of = |motion: &ModalMotion| motion.places[place];
-        let worst = motions().max_by(|a, b| of(a.1).peak.total_cmp(&of(b.1).peak));
+        let of = |motion: &ModalMotion| measured(motion, place, asked);
+        let worst = motions().max_by(|a, b| of(a.1)[0].total_cmp(&of(b.1)[0]));
         let (k, motion) = worst?;
-        let (at, peak) = (self.places[k].at, of(motion).peak);
-        let reach = motions().map(|(_, one)| of(one).peak + of(one).error).fold(peak, f64::max);
+        let (at, value) = (self.places[k].at, of(motion)[0]);
+        let reach = motions().map(|(_, one)| of(one).iter().sum()).fold(value, f64::max);
         // What rests is looked for between the frequencies as well; what moves is held against neighbours of its kind.
         let moving = motions().filter(|(_, one)| !one.rests());
-        let moving = moving.max_by(|a, b| of(a.1).peak.total_cmp(&of(b.1).peak));
-        let between = moving.map_or(0.0, |(k, one)| self.between(k, place, of(one).peak));
+        let moving = moving.max_by(|a, b| of(a.1)[0].total_cmp(&of(b.1)[0]));
+        let between = moving.map_or(0.0, |(k, one)| self.between(k, place, asked, of(one)[0]));
         let error = match moving {
-            Some((_, one)) if motion.rests() => reach.max(of(one).peak + between) - peak,
-            _ => reach - peak + between,
+            Some((_, one)) if motion.rests() => reach.max(of(one)[0] + between) - value,
+            _ => reach - value + between,
         };
-        let settled = motions().filter(|(_, one)| one.settled).map(|(_, one)| of(one).peak);
+        let settled = motions().filter(|(_, one)| one.settled).map(|(_, one)| {
+            let [value, error] = of(one);
+            // A peak was seen; a mean may be smaller.
+            if asked.mean { value - error } else { value }
+        });
         Some(WorstOfPlace {
             load,
             place,
             at,
-            peak,
+            value,
             error,
-            settled_peak: settled.fold(0.0, f64::max),
-            settled: motions().all(|(_, one)| one.settled),
+            settled: settled.fold(0.0, f64::max),
+            all_settled: motions().all(|(_, one)| one.settled),
             rests: motion.rests(),
         })
     }
 
-    /// By how much motions in which absorbers move may displace a place farther than at the frequency where they do so most: the top
-    /// of the parabola through that and its neighbours.
-    fn between(&self, k: usize, place: usize, peak: f64) -> f64 {
+    /// By how much it may be more, where absorbers move, than at the frequency where it is most: the top of the parabola through that
+    /// and its neighbours.
+    fn between(&self, k: usize, place: usize, asked: PlaceMeasure, value: f64) -> f64 {
         let at = self.places[k].at;
         let beside = |there: Option<&AtFrequency>| {
             let there = there?;
-            Some([there.at - at, there.peak(place, false)? - peak])
+            Some([there.at - at, there.largest(place, asked, false)? - value])
         };
         let [left, right] = neighbours(&self.places, k).map(beside);
         left.zip(right).map_or(0.0, |(left, right)| top_above(left, right))
     }
+}
+
+/// What is measured of a place in a motion, in SI units, and its error.
+pub(super) fn measured(motion: &ModalMotion, place: usize, asked: PlaceMeasure) -> [f64; 2] {
+    let read = motion.read(asked.reads).nth(place);
+    read.map_or([f64::NAN, 0.0], |read| if asked.mean { read.rms } else { [read.peak, read.error] })
 }
 
 impl AtFrequency {
@@ -159,14 +170,14 @@ impl AtFrequency {
         starts: u32,
     ) -> Result<Self, ModalError> {
         let system = case.system(load, at)?;
-        let motions = modal_motions(&system, &case.shapes(), starts, case.periods)?;
+        let motions = modal_motions(&system, &case.sensors(), starts, case.periods)?;
         Ok(Self { at, motions })
     }
 
-    /// The largest displacement of a place, also with every absorber at rest or not.
-    fn peak(&self, place: usize, rests: bool) -> Option<f64> {
+    /// The largest of what is measured of a place, also with every absorber at rest or not.
+    fn largest(&self, place: usize, asked: PlaceMeasure, rests: bool) -> Option<f64> {
         let motions = self.motions.iter().filter(|one| rests || !one.rests());
-        motions.map(|one| one.places[place].peak).max_by(f64::total_cmp)
+        motions.map(|one| measured(one, place, asked)[0]).max_by(f64::total_cmp)
     }
 }
 
@@ -178,11 +189,11 @@ fn reach_at_rest(case: &ModalCase, load: &Load, at: f64) -> f64 {
     reach.fold(0.0, f64::max)
 }
 
-/// For each place of the structure the frequency at which it moves farthest while every absorber rests, with that motion: often where
-/// a wall begins to reach one.
+/// For each sensor of the structure the frequency at which it reads most while every absorber rests, with that motion: often where a
+/// wall begins to reach one.
 pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, ModalMotion)> {
-    let shapes = case.shapes();
-    let at_rest = |at: f64| modal_at_rest(&case.system(load, at).ok()?, &shapes);
+    let sensors = case.sensors();
+    let at_rest = |at: f64| modal_at_rest(&case.system(load, at).ok()?, &sensors);
     let mut all = linear_places(load.range_hz, case);
     // An absorber may be near a node of the structure's motion in a range of frequencies that no two of these hold.
     let reaches: Vec<f64> = all.iter().map(|at| reach_at_rest(case, load, *at)).collect();
@@ -217,8 +228,8 @@ pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, Modal
     all.sort_by(f64::total_cmp);
     let there: Vec<(f64, ModalMotion)> =
         all.into_iter().filter_map(|at| Some((at, at_rest(at)?))).collect();
-    let of_place = |p: usize| {
-        let peak = |motion: &ModalMotion| motion.places[p].peak;
+    let of_sensor = |n: usize| {
+        let peak = |motion: &ModalMotion| motion.sensors[n].peak;
         let k =
             (0..there.len()).max_by(|a, b| peak(&there[*a].1).total_cmp(&peak(&there[*b].1)))?;
         let mut best = there[k].clone();
@@ -234,7 +245,7 @@ pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, Modal
         });
         Some(best)
     };
-    let mut farthest: Vec<_> = (0..case.places.len()).filter_map(of_place).collect();
+    let mut farthest: Vec<_> = (0..sensors.len()).filter_map(of_sensor).collect();
     farthest.dedup_by(|a, b| a.0 == b.0);
     farthest
 }
@@ -257,14 +268,16 @@ fn neighbours(places: &[AtFrequency], k: usize) -> [Option<&AtFrequency>; 2] {
     [places[..k].iter().rev().find(apart), places[k + 1..].iter().find(apart)]
 }
 
-/// Frequencies half way to the neighbours of the worst of each place: of all motions, and of those in which an absorber moves.
-fn beside_worst(places: &[AtFrequency], count: usize) -> Vec<f64> {
+/// Frequencies half way to the neighbours of the worst of all that is measured of each place: of all motions, and of those in which an
+/// absorber moves.
+fn beside_worst(places: &[AtFrequency], case: &ModalCase) -> Vec<f64> {
     let mut wanted: Vec<f64> = Vec::new();
-    for (p, rests) in (0..count).flat_map(|p| [(p, true), (p, false)]) {
-        let peak = |k: &usize| places[*k].peak(p, rests).unwrap_or_default();
-        let Some(k) = (0..places.len()).max_by(|a, b| peak(a).total_cmp(&peak(b))) else {
-            continue;
-        };
+    let measures = case.measures();
+    let each = measures.iter().flat_map(|asked| (0..case.places.len()).map(move |p| (p, *asked)));
+    for ((p, asked), rests) in each.flat_map(|one| [(one, true), (one, false)]) {
+        let largest = |k: &usize| places[*k].largest(p, asked, rests).unwrap_or_default();
+        let most = (0..places.len()).max_by(|a, b| largest(a).total_cmp(&largest(b)));
+        let Some(k) = most else { continue };
         let here = places[k].at;
         for there in neighbours(places, k).into_iter().flatten() {
             let middle = 0.5 * (here + there.at);
@@ -300,14 +313,14 @@ mod tests {
             );
             let case = ModalCase::parse("case.toml", &text).expect("a case");
             let load = &case.loads[0];
-            let shapes = case.shapes();
+            let sensors = case.sensors();
             let farthest = farthest_at_rest(&case, load);
             for p in 0..2 {
                 let at = |k: u32| low + (high - low) * f64::from(k) / 3e3;
-                let motion = |k: u32| modal_at_rest(&case.system(load, at(k)).ok()?, &shapes);
-                let scanned = (0..=3_000).filter_map(motion).map(|one| one.places[p].peak);
+                let motion = |k: u32| modal_at_rest(&case.system(load, at(k)).ok()?, &sensors);
+                let scanned = (0..=3_000).filter_map(motion).map(|one| one.sensors[p].peak);
                 let scanned = scanned.fold(0.0, f64::max);
-                let found = farthest.iter().map(|one| one.1.places[p].peak).fold(0.0, f64::max);
+                let found = farthest.iter().map(|one| one.1.sensors[p].peak).fold(0.0, f64::max);
                 assert!(found >= scanned, "{number} {p}: {found} {scanned}");
             }
         }

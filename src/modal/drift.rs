@@ -67,7 +67,7 @@ impl OffStructure {
         Ok(Self {
             off,
             bare: linear(&[]),
-            worst: answer.worst(None, None),
+            worst: answer.worst(None),
             criteria: answer.criteria(),
             dampers: choices.iter().map(with).collect(),
         })

@@ -13,6 +13,7 @@ mod optimum;
 use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion, RewriteError};
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
+use crate::measure::PlaceMeasure;
 use crate::method::Method;
 use crate::motions::longest_flight;
 use crate::orbits::{ModalOrbit, antiperiodic_orbits};
@@ -77,35 +78,45 @@ impl ModalAnswer {
         answer
     }
 
-    /// The worst of a place, or of all, under a load, or under any.
-    pub fn worst(&self, place: Option<usize>, load: Option<usize>) -> Option<WorstOfPlace> {
+    /// The largest displacement of any place under a load, or under any.
+    pub fn worst(&self, load: Option<usize>) -> Option<WorstOfPlace> {
+        self.worst_of(PlaceMeasure::PEAK, None, load)
+    }
+
+    /// The worst of what is measured of a place, or of all, under a load, or under any.
+    pub fn worst_of(
+        &self,
+        asked: PlaceMeasure,
+        place: Option<usize>,
+        load: Option<usize>,
+    ) -> Option<WorstOfPlace> {
         let loads = self.along.iter().enumerate().filter(|(k, _)| load.is_none_or(|one| one == *k));
         let all = loads.flat_map(|(k, along)| {
             let places = 0..along.bare.len();
             let places = places.filter(move |p| place.is_none_or(|one| one == *p));
-            places.filter_map(move |p| along.worst(k, p))
+            places.filter_map(move |p| along.worst(k, p, asked))
         });
         let all: Vec<WorstOfPlace> = all.collect();
-        let worst = all.iter().copied().max_by(|a, b| a.peak.total_cmp(&b.peak))?;
+        let worst = all.iter().copied().max_by(|a, b| a.value.total_cmp(&b.value))?;
         let largest = |of: fn(&WorstOfPlace) -> f64| all.iter().map(of).fold(0.0, f64::max);
         Some(WorstOfPlace {
-            error: largest(|one| one.peak + one.error) - worst.peak,
-            settled_peak: largest(|one| one.settled_peak),
-            settled: all.iter().all(|one| one.settled),
+            error: largest(|one| one.value + one.error) - worst.value,
+            settled: largest(|one| one.settled),
+            all_settled: all.iter().all(|one| one.all_settled),
             ..worst
         })
     }
 
     fn judge(&self, case: &ModalCase, asked: &PlaceCriterion) -> Option<JudgedPlace> {
-        let worst = self.worst(asked.place, None)?;
+        let worst = self.worst_of(asked.measure, asked.place, None)?;
         let decided_by = if worst.rests { Method::ClosedForm } else { Method::Simulation };
         // What has settled may fail it, whatever else there is.
-        let fails = worst.settled_peak > asked.criterion.limit;
+        let fails = worst.settled > asked.criterion.limit;
         let system = case.system(&case.loads[worst.load], worst.at).ok();
         let followed = system.map_or(0, |system| longest_flight(&system, case.periods) as u64);
-        let undecided = (!worst.settled && !fails).then_some(followed);
+        let undecided = (!worst.all_settled && !fails).then_some(followed);
         let judged =
-            Judged::of_worst(&asked.criterion, [worst.peak, worst.error], decided_by, undecided);
+            Judged::of_worst(&asked.criterion, [worst.value, worst.error], decided_by, undecided);
         Some(JudgedPlace { place: asked.place, worst, judged })
     }
 
@@ -171,8 +182,8 @@ pub fn modes_alone(
             ..case.clone()
         };
         let along = AlongLoad::of(&alone, &load, on)?;
-        let all = (0..case.places.len()).filter_map(|p| along.worst(number, p));
-        Ok(all.max_by(|a, b| a.peak.total_cmp(&b.peak)))
+        let all = (0..case.places.len()).filter_map(|p| along.worst(number, p, PlaceMeasure::PEAK));
+        Ok(all.max_by(|a, b| a.value.total_cmp(&b.value)))
     });
     each.collect()
 }

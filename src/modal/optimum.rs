@@ -7,11 +7,12 @@
 
 use std::cmp::Ordering;
 
-use super::along::farthest_at_rest;
+use super::along::{farthest_at_rest, measured};
 use super::{ModalAnswer, ModalError};
 use crate::case::{Bounds, Load, ModalCase, PlacedAbsorber, Rounding};
 use crate::criteria::Outcome;
 use crate::executor::Executor;
+use crate::measure::PlaceMeasure;
 use crate::motions::{ModalMotion, modal_motions};
 use crate::optimize::search::{shortlist, spread_out};
 
@@ -36,8 +37,8 @@ pub struct JudgedAbsorbers {
     pub text: String,
     /// What they do, as `check` finds it.
     pub answer: ModalAnswer,
-    /// The largest displacement that any motion may have, over what a criterion allows, of the worst one; without criteria over
-    /// that of the structure alone.
+    /// The most that any motion may have of what a criterion is about, over what that allows, of the worst one; without criteria the
+    /// largest displacement over that of the structure alone.
     pub reach: f64,
 }
 
@@ -56,8 +57,9 @@ impl JudgedAbsorbers {
     fn of(case: ModalCase, text: String, on: &dyn Executor) -> Result<Self, ModalError> {
         let answer = ModalAnswer::of(&case, on)?;
         let limits = limits(&case, &answer);
-        let reach = |(place, limit): &(Option<usize>, f64)| {
-            answer.worst(*place, None).map_or(f64::INFINITY, |one| (one.peak + one.error) / limit)
+        let reach = |one: &Limit| {
+            let worst = answer.worst_of(one.measure, one.place, None);
+            worst.map_or(f64::INFINITY, |worst| (worst.value + worst.error) / one.most)
         };
         let reach = limits.iter().map(reach).fold(0.0, f64::max);
         Ok(Self { case, text, answer, reach })
@@ -99,7 +101,7 @@ impl ModalOptimum {
         let limits = limits(case, &own.answer);
         let looked_at = frequencies(case, &own.answer, &limits);
         let own_reach = looked_at.first().map_or(f64::INFINITY, |(_, _, reach)| *reach);
-        let count = numbers(case);
+        let (count, sensors) = (numbers(case), case.sensors());
         let score = |parts: &[f64], best: f64| {
             let candidate = candidate(case, parts);
             let at_rest = case.loads.iter().flat_map(|load| farthest_at_rest(&candidate, load));
@@ -107,8 +109,8 @@ impl ModalOptimum {
             let (known, mut reach) = (best.max(-own_reach), over_limits(&at_rest, &limits));
             for (load, at, _) in &looked_at {
                 let found = candidate.system(load, *at).ok();
-                let found = found
-                    .and_then(|system| modal_motions(&system, &case.shapes(), FEW_STARTS, 0).ok());
+                let found =
+                    found.and_then(|system| modal_motions(&system, &sensors, FEW_STARTS, 0).ok());
                 let Some(motions) = found else { return f64::NEG_INFINITY };
                 reach = reach.max(over_limits(&motions, &limits));
                 if -reach < known {
@@ -137,22 +139,34 @@ pub fn checks(case: &ModalCase) -> f64 {
     first as f64 * few + (JUDGED + 1) as f64
 }
 
-/// Places and what is allowed there in m; of a case without criteria each place and what it has without absorbers.
-fn limits(case: &ModalCase, answer: &ModalAnswer) -> Vec<(Option<usize>, f64)> {
-    if case.criteria.is_empty() {
-        let bare = answer.along.iter().flat_map(|along| &along.bare);
-        return vec![(None, bare.map(|[most, _]| *most).fold(0.0, f64::max))];
-    }
-    case.criteria.iter().map(|one| (one.place, one.criterion.limit)).collect()
+/// What is allowed of a place, or of all.
+struct Limit {
+    measure: PlaceMeasure,
+    place: Option<usize>,
+    /// In SI units.
+    most: f64,
 }
 
-/// The largest displacement of any motion over what is allowed.
-fn over_limits(motions: &[ModalMotion], limits: &[(Option<usize>, f64)]) -> f64 {
+/// What criteria allow; of a case without them the displacement that it has without absorbers.
+fn limits(case: &ModalCase, answer: &ModalAnswer) -> Vec<Limit> {
+    if case.criteria.is_empty() {
+        let bare = answer.along.iter().flat_map(|along| &along.bare);
+        let most = bare.map(|[most, _]| *most).fold(0.0, f64::max);
+        return vec![Limit { measure: PlaceMeasure::PEAK, place: None, most }];
+    }
+    let of = case.criteria.iter();
+    of.map(|one| Limit { measure: one.measure, place: one.place, most: one.criterion.limit })
+        .collect()
+}
+
+/// The most of any motion over what is allowed.
+fn over_limits(motions: &[ModalMotion], limits: &[Limit]) -> f64 {
     let of = |motion: &ModalMotion| {
-        let over = |(place, limit): &(Option<usize>, f64)| {
-            let places = motion.places.iter().enumerate();
-            let asked = places.filter(|(p, _)| place.is_none_or(|one| one == *p));
-            asked.map(|(_, one)| one.peak).fold(0.0, f64::max) / limit
+        let over = |one: &Limit| {
+            let places = 0..motion.read(one.measure.reads).count();
+            let asked = places.filter(|p| one.place.is_none_or(|place| place == *p));
+            let values = asked.map(|p| measured(motion, p, one.measure)[0]);
+            values.fold(0.0, f64::max) / one.most
         };
         limits.iter().map(over).fold(0.0, f64::max)
     };
@@ -160,11 +174,7 @@ fn over_limits(motions: &[ModalMotion], limits: &[(Option<usize>, f64)]) -> f64 
 }
 
 /// Loads and frequencies that candidates are flown at with what the case's own absorbers come to, those first where that is worst.
-fn frequencies(
-    case: &ModalCase,
-    own: &ModalAnswer,
-    limits: &[(Option<usize>, f64)],
-) -> Vec<(Load, f64, f64)> {
+fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<(Load, f64, f64)> {
     let mut found = Vec::new();
     for along in &own.along {
         let over = |k: usize| over_limits(&along.places[k].motions, limits);

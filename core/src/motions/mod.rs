@@ -43,7 +43,7 @@ pub use facts::{Facts, Value};
 pub use follow::{DiagramError, DiagramPoint, SweepDirection, carried_over, follow, sweep};
 pub use identity::orbit_of;
 pub use measured::{Measured, Window, measured};
-pub use modal::{ModalMotion, PlaceExtent, longest_flight, modal_at_rest, modal_motions};
+pub use modal::{ModalMotion, SensorExtent, longest_flight, modal_at_rest, modal_motions};
 pub use repetition::Repetition;
 pub use rest::{Rest, RestKind};
 pub use search::motions;

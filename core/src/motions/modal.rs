@@ -12,27 +12,29 @@ use crate::numerics::scatter::{
 };
 use crate::orbits::{antiperiodic_orbits, orbit_state};
 use crate::simulation::{
-    Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, ModalStartError, PlaceMotion,
-    Stop,
+    Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, ModalStartError, Reading,
+    Sensor, SensorRecord, Stop,
 };
 use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
 
-/// What one place does in a long-term motion.
+/// What a sensor reads in a long-term motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct PlaceExtent {
-    /// Largest absolute displacement that was seen.
+pub struct SensorExtent {
+    /// What it reads.
+    pub reads: Reading,
+    /// The largest without its sign that was seen.
     pub peak: f64,
     /// By how much a run ten times as long may exceed it, at odds of 19 to 1; 0 of what repeats.
     pub error: f64,
-    /// Root mean square of the displacement, and twice its standard error by the scatter between blocks.
+    /// Root mean square, and twice its standard error by the scatter between blocks.
     pub rms: [f64; 2],
 }
 
 /// A long-term motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ModalMotion {
-    /// What each place does that was asked for.
-    pub places: Vec<PlaceExtent>,
+    /// What each sensor reads.
+    pub sensors: Vec<SensorExtent>,
     /// Impacts of each absorber per excitation period, and twice their standard error.
     pub impacts_per_period: Vec<[f64; 2]>,
     /// Excitation periods after which it repeats; none where that was not seen.
@@ -43,7 +45,7 @@ pub struct ModalMotion {
     pub largest_multiplier: Option<f64>,
     /// Starts that led to it; none of an orbit that attracts all the same.
     pub starts: u32,
-    /// The largest displacement of each place in each block, over all starts.
+    /// The largest that each sensor reads in each block, over all starts.
     #[serde(skip)]
     block_peaks: Vec<Vec<f64>>,
 }
@@ -76,23 +78,22 @@ const SAME: f64 = 0.02;
 /// The same of those that do.
 const SAME_REPEATING: f64 = 1e-6;
 
-/// The long-term motions at places with these values of each mode, from so many starts, that from rest among them; the most
-/// common first. Where every absorber can rest, that motion is the last. What does not repeat is measured for at least so
+/// The long-term motions that these sensors read, from so many starts, that from rest among them; the most common first. Where every absorber can rest, that motion is the last. What does not repeat is measured for at least so
 /// many excitation periods.
 ///
 /// # Errors
 /// [`ModalStartError`] where the structure's own motion is not finite.
 pub fn modal_motions(
     system: &ModalSystem,
-    places: &[Vec<f64>],
+    sensors: &[Sensor],
     starts: u32,
     periods: u64,
 ) -> Result<Vec<ModalMotion>, ModalStartError> {
-    let orbits = attracting(system, places)?;
+    let orbits = attracting(system, sensors)?;
     let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
-    let mut rest = modal_at_rest(system, places);
+    let mut rest = modal_at_rest(system, sensors);
     for k in 0..starts {
-        let motion = from_start(system, places, &start(system, k), periods, &orbits)?;
+        let motion = from_start(system, sensors, &start(system, k), periods, &orbits)?;
         // What is left of a transient then is no other motion.
         if let Some(rest) = rest.as_mut().filter(|_| motion.rests()) {
             rest.starts += 1;
@@ -117,41 +118,41 @@ struct Attracting {
 /// The exact orbits that attract, each measured over a period of its own.
 fn attracting(
     system: &ModalSystem,
-    places: &[Vec<f64>],
+    sensors: &[Sensor],
 ) -> Result<Vec<Attracting>, ModalStartError> {
     let stable = antiperiodic_orbits(system).into_iter().filter(|orbit| orbit.stable());
     let each = stable.map(|orbit| {
         let state = orbit_state(system, &orbit);
         let mut simulation = ModalSimulation::new(system, &state, 0.0)?;
-        let block = Block::fly(&mut simulation, system, places, 1);
+        let block = Block::fly(&mut simulation, system, sensors, 1);
         let radius = orbit.spectral_radius();
         let multiplier = Some(radius * radius);
         let motion = ModalMotion {
             largest_multiplier: multiplier,
             starts: 0,
-            ..ModalMotion::of(&[block], Some(1), true)
+            ..ModalMotion::of(sensors, &[block], Some(1), true)
         };
         Ok(Attracting { state, motion })
     });
     each.collect()
 }
 
-/// Every absorber at rest where no wall reaches it, with the largest displacement of places with these values of each mode: in
-/// closed form. None where a wall reaches one.
-pub fn modal_at_rest(system: &ModalSystem, places: &[Vec<f64>]) -> Option<ModalMotion> {
+/// Every absorber at rest where no wall reaches it, as these sensors read it: in closed form. None where a wall reaches one.
+pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMotion> {
     let reach = |j: usize| system.steady_motion_at(j).amplitude();
     let rests = |(j, one): (usize, &ModalAbsorber)| reach(j) < one.clearance;
     if !system.absorbers().iter().enumerate().all(rests) {
         return None;
     }
-    let amplitudes = ModalAmplitudes::of(system, &[], places).places;
-    let extent = |peak: &f64| PlaceExtent {
-        peak: *peak,
-        error: 0.0,
-        rms: [peak * std::f64::consts::FRAC_1_SQRT_2, 0.0],
+    let shapes: Vec<Vec<f64>> = sensors.iter().map(|one| one.shape.clone()).collect();
+    let amplitudes = ModalAmplitudes::of(system, &[], &shapes).places;
+    let extent = |(sensor, amplitude): (&Sensor, f64)| {
+        let peak = sensor.of_sine(amplitude, system.frequency_ratio());
+        let rms = [peak * std::f64::consts::FRAC_1_SQRT_2, 0.0];
+        SensorExtent { reads: sensor.reads, peak, error: 0.0, rms }
     };
     Some(ModalMotion {
-        places: amplitudes.iter().map(extent).collect(),
+        sensors: sensors.iter().zip(amplitudes).map(extent).collect(),
         impacts_per_period: vec![[0.0; 2]; system.absorbers().len()],
         repeats_after: Some(1),
         settled: true,
@@ -230,7 +231,7 @@ fn distance(of: &ModalState, other: &ModalState) -> f64 {
 
 /// What a block of periods came to.
 struct Block {
-    places: Vec<PlaceMotion>,
+    sensors: Vec<SensorRecord>,
     impacts: Vec<f64>,
     /// After how many periods the last state was there before.
     repeats_after: Option<u32>,
@@ -241,15 +242,15 @@ impl Block {
     fn fly(
         simulation: &mut ModalSimulation,
         system: &ModalSystem,
-        places: &[Vec<f64>],
+        sensors: &[Sensor],
         periods: u64,
     ) -> Self {
-        let mut observer = (ModalMeter::new(system, places), Seen::default());
+        let mut observer = (ModalMeter::new(system, sensors), Seen::default());
         simulation.run(periods, periods * MOST_IMPACTS, &mut observer);
         let (meter, seen) = observer;
         let counts = &seen.impacts[..system.absorbers().len()];
         let impacts = counts.iter().map(|all| *all as f64 / periods as f64).collect();
-        Self { places: meter.places(), impacts, repeats_after: seen.repeats_after() }
+        Self { sensors: meter.records(), impacts, repeats_after: seen.repeats_after() }
     }
 }
 
@@ -276,7 +277,7 @@ pub fn longest_flight(system: &ModalSystem, periods: u64) -> f64 {
 /// The motion that a start leads to.
 fn from_start(
     system: &ModalSystem,
-    places: &[Vec<f64>],
+    sensors: &[Sensor],
     start: &ModalState,
     periods: u64,
     orbits: &[Attracting],
@@ -290,15 +291,15 @@ fn from_start(
             return Some(ModalMotion { starts: 1, ..near.motion.clone() });
         }
         let after = repeats_after?;
-        let period = Block::fly(simulation, system, places, after.into());
-        Some(ModalMotion::of(&[period], Some(after), true))
+        let period = Block::fly(simulation, system, sensors, after.into());
+        Some(ModalMotion::of(sensors, &[period], Some(after), true))
     };
     for _ in 0..DECAYS {
         let mut seen = Seen::default();
         let left = MOST_OF_START.saturating_sub(simulation.impacts());
         if simulation.run(decay, left, &mut seen) != Stop::EndTime {
-            let seen = Block::fly(&mut simulation, system, places, GIVEN_UP);
-            return Ok(ModalMotion::of(&[seen], None, false));
+            let seen = Block::fly(&mut simulation, system, sensors, GIVEN_UP);
+            return Ok(ModalMotion::of(sensors, &[seen], None, false));
         }
         if let Some(known) = known(&mut simulation, seen.repeats_after()) {
             return Ok(known);
@@ -312,32 +313,35 @@ fn from_start(
         }
         blocks.clear();
         for _ in 0..BLOCKS {
-            let block = Block::fly(&mut simulation, system, places, block);
+            let block = Block::fly(&mut simulation, system, sensors, block);
             if let Some(known) = known(&mut simulation, block.repeats_after) {
                 return Ok(known);
             }
             blocks.push(block);
         }
-        let rms = |one: &Block, p: usize| one.places[p].mean_square.sqrt();
-        drifting = (0..places.len())
-            .any(|p| drifts(&blocks.iter().map(|one| rms(one, p)).collect::<Vec<_>>()));
+        let rms = |one: &Block, n: usize| one.sensors[n].mean_square.sqrt();
+        drifting = (0..sensors.len())
+            .filter(|n| sensors[*n].reads == Reading::Displacement)
+            .any(|n| drifts(&blocks.iter().map(|one| rms(one, n)).collect::<Vec<_>>()));
     }
-    Ok(ModalMotion::of(&blocks, None, !drifting && decay_periods(system) <= LONGEST))
+    Ok(ModalMotion::of(sensors, &blocks, None, !drifting && decay_periods(system) <= LONGEST))
 }
 
 impl ModalMotion {
-    fn of(blocks: &[Block], repeats_after: Option<u32>, settled: bool) -> Self {
+    fn of(sensors: &[Sensor], blocks: &[Block], repeats_after: Option<u32>, settled: bool) -> Self {
         let known = |values: &[f64]| {
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let error = if values.len() > 1 { twice_standard_error(values) } else { 0.0 };
             [mean, error]
         };
-        let extent = |p: usize| {
-            let peaks: Vec<f64> = blocks.iter().map(|one| one.places[p].peak).collect();
-            let squares: Vec<f64> = blocks.iter().map(|one| one.places[p].mean_square).collect();
+        let peaks = |n: usize| blocks.iter().map(|one| one.sensors[n].peak).collect::<Vec<f64>>();
+        let extent = |n: usize| {
+            let peaks = peaks(n);
+            let squares: Vec<f64> = blocks.iter().map(|one| one.sensors[n].mean_square).collect();
             let [square, error] = known(&squares);
             let rms = square.sqrt();
-            PlaceExtent {
+            SensorExtent {
+                reads: sensors[n].reads,
                 peak: peaks.iter().copied().fold(0.0, f64::max),
                 error: error_of_largest(&peaks),
                 rms: [rms, if rms > 0.0 { 0.5 * error / rms } else { 0.0 }],
@@ -345,17 +349,14 @@ impl ModalMotion {
         };
         let impacts =
             |j: usize| known(&blocks.iter().map(|one| one.impacts[j]).collect::<Vec<_>>());
-        let (places, absorbers) = (blocks[0].places.len(), blocks[0].impacts.len());
         Self {
-            places: (0..places).map(extent).collect(),
-            impacts_per_period: (0..absorbers).map(impacts).collect(),
+            sensors: (0..sensors.len()).map(extent).collect(),
+            impacts_per_period: (0..blocks[0].impacts.len()).map(impacts).collect(),
             repeats_after,
             settled,
             largest_multiplier: None,
             starts: 1,
-            block_peaks: (0..places)
-                .map(|p| blocks.iter().map(|one| one.places[p].peak).collect())
-                .collect(),
+            block_peaks: (0..sensors.len()).map(peaks).collect(),
         }
     }
 
@@ -364,7 +365,12 @@ impl ModalMotion {
         self.impacts_per_period.iter().all(|[count, _]| *count == 0.0)
     }
 
-    /// Whether it is another flight of the same motion.
+    /// What sensors of a kind read, in their order.
+    pub fn read(&self, reads: Reading) -> impl Iterator<Item = &SensorExtent> {
+        self.sensors.iter().filter(move |one| one.reads == reads)
+    }
+
+    /// Whether it is another flight of the same motion, by its displacements, whatever else is read.
     fn is_same(&self, other: &Self) -> bool {
         let repeats = self.repeats_after.is_some();
         let share = if repeats { SAME_REPEATING } else { SAME };
@@ -372,11 +378,13 @@ impl ModalMotion {
             (a - b).abs() <= share * a.max(b) + of_a + of_b
         };
         let peaks =
-            |a: &PlaceExtent, b: &PlaceExtent| !repeats || near([a.peak, 0.0], [b.peak, 0.0]);
-        let places = self.places.iter().zip(&other.places);
+            |a: &SensorExtent, b: &SensorExtent| !repeats || near([a.peak, 0.0], [b.peak, 0.0]);
+        let displaced =
+            |one: &'_ Self| one.read(Reading::Displacement).copied().collect::<Vec<_>>();
+        let (own, of) = (displaced(self), displaced(other));
         let impacts = self.impacts_per_period.iter().zip(&other.impacts_per_period);
         repeats == other.repeats_after.is_some()
-            && places.into_iter().all(|(a, b)| peaks(a, b) && near(a.rms, b.rms))
+            && own.iter().zip(&of).all(|(a, b)| peaks(a, b) && near(a.rms, b.rms))
             && impacts.into_iter().all(|(a, b)| near(*a, *b))
     }
 
@@ -385,10 +393,10 @@ impl ModalMotion {
         self.starts += other.starts;
         self.settled &= other.settled;
         let peaks = self.block_peaks.iter_mut().zip(&other.block_peaks);
-        for (place, (own, of)) in self.places.iter_mut().zip(peaks) {
+        for (sensor, (own, of)) in self.sensors.iter_mut().zip(peaks) {
             own.extend(of);
-            place.peak = own.iter().copied().fold(place.peak, f64::max);
-            place.error = error_of_largest(own) * error_of_largest_of(self.starts);
+            sensor.peak = own.iter().copied().fold(sensor.peak, f64::max);
+            sensor.error = error_of_largest(own) * error_of_largest_of(self.starts);
         }
     }
 }

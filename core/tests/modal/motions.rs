@@ -3,6 +3,7 @@
 use vinesink_core::linear::{ModalAmplitudes, ModalDamper, TunedMassDamper, bare_amplitude};
 use vinesink_core::motions::modal_motions;
 use vinesink_core::orbits::FullSystem;
+use vinesink_core::simulation::Sensor;
 use vinesink_core::system::{
     Cavity, Excitation, ModalAbsorber, ModalParameters, ModalSystem, Mode, Parameters, System,
 };
@@ -66,11 +67,12 @@ fn the_motion_of_one_mode_and_one_absorber_is_its_exact_orbit() {
     for omega in [1.0, 8.5 / 8.349, 1.025] {
         let (system, modal) = one(omega);
         let Some(peak) = FullSystem::of(&system).attracting_peak() else { continue };
-        let motions = modal_motions(&modal, &[vec![1.0]], 4, 0).expect("they fly");
+        let motions =
+            modal_motions(&modal, &[Sensor::displacement(vec![1.0])], 4, 0).expect("they fly");
         let orbit = motions.iter().find(|one| one.repeats_after == Some(1) && !one.rests());
         let orbit = orbit.expect("the orbit attracts");
-        assert!((orbit.places[0].peak / peak - 1.0).abs() < 1e-9, "{omega}: {orbit:?} {peak}");
-        assert!(orbit.settled && orbit.places[0].error < 1e-9, "{orbit:?}");
+        assert!((orbit.sensors[0].peak / peak - 1.0).abs() < 1e-9, "{omega}: {orbit:?} {peak}");
+        assert!(orbit.settled && orbit.sensors[0].error < 1e-9, "{orbit:?}");
         assert!((orbit.impacts_per_period[0][0] - 2.0).abs() < 1e-12, "{orbit:?}");
         assert!(orbit.largest_multiplier.is_some_and(|one| one < 1.0), "{orbit:?}");
         seen += 1;

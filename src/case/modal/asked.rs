@@ -1,30 +1,52 @@
 //! What is asked of a structure of several modes: limits by place, and the bounds of better absorbers.
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::DeValue;
 
 use super::place::find_place;
 use super::{Bounds, PlaceCriterion};
-use crate::case::criteria::{Criterion, possible};
+use crate::case::criteria::{Criterion, Subject, possible};
 use crate::case::number::{Form, sign_of};
 use crate::case::reader::{Reader, Table};
+use crate::case::schema::add_key;
 use crate::case::value::ValuePlace;
-use crate::measure::Measure;
 use crate::quantity::Dimension;
+
+/// What may be asked of a place.
+const SUBJECTS: [(Subject, &str); 6] = [
+    (Subject::PeakDisplacement, "Largest absolute displacement"),
+    (Subject::RmsDisplacement, "Root mean square displacement"),
+    (Subject::PeakVelocity, "Largest absolute velocity; of an impact that before and behind it"),
+    (Subject::RmsVelocity, "Root mean square velocity"),
+    (Subject::Acceleration, "Largest absolute acceleration between impacts"),
+    (Subject::RmsAcceleration, "Root mean square acceleration between impacts"),
+];
 
 /// What the structure must achieve.
 #[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
-pub(super) struct ModalCriteriaTable {
-    /// Largest absolute displacement, at the worst place; of one place, or several, as a table or a list of tables
-    /// with `limit` and `place`.
-    #[schemars(with = "Value", example = &"<= 4 mm")]
-    #[expect(dead_code, reason = "read as a text, a table or a list")]
-    #[serde(default)]
-    peak_displacement: (),
+#[schemars(extend("additionalProperties" = false), transform = with_subjects)]
+pub(super) struct ModalCriteriaTable {}
+
+/// An example of a limit.
+fn example(subject: Subject) -> &'static str {
+    match subject.dimension() {
+        Some(Dimension::Velocity) => "<= 20 mm/s",
+        Some(Dimension::Acceleration) => "<= 0.05 g",
+        _ => "<= 4 mm",
+    }
+}
+
+fn with_subjects(schema: &mut Schema) {
+    for (subject, what) in SUBJECTS {
+        let description = format!(
+            "{what}: of the worst place as a text; of one place, or several, as a table or a list of tables with `limit` and `place`."
+        );
+        let property = json!({ "description": description, "examples": [example(subject)] });
+        add_key(schema, subject.key(), property);
+    }
 }
 
 /// Within which bounds `vinesink optimize` looks. The table may be left out.
@@ -74,11 +96,23 @@ pub(super) fn read_criteria(
     root: &Table,
     places: &[String],
 ) -> Vec<PlaceCriterion> {
-    const KEY: &str = "peak_displacement";
     let Some(table) = reader.table::<ModalCriteriaTable>(root, "criteria") else {
         return Vec::new();
     };
-    let Some(value) = table.value(KEY) else { return Vec::new() };
+    let each = SUBJECTS.into_iter();
+    each.flat_map(|(subject, _)| read_limits(reader, &table, subject, places)).collect()
+}
+
+/// Limits of one subject.
+fn read_limits(
+    reader: &mut Reader,
+    table: &Table,
+    subject: Subject,
+    places: &[String],
+) -> Vec<PlaceCriterion> {
+    let (key, example) = (subject.key(), example(subject));
+    let kind = subject.measure().of_place().zip(subject.dimension());
+    let Some((value, (measure, dimension))) = table.value(key).zip(kind) else { return Vec::new() };
     let mut found = Vec::new();
     let each: Vec<&Spanned<DeValue>> = match value.get_ref() {
         DeValue::Array(all) => all.iter().collect(),
@@ -99,36 +133,36 @@ pub(super) fn read_criteria(
         let text = limit.and_then(|value| Some((value, value.get_ref().as_str()?)));
         let sign = text.and_then(|(_, text)| sign_of(text, &["<=", "≤"]));
         let (Some((value, _)), Some(sign)) = (text, sign) else {
-            let help = "write peak_displacement = \"<= 4 mm\", or { limit = \"<= 4 mm\", place = \"tip\" }";
-            reader.report(
-                one.span(),
-                "a limit of `peak_displacement` is not written as one",
-                "expected \"<=\" and a length, in quotes",
-                help,
+            let help = format!(
+                "write {key} = \"{example}\", or {{ limit = \"{example}\", place = \"{}\" }}",
+                places.first().map_or("", String::as_str)
             );
+            let message = format!("a limit of `{key}` is not written as one");
+            let expected = "expected \"<=\" and a value with its unit, in quotes";
+            reader.report(one.span(), &message, expected, &help);
             continue;
         };
         let place_of = ValuePlace {
             table: "criteria",
-            key: KEY,
-            subject: format!("`{KEY}`"),
-            line: format!("{KEY} = \"<= 4 mm\""),
+            key,
+            subject: format!("`{key}`"),
+            line: format!("{key} = \"{example}\""),
             value,
             sign,
             alone: false,
         };
-        let form = Form::free(Some(Dimension::Length), "<= 4 mm", "");
+        let form = Form::free(Some(dimension), example, "");
         let as_written = reader.as_written(value.span());
         let limit = reader.number(&place_of, &form);
         let Some((limit, place)) = limit.zip(place) else { continue };
-        if let Err(problem) = possible(limit, &as_written, Dimension::Length) {
+        if let Err(problem) = possible(limit, &as_written, dimension) {
             let help = format!("write for example {}", place_of.line);
-            reader.refuse(&place_of, &problem, "expected a length above 0".to_owned(), help);
+            reader.refuse(&place_of, &problem, "expected a value above 0".to_owned(), help);
             continue;
         }
-        let criterion = Criterion::at_most(Measure::Peak, limit);
+        let criterion = Criterion::at_most(subject.measure(), limit);
         let criterion = criterion.map(|one| Criterion { as_written, ..one });
-        found.extend(criterion.map(|criterion| PlaceCriterion { place, criterion }));
+        found.extend(criterion.map(|criterion| PlaceCriterion { place, measure, criterion }));
     }
     found
 }

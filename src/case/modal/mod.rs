@@ -19,6 +19,8 @@ use super::error::CaseError;
 use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::digest::sha256;
+use crate::measure::PlaceMeasure;
+use crate::simulation::{Reading, Sensor};
 use vinesink_core::names;
 
 pub(super) use read::ModalFile;
@@ -43,7 +45,7 @@ pub struct ModalCase {
     pub absorbers: Vec<PlacedAbsorber>,
     /// What may drive it, one at a time.
     pub loads: Vec<Load>,
-    /// Limits of the displacement.
+    /// Limits of what places do.
     pub criteria: Vec<PlaceCriterion>,
     /// Starts at each frequency, that from rest among them.
     pub starts: u32,
@@ -159,12 +161,14 @@ impl Load {
     }
 }
 
-/// A limit of the peak displacement at a place, or at the worst one.
+/// A limit of what a place does, or the worst one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaceCriterion {
     /// Which place; none: every one.
     pub place: Option<usize>,
-    /// What is asked of it, in m.
+    /// What is measured there.
+    pub measure: PlaceMeasure,
+    /// What is asked of it, in SI units.
     pub criterion: Criterion,
 }
 
@@ -266,6 +270,30 @@ impl ModalCase {
     pub fn shapes(&self) -> Vec<Vec<f64>> {
         let places = 0..self.places.len();
         places.map(|p| self.modes.iter().map(|mode| mode.shape[p]).collect()).collect()
+    }
+
+    /// What is measured of its places: the largest displacement, and what else criteria ask for.
+    pub fn measures(&self) -> Vec<PlaceMeasure> {
+        let mut measures = vec![PlaceMeasure::PEAK];
+        for one in &self.criteria {
+            if !measures.contains(&one.measure) {
+                measures.push(one.measure);
+            }
+        }
+        measures
+    }
+
+    /// Sensors for that, in SI units: one for each place, of the displacement first.
+    pub fn sensors(&self) -> Vec<Sensor> {
+        let mut readings: Vec<Reading> = self.measures().iter().map(|one| one.reads).collect();
+        readings.sort_unstable();
+        readings.dedup();
+        let of = |reads: Reading| {
+            // The derivative by a time in seconds.
+            let scale = (0..reads as usize).fold(1.0, |scale, _| scale * self.omega());
+            self.shapes().into_iter().map(move |shape| Sensor { shape, reads, scale })
+        };
+        readings.into_iter().flat_map(of).collect()
     }
 
     /// Radians per unit of the dimensionless time: the first mode's natural frequency in rad/s.

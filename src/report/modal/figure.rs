@@ -5,6 +5,7 @@ use serde_json::Value;
 use super::{Beside, amplitude_of, units};
 use crate::case::{ActsOn, Load, ModalCase};
 use crate::linear::ModalDamper;
+use crate::measure::PlaceMeasure;
 use crate::modal::{ModalAnswer, OverForce, linear_peak, linear_places};
 use crate::motions::ModalMotion;
 use crate::quantity::catalogue as of;
@@ -13,6 +14,7 @@ use crate::report::figure::{
     AxisScale, Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
 use crate::report::transient::DAMPER;
+use crate::simulation::Reading;
 
 /// Several tuned mass dampers.
 const DAMPERS: Style = Style::new(Color::SkyBlue, 1.1, Dash::Solid);
@@ -33,8 +35,8 @@ pub(super) fn loads(
         if from == to {
             continue;
         }
-        let highest = along.places.iter().flat_map(|one| &one.motions).flat_map(|one| &one.places);
-        let highest = highest.map(|one| one.peak).fold(0.0, f64::max);
+        let highest = along.places.iter().flat_map(|one| &one.motions);
+        let highest = highest.map(most).fold(0.0, f64::max);
         let limit = tightest(case);
         let top = 1.15 * limit.map_or(highest, |limit| limit.max(highest));
         let x = AxisOf::si(units, &of::EXCITATION_FREQUENCY).axis([from, to]);
@@ -129,7 +131,7 @@ pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure
 
 /// The largest displacement of any place.
 fn most(motion: &ModalMotion) -> f64 {
-    motion.places.iter().map(|one| one.peak).fold(0.0, f64::max)
+    motion.read(Reading::Displacement).map(|one| one.peak).fold(0.0, f64::max)
 }
 
 /// With its panels below one another.
@@ -139,9 +141,10 @@ fn in_rows(figure: Figure) -> Figure {
     figure.with_layout(Layout::rows(&vec![1.0; count])).with_size(720, height)
 }
 
-/// The smallest limit of any place.
+/// The smallest limit of the displacement of any place.
 fn tightest(case: &ModalCase) -> Option<f64> {
-    case.criteria.iter().map(|one| one.criterion.limit).min_by(f64::total_cmp)
+    let of = case.criteria.iter().filter(|one| one.measure == PlaceMeasure::PEAK);
+    of.map(|one| one.criterion.limit).min_by(f64::total_cmp)
 }
 
 fn heading(case: &ModalCase, number: usize, load: &Load) -> String {

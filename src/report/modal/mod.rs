@@ -21,9 +21,10 @@ use crate::modal::{
     DamperChoice, ForceStep, JudgedPlace, ModalAnswer, ModalError, OffStructure, OverForce,
     WorstOfPlace, choices, modes_alone, off_structures,
 };
-use crate::motions::ModalMotion;
+use crate::motions::{ModalMotion, SensorExtent};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity, Units};
+use crate::simulation::Reading;
 use crate::system::Scales;
 
 pub use analysis::{analysis, analysis_text};
@@ -52,7 +53,7 @@ impl Beside {
         answer: &ModalAnswer,
         on: &dyn Executor,
     ) -> Result<Self, ModalError> {
-        let worst = |k: usize| answer.worst(None, Some(k)).map(|worst| worst.at);
+        let worst = |k: usize| answer.worst(Some(k)).map(|worst| worst.at);
         let each = answer.along.iter().enumerate();
         let forces = each.map(|(k, along)| OverForce::of(case, along, worst(k), on));
         let forces = forces.collect::<Result<_, _>>()?;
@@ -92,9 +93,9 @@ fn word(answer: &ModalAnswer) -> Word {
 
 /// Whether it moves less than without absorbers.
 fn against_alone(answer: &ModalAnswer) -> Word {
-    match answer.worst(None, None) {
-        Some(worst) if worst.peak + worst.error < bare(answer) => Word::Works,
-        Some(worst) if worst.peak > bare(answer) => Word::MakesItWorse,
+    match answer.worst(None) {
+        Some(worst) if worst.value + worst.error < bare(answer) => Word::Works,
+        Some(worst) if worst.value > bare(answer) => Word::MakesItWorse,
         Some(_) => Word::DoesNothing,
         None => Word::NoAnswer,
     }
@@ -176,12 +177,23 @@ fn load_row(case: &ModalCase, load: &Load) -> Value {
 }
 
 fn motion_row(motion: &ModalMotion) -> Value {
-    let places = motion.places.iter().map(|one| {
+    let row = |[peak, rms]: [&'static Kind; 2], one: &SensorExtent| {
         json!({
-            "peak": simulated(&of::PEAK, one.peak).with_error(one.error),
-            "rms": simulated(&of::RMS, one.rms[0]).with_error(one.rms[1]),
+            "peak": simulated(peak, one.peak).with_error(one.error),
+            "rms": simulated(rms, one.rms[0]).with_error(one.rms[1]),
         })
-    });
+    };
+    let displaced = motion.read(Reading::Displacement);
+    let mut places: Vec<Value> = displaced.map(|one| row([&of::PEAK, &of::RMS], one)).collect();
+    // What else criteria ask for.
+    for (reads, name, kinds) in [
+        (Reading::Velocity, "velocity", [&of::PEAK_VELOCITY, &of::RMS_VELOCITY]),
+        (Reading::Acceleration, "acceleration", [&of::PEAK_ACCELERATION, &of::RMS_ACCELERATION]),
+    ] {
+        for (place, one) in places.iter_mut().zip(motion.read(reads)) {
+            place[name] = row(kinds, one);
+        }
+    }
     json!({
         "starts": motion.starts,
         "repeats_after": motion.repeats_after,
@@ -190,7 +202,7 @@ fn motion_row(motion: &ModalMotion) -> Value {
         "rests": motion.rests(),
         "impacts_per_period": motion.impacts_per_period.iter().map(|[count, _]| count).collect::<Vec<_>>(),
         "largest_multiplier": motion.largest_multiplier,
-        "places": places.collect::<Vec<_>>(),
+        "places": places,
     })
 }
 
@@ -199,9 +211,9 @@ fn worst_row(case: &ModalCase, worst: &WorstOfPlace) -> Value {
         "load": worst.load,
         "place": case.places[worst.place],
         "at": given(&of::EXCITATION_FREQUENCY, worst.at),
-        "peak": simulated(&of::PEAK, worst.peak).with_error(worst.error),
-        "most": simulated(&of::PEAK, worst.peak + worst.error),
-        "settled": worst.settled,
+        "peak": simulated(&of::PEAK, worst.value).with_error(worst.error),
+        "most": simulated(&of::PEAK, worst.value + worst.error),
+        "settled": worst.all_settled,
         "rests": worst.rests,
     })
 }
@@ -223,8 +235,8 @@ fn off_row(case: &ModalCase, of_off: &OffStructure) -> Value {
 fn worst_off(all: &[OffStructure]) -> Option<Value> {
     let largest = |of: &dyn Fn(&OffStructure) -> f64| all.iter().map(of).fold(0.0, f64::max);
     let choices = all.first()?.dampers.len();
-    let peak = largest(&|one| one.worst.map_or(0.0, |worst| worst.peak));
-    let reach = largest(&|one| one.worst.map_or(0.0, |worst| worst.peak + worst.error));
+    let peak = largest(&|one| one.worst.map_or(0.0, |worst| worst.value));
+    let reach = largest(&|one| one.worst.map_or(0.0, |worst| worst.value + worst.error));
     let dampers = (0..choices).map(|k| closed(&of::DAMPER_PEAK, largest(&|one| one.dampers[k])));
     Some(json!({
         "off": largest(&|one| one.off),
@@ -237,7 +249,7 @@ fn worst_off(all: &[OffStructure]) -> Option<Value> {
 fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
     let rows = answer.along.iter().enumerate().map(|(k, along)| {
         let largest = along.bare.iter().max_by(|a, b| a[0].total_cmp(&b[0]));
-        let worst = answer.worst(None, Some(k));
+        let worst = answer.worst(Some(k));
         let here = worst.and_then(|worst| along.places.iter().find(|one| one.at == worst.at));
         json!({
             "load": load_row(case, &along.load),
@@ -249,7 +261,7 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
             "searched": here.map(|one| one.motions.iter().map(|motion| motion.starts).sum::<u32>()),
             "motions": here.map(|one| one.motions.iter().map(motion_row).collect::<Vec<_>>()),
             "alone": beside.alone.get(k).and_then(|one| one.as_ref()).map(|one| {
-                simulated(&of::PEAK, one.peak).with_error(one.error)
+                simulated(&of::PEAK, one.value).with_error(one.error)
             }),
             "dampers": beside.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, one.worst[k])).collect::<Vec<_>>(),
             "forces": beside.forces.get(k).and_then(|one| one.as_ref()).map(|one| forces_row(case, &along.load, one)),
@@ -288,8 +300,8 @@ pub fn document(
     content: Content,
 ) -> Value {
     let word = word(answer);
-    let worst = answer.worst(None, None);
-    let (bare, peak) = (bare(answer), worst.map_or(f64::NAN, |one| one.peak));
+    let worst = answer.worst(None);
+    let (bare, peak) = (bare(answer), worst.map_or(f64::NAN, |one| one.value));
     let error = worst.map_or(0.0, |one| one.error);
     let damper = beside.dampers.first().map(|one| one.worst.iter().copied().fold(0.0, f64::max));
     let level = |peak: f64| 20.0 * libm::log10(peak / bare);

@@ -13,18 +13,16 @@ use crate::report::template::render;
 fn candidate(found: &JudgedAbsorbers) -> Value {
     let loads = 0..found.case.loads.len();
     let peaks = loads.map(|k| {
-        found
-            .answer
-            .worst(None, Some(k))
-            .map(|one| simulated(&of::PEAK, one.peak).with_error(one.error))
+        let worst = found.answer.worst(Some(k));
+        worst.map(|one| simulated(&of::PEAK, one.value).with_error(one.error))
     });
     json!({
         "absorbers": absorbers(&found.case),
         "criteria": criteria(&found.case, &found.answer),
         "all_hold": found.answer.all_hold(),
-        // The largest displacement that any motion may have over what is allowed.
+        // The most that any motion may have of what a criterion is about, over what is allowed.
         "reach": found.reach,
-        "worst": found.answer.worst(None, None).map(|one| worst_row(&found.case, &one)),
+        "worst": found.answer.worst(None).map(|one| worst_row(&found.case, &one)),
         "loads": peaks.collect::<Vec<_>>(),
     })
 }

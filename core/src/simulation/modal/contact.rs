@@ -7,6 +7,8 @@
 //! `F^2 = f^T M^-1 f`. So `abs(phi^T u')` is bounded by that root times `sqrt(phi^T M^-1 phi)`, and the certified search needs
 //! no more. The masses only lower the frequencies.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::flight::{LARGEST_TOUCH, clear_of_wall};
 use super::motion::{Gap, View, sine_and_cosine};
 use super::{All, Course, Detail, MOST, ModalObserver, ModalSegment, ModalSimulation, STILL, Told};
@@ -39,7 +41,7 @@ const RELAXATIONS: usize = 2000;
 
 type Vector = [f64; MOST];
 
-pub(super) fn dot(a: &Vector, b: &Vector) -> f64 {
+fn dot(a: &Vector, b: &Vector) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -87,12 +89,11 @@ impl All {
 pub(super) struct HeldPanel {
     /// Derivatives of the modes' coordinates at its beginning.
     derivatives: [Vector; LAST + 1],
-    modes: usize,
     phase: f64,
     frequency: f64,
     length: f64,
-    /// `sqrt(u'^T M u' + u^T K u)` of the motion and its first five derivatives, at most.
-    energies: [f64; 6],
+    /// `sqrt(u'^T M u' + u^T K u)` of the motion and its first seven derivatives, at most.
+    energies: [f64; 8],
     inverse: Inverse,
 }
 
@@ -137,8 +138,7 @@ impl HeldPanel {
             work *= frequency;
             energy
         });
-        let (modes, inverse) = (all.modes, inverse.clone());
-        Self { derivatives, modes, phase, frequency, length, energies, inverse }
+        Self { derivatives, phase, frequency, length, energies, inverse: inverse.clone() }
     }
 
     /// A derivative of a mode's coordinate.
@@ -148,12 +148,6 @@ impl HeldPanel {
             sum = self.derivatives[n][k] + sum * (s * INVERSES[n - order]);
         }
         sum
-    }
-
-    /// The modes' coordinates, and the sine of the phase.
-    pub(super) fn place(&self, s: f64) -> (Vector, f64) {
-        let [sin, _] = sine_and_cosine(self.phase + self.frequency * s);
-        (std::array::from_fn(|k| if k < self.modes { self.mode(k, s, 0) } else { 0.0 }), sin)
     }
 
     pub(super) fn state(&self, s: f64) -> ModalState {
@@ -174,7 +168,7 @@ impl HeldPanel {
         }
     }
 
-    /// What a derivative of what is seen, of order 1 to 6, does not exceed.
+    /// What a derivative of what is seen, of order 1 to 8, does not exceed.
     pub(super) fn bound(&self, view: &View<MOST>, order: usize) -> f64 {
         let power = (0..order).fold(1.0, |product, _| product * self.frequency);
         let seen = dot(&view.shape, &self.inverse.times(&view.shape));
@@ -192,6 +186,16 @@ pub(super) struct Sight {
 }
 
 impl Sight {
+    /// What a derivative of it, of a small order, looks like.
+    pub(super) fn derivative(self, order: usize) -> Self {
+        (0..order).fold(self, |of, _| {
+            let mut derivatives = [0.0; LAST + 1];
+            derivatives[..LAST].copy_from_slice(&of.derivatives[1..]);
+            let base = of.base * of.frequency;
+            Self { derivatives, base, phase: of.phase + FRAC_PI_2, frequency: of.frequency }
+        })
+    }
+
     /// A derivative.
     pub(super) fn at(&self, s: f64, order: usize) -> f64 {
         let mut sum = 0.0;

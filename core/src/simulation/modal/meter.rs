@@ -1,11 +1,12 @@
-//! The largest displacement of places of the structure, and its mean square: not sampled.
+//! The largest displacement of places of the structure, and its mean square: not sampled; and the same of their velocities and
+//! accelerations, whose phasors are those of the displacement times `p_k`, once or twice.
 //!
-//! In each panel the displacement lies between the coefficients of its quintic in Bernstein's form, with the remainder that is
+//! In each panel what is read lies between the coefficients of its quintic in Bernstein's form, with the remainder that is
 //! proven: only where these exceed what is known is a panel divided, where its quintic is level, until nothing is left but a
 //! part of [`PEAK_ERROR`]. The square of a flight is integrated in closed form; where absorbers rest on walls, by the rule of
 //! Gauss and Legendre with [`NODES`] nodes, whose error in panels of 0.5 rad is below `1e-15` of the squared amplitude.
 
-use super::contact::{HeldPanel, dot};
+use super::contact::HeldPanel;
 use super::motion::{Constants, Gap, Phasors, View};
 use super::{All, Course, MOST, ModalObserver, ModalSegment, STILL};
 use crate::numerics::gauss;
@@ -21,49 +22,94 @@ const NODES: usize = 7;
 const MOST_PARTS: usize = 200;
 const MOST_OPEN: usize = 64;
 
-/// What a place has done.
+/// What is read of the motion of a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Reading {
+    /// Its displacement.
+    Displacement,
+    /// Its velocity: of an impact that before and behind it.
+    Velocity,
+    /// Its acceleration between impacts.
+    Acceleration,
+}
+
+/// Reads `scale` times the displacement `z + sum_k phi_k q_k` of a place, or a derivative of it by the fast time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensor {
+    /// Value of each mode's shape; what a place has none of is 0.
+    pub shape: Vec<f64>,
+    /// What is read.
+    pub reads: Reading,
+    /// What it is times: 1, or what makes SI units of it.
+    pub scale: f64,
+}
+
+impl Sensor {
+    /// Of the displacement, as it is.
+    pub const fn displacement(shape: Vec<f64>) -> Self {
+        Self { shape, reads: Reading::Displacement, scale: 1.0 }
+    }
+
+    /// What it reads at most of a sine of this amplitude and frequency.
+    pub fn of_sine(&self, amplitude: f64, frequency: f64) -> f64 {
+        (0..self.reads as usize).fold(self.scale * amplitude, |value, _| value * frequency)
+    }
+}
+
+/// What a sensor has read.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PlaceMotion {
-    /// Largest absolute displacement.
+pub struct SensorRecord {
+    /// The largest without its sign.
     pub peak: f64,
-    /// Mean of the squared displacement over the time measured.
+    /// Mean of the square over the time measured.
     pub mean_square: f64,
 }
 
-/// Measures the displacement `z + sum_k phi_k q_k` of places.
+/// Reads sensors.
 #[derive(Debug, Clone)]
 pub struct ModalMeter {
-    views: Vec<View<MOST>>,
+    /// What each reads, as the order of a derivative, and how it sees the motion.
+    views: Vec<(usize, View<MOST>)>,
     rule: Vec<(f64, f64)>,
     peaks: Vec<f64>,
     squares: Vec<f64>,
     time: f64,
 }
 
+/// The largest order of a derivative.
+const MOST_ORDER: usize = Reading::Acceleration as usize;
+
 impl ModalMeter {
-    /// For places with these values of each mode; what a place has none of is 0.
-    pub fn new(system: &ModalSystem, places: &[Vec<f64>]) -> Self {
+    /// Of a structure, for these sensors.
+    pub fn new(system: &ModalSystem, sensors: &[Sensor]) -> Self {
         let all = All::of(system);
-        let views = places.iter().map(|shape| {
+        let frequency = all.constants.frequency;
+        let views = sensors.iter().map(|Sensor { shape, reads, scale }| {
             let shape = &shape[..shape.len().min(all.modes)];
             let base = LinearResponse { sine: all.base, cosine: 0.0 };
             let steady = shape.iter().zip(&all.steady).fold(base, |sum, (phi, [s, c])| {
                 LinearResponse { sine: sum.sine + phi * s, cosine: sum.cosine + phi * c }
             });
-            all.constants.view(shape, all.base, steady, 1.0)
+            let order = *reads as usize;
+            let steady = (0..order).fold(steady, |of, _| LinearResponse {
+                sine: -frequency * of.cosine,
+                cosine: frequency * of.sine,
+            });
+            (order, all.constants.view(shape, all.base, steady, 1.0 / scale))
         });
         Self {
             views: views.collect(),
             rule: gauss::uniform(NODES),
-            peaks: vec![0.0; places.len()],
-            squares: vec![0.0; places.len()],
+            peaks: vec![0.0; sensors.len()],
+            squares: vec![0.0; sensors.len()],
             time: 0.0,
         }
     }
 
-    /// What each place has done since the meter was made.
-    pub fn places(&self) -> Vec<PlaceMotion> {
-        let of = |(peak, square): (&f64, &f64)| PlaceMotion {
+    /// What each has read since the meter was made.
+    pub fn records(&self) -> Vec<SensorRecord> {
+        let of = |(peak, square): (&f64, &f64)| SensorRecord {
             peak: *peak,
             mean_square: if self.time > 0.0 { square / self.time } else { 0.0 },
         };
@@ -78,12 +124,18 @@ impl ModalObserver for ModalMeter {
         match &segment.course {
             Course::Free(begin) => {
                 self.add_squares(all, begin, whole);
-                match all.modes {
-                    1 => self.find_peaks::<1>(all, begin, whole),
-                    2 => self.find_peaks::<2>(all, begin, whole),
-                    3 => self.find_peaks::<3>(all, begin, whole),
-                    4 => self.find_peaks::<4>(all, begin, whole),
-                    _ => self.find_peaks::<MOST>(all, begin, whole),
+                let mut derived = *begin;
+                for order in 0..=MOST_ORDER {
+                    if self.views.iter().any(|one| one.0 == order) {
+                        match all.modes {
+                            1 => self.find_peaks::<1>(all, order, &derived, whole),
+                            2 => self.find_peaks::<2>(all, order, &derived, whole),
+                            3 => self.find_peaks::<3>(all, order, &derived, whole),
+                            4 => self.find_peaks::<4>(all, order, &derived, whole),
+                            _ => self.find_peaks::<MOST>(all, order, &derived, whole),
+                        }
+                    }
+                    derived = all.constants.derivative(&derived);
                 }
             }
             Course::Held(panel) => self.add_held(panel, whole),
@@ -92,15 +144,23 @@ impl ModalObserver for ModalMeter {
 }
 
 impl ModalMeter {
+    /// The peaks of sensors that read a derivative, whose phasors begin here.
     /// Where a flight cannot go beyond what is known, by the sizes of its phasors or by the ends of a panel and a bound on the
     /// acceleration between, nothing is looked at.
-    fn find_peaks<const N: usize>(&mut self, all: &All, begin: &Phasors<MOST>, whole: f64) {
+    fn find_peaks<const N: usize>(
+        &mut self,
+        all: &All,
+        order: usize,
+        begin: &Phasors<MOST>,
+        whole: f64,
+    ) {
         let all_sizes = all.constants.sizes(begin);
         let beyond = |view: &View<MOST>, peak: f64| {
             let free = view.shape.iter().zip(&all_sizes).map(|(phi, size)| phi.abs() * size);
             free.sum::<f64>() + view.steady_size > peak
         };
-        let watched = self.views.iter().zip(&mut self.peaks);
+        let watched = self.views.iter().zip(&mut self.peaks).filter(|(one, _)| one.0 == order);
+        let watched = watched.map(|((_, view), peak)| (view, peak));
         let mut watched: Vec<_> = watched.filter(|(view, peak)| beyond(view, **peak)).collect();
         if watched.is_empty() {
             return;
@@ -165,10 +225,12 @@ impl ModalMeter {
                 ];
             }
         }
-        for (view, sum) in self.views.iter().zip(&mut self.squares) {
+        let first = constants.derivative(begin);
+        let derived = [*begin, first, constants.derivative(&first)];
+        for ((order, view), sum) in self.views.iter().zip(&mut self.squares) {
             let [s, c] = view.steady;
             let mut terms = [Phasor::new(c, -s) * Phasor::new(cos, sin); MOST + 1];
-            for (k, [re, im]) in begin.z.iter().enumerate().take(all.modes) {
+            for (k, [re, im]) in derived[*order].z.iter().enumerate().take(all.modes) {
                 terms[k] = Phasor::new(*re, *im) * view.shape[k];
             }
             for (n, row) in means.iter().enumerate().take(all.modes + 1) {
@@ -182,27 +244,24 @@ impl ModalMeter {
     }
 
     fn add_held(&mut self, panel: &HeldPanel, whole: f64) {
-        let node =
-            |(node, weight): &(f64, f64)| (panel.place(0.5 * whole * (1.0 + node)), whole * weight);
-        let nodes: Vec<_> = self.rule.iter().map(node).collect();
-        for (n, view) in self.views.iter().enumerate() {
-            let sight = panel.sight(view);
+        for (n, (order, view)) in self.views.iter().enumerate() {
+            let sight = panel.sight(view).derivative(*order);
             let moment = |s: f64| Gap::of(sight.moment(s), STILL);
             let cube = whole * whole * whole;
-            let coefficient = panel.bound(view, 6) * cube * cube / 7200.0;
+            let coefficient = panel.bound(view, 6 + order) * cube * cube / 7200.0;
             let slack = Slack { coefficient, slope_squared: 0.0 };
             let ends = [moment(0.0), moment(whole)];
             self.peaks[n] = highest(moment, ends, whole, slack, self.peaks[n]);
-            let square = |((modes, sin), weight): &((_, f64), f64)| {
-                let x = view.base * sin + dot(&view.shape, modes);
-                weight * x * x
+            let square = |(node, weight): &(f64, f64)| {
+                let x = sight.at(0.5 * whole * (1.0 + node), 0);
+                whole * weight * x * x
             };
-            self.squares[n] += nodes.iter().map(square).sum::<f64>();
+            self.squares[n] += self.rule.iter().map(square).sum::<f64>();
         }
     }
 }
 
-/// The largest displacement in a panel, or the one known.
+/// The largest that is read in a panel, or what is known.
 fn highest(
     moment: impl Fn(f64) -> Gap,
     [here, there]: [Gap; 2],

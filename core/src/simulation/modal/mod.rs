@@ -26,7 +26,7 @@ use super::path::{Path, StraightLine};
 use super::run::Stop;
 use crate::system::{MOST_MODES, ModalState, ModalSystem};
 
-pub use meter::{ModalMeter, PlaceMotion};
+pub use meter::{ModalMeter, Reading, Sensor, SensorRecord};
 
 const MOST: usize = MOST_MODES;
 /// What is seen from a place at rest.

@@ -316,6 +316,15 @@ impl<const N: usize, const M: usize> Constants<N, M> {
         there
     }
 
+    /// The phasors of the derivative: times `p_k`.
+    pub fn derivative(&self, of: &Phasors<N>) -> Phasors<N> {
+        let mut derived = *of;
+        for (z, mode) in derived.z.iter_mut().zip(&self.modes) {
+            *z = multiply(*z, [-mode.decay, mode.ringing]);
+        }
+        derived
+    }
+
     /// Next to it.
     #[inline(always)]
     pub fn nearby(&self, here: &Phasors<N>, e: f64) -> Phasors<N> {
