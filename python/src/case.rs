@@ -36,6 +36,14 @@ pub struct Case {
     stem: String,
 }
 
+/// Warnings of a case as the program says them of its text.
+pub fn warned(name: &str, text: &str, warnings: &[case::Problem]) -> Vec<String> {
+    let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let source = || NamedSource::new(name, visible.to_owned());
+    let shown = |one: &case::Problem| shown(&*Report::new(one.clone()).with_source_code(source()));
+    warnings.iter().map(shown).collect()
+}
+
 #[pymethods]
 impl Case {
     /// From its text; a record that it names is below `folder`, unless it may be anywhere.
@@ -90,11 +98,7 @@ impl Case {
 
     /// What is probably a slip in it, as the program says it of the text.
     fn warnings(&self) -> Vec<String> {
-        let visible = self.text.strip_prefix('\u{feff}').unwrap_or(&self.text);
-        let source = || NamedSource::new(&self.name, visible.to_owned());
-        let shown =
-            |one: &case::Problem| shown(&*Report::new(one.clone()).with_source_code(source()));
-        self.inner.warnings().iter().map(shown).collect()
+        warned(&self.name, &self.text, &self.inner.warnings())
     }
 
     /// Clearance, natural frequency and mass, which turn dimensionless numbers into the case's units.

@@ -8,7 +8,7 @@ use vinesink::case_input;
 use vinesink::modal::{ModalAnswer, ModalOptimum, orbits};
 use vinesink::report::modal::{Beside, analysis, checked, files, optimum, simulation};
 
-use crate::case::{not_read, reach};
+use crate::case::{not_read, reach, warned};
 use crate::report;
 use crate::work::{self, WorkState, json, refused};
 
@@ -64,6 +64,12 @@ impl ModalCase {
     #[getter]
     fn stem(&self) -> &str {
         &self.stem
+    }
+
+    /// What is probably a slip in it, as the program says it of the text.
+    fn warnings(&self) -> Vec<String> {
+        let name = if self.stem.is_empty() { "text" } else { &self.stem };
+        warned(name, &self.text, &self.inner.warnings)
     }
 
     #[getter]

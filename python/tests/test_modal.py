@@ -92,3 +92,11 @@ def test_what_it_is_not(path):
         vinesink.ModalCase.from_toml(path).clearance = "2 mm"
     with pytest.raises(vinesink.FileError):
         vinesink.ModalCase.from_toml("no/such.toml")
+
+
+def test_a_slip_is_warned_of_where_the_case_is_read(path):
+    path.write_text(SHORT.replace('"1 %"', "0.5", 1))
+    for read in (lambda: vinesink.ModalCase.from_toml(path), lambda: vinesink.ModalCase(path.read_text())):
+        with pytest.warns(vinesink.CaseWarning, match="a damping ratio is 50 %") as warned:
+            read()
+        assert [one.filename for one in warned] == [__file__]

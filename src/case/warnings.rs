@@ -9,17 +9,17 @@ use super::{BandOver, BandSettings, Case, Design, Rounding};
 use crate::quantity::numbers::rounded_to;
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
-const FAR_APART: f64 = 30.0;
+pub(super) const FAR_APART: f64 = 30.0;
 /// Ratios that a wrong prefix, kHz for Hz, explains: a thousand, and a drive up to a decade off resonance.
 const PREFIX: [f64; 2] = [100.0, 10_000.0];
 /// Ratios that turns per minute, written as per second, explain.
 const PER_MINUTE: [f64; 2] = [FAR_APART, 120.0];
 /// Damping ratio above which a structure hardly has a resonance.
-const HEAVY_DAMPING: f64 = 0.2;
+pub(super) const HEAVY_DAMPING: f64 = 0.2;
 /// Relative error that a damping ratio has after it became a damping and a ratio again: some roundings.
 const ROUNDING: f64 = 1e-12;
 /// Mass ratios between which an absorber is a small mass, and a mass at all.
-const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
+pub(super) const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
 /// Per cent that are told.
 const LARGEST: f64 = 1e12;
 /// Coefficient above which nothing slides.
@@ -270,7 +270,7 @@ impl Read<'_> {
 }
 
 /// What a frequency was meant to be, that is `ratio` times the one it should be near.
-fn meant(written: &str, frequency_hz: f64, ratio: f64, of_drive: bool) -> String {
+pub(super) fn meant(written: &str, frequency_hz: f64, ratio: f64, of_drive: bool) -> String {
     let apart = ratio.max(1.0 / ratio);
     let within = |[from, to]: [f64; 2]| (from..=to).contains(&apart);
     let factor = if ratio > 1.0 { 1e-3 } else { 1e3 };
@@ -284,14 +284,14 @@ fn meant(written: &str, frequency_hz: f64, ratio: f64, of_drive: bool) -> String
 }
 
 /// How large something is beside something else, "1000 times" or "1/1000 of".
-fn times(ratio: f64, than: &str) -> String {
+pub(super) fn times(ratio: f64, than: &str) -> String {
     match ratio > 1.0 {
         true => format!("{} times {than}", short(ratio)),
         false => format!("1/{} of {than}", short(1.0 / ratio)),
     }
 }
 
-fn hertz(frequency: f64) -> String {
+pub(super) fn hertz(frequency: f64) -> String {
     match frequency {
         high if high >= 1000.0 => format!("{} kHz", short(high / 1000.0)),
         low if low < 0.1 => format!("{} mHz", short(low * 1000.0)),
@@ -299,7 +299,7 @@ fn hertz(frequency: f64) -> String {
     }
 }
 
-fn percent(share: f64) -> String {
+pub(super) fn percent(share: f64) -> String {
     match 100.0 * share {
         told if told < LARGEST => format!("{} %", short(told)),
         _ => format!("more than {} %", short(LARGEST)),
@@ -307,7 +307,7 @@ fn percent(share: f64) -> String {
 }
 
 /// Three digits.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     match rounded_to(value, 3) {
         plain if (1e-4..1e7).contains(&plain) => plain.to_string(),
         far => format!("{far:e}"),

@@ -6,7 +6,7 @@ use clap::Args;
 use miette::{NamedSource, Report, Result, miette};
 
 use super::output;
-use crate::case::{Case, nearest};
+use crate::case::{Case, Problem, nearest};
 use crate::case_input::{self, AnyCase, CaseInputError};
 use crate::store::{self, Reach};
 
@@ -61,8 +61,9 @@ fn beside(path: &Path) -> Option<String> {
 pub fn read_any(path: &Path, reading: Reading) -> Result<(AnyCase, String)> {
     let read = case_input::read_any(path, reading.reach());
     let (case, text) = read.map_err(|error| refused(path, error))?;
-    if let AnyCase::One(case) = &case {
-        warn(path, case, &text);
+    match &case {
+        AnyCase::One(case) => warn(path, &case.warnings(), &text),
+        AnyCase::Several(case) => warn(path, &case.warnings, &text),
     }
     Ok((case, text))
 }
@@ -71,7 +72,7 @@ pub fn read_any(path: &Path, reading: Reading) -> Result<(AnyCase, String)> {
 pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
     let read = case_input::read(path, reading.reach());
     let (case, text) = read.map_err(|error| refused(path, error))?;
-    warn(path, &case, &text);
+    warn(path, &case.warnings(), &text);
     Ok((case, text))
 }
 
@@ -93,10 +94,10 @@ fn refused(path: &Path, error: CaseInputError) -> Report {
 }
 
 /// Says what is probably a slip.
-fn warn(path: &Path, case: &Case, text: &str) {
+fn warn(path: &Path, warnings: &[Problem], text: &str) {
     let name = path.display().to_string();
     let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
-    for warning in case.warnings() {
+    for warning in warnings {
         let source = NamedSource::new(&name, visible.to_owned());
         let shown = Report::new(warning.clone()).with_source_code(source);
         output::complain_of(&shown);

@@ -114,6 +114,49 @@ fn slips_are_told_where_they_are() {
     assert!(told.contains("there are 9 of [[absorber]]"), "{told}");
 }
 
+/// A slip of a unit or of a per cent sign is told where it is; shipped cases have none.
+#[test]
+fn slips_that_can_be_read_are_warned_of() {
+    let warned = |from: &str, to: &str| -> Vec<String> {
+        let good = text(MAST);
+        assert!(good.contains(from), "{from}");
+        let case = ModalCase::parse("case.toml", &good.replacen(from, to, 1)).expect("it is read");
+        let told = |one: &vinesink::case::Problem| {
+            format!("{}: {}; {}", one.line, one.message, one.help.as_deref().unwrap_or(""))
+        };
+        case.warnings.iter().map(told).collect()
+    };
+    assert_eq!(warned("title", "title"), [""; 0]);
+    for (from, to, words) in [
+        ("\"0.5 %\"", "0.5", ["9: a damping ratio is 50 %", "0.5 % (0.005)"]),
+        (
+            "\"3 kg\"",
+            "\"3 t\"",
+            ["27: `mass` = 3 t: the absorber has 300 times", "the units of its mass"],
+        ),
+        ("\"3 kg\"", "\"3 mg\"", ["27: `mass` = 3 mg", "the units of its mass"]),
+        (
+            "\"16.41 Hz\"\nto = \"21.24 Hz\"",
+            "\"16.41 kHz\"\nto = \"21.24 kHz\"",
+            ["16.41 kHz is 850 times", "for 16.4 Hz?"],
+        ),
+    ] {
+        let told = warned(from, to);
+        assert!(words.iter().all(|word| told[0].contains(word)), "{told:?}");
+    }
+    // Of modes in a file the file is named.
+    let case = text("cases/several/mast-two.toml");
+    let file = text("cases/several/mast.csv").replace("0.5", "50");
+    let modes = vinesink::case::ModesFile { name: "mast.csv".into(), text: file };
+    let told = ModalCase::parse_with("case.toml", &case, Some(modes)).expect("it is read").warnings;
+    assert!(told.len() == 1 && told[0].underlined.contains("mast.csv"), "{told:?}");
+    for path in ["floor", "graded", "mast-two"].map(|name| format!("cases/several/{name}.toml")) {
+        let read = read_any(Path::new(&path), Reach::Folder).expect("a shipped case").0;
+        let AnyCase::Several(case) = read else { panic!("{path}") };
+        assert!(case.warnings.is_empty(), "{path}: {:?}", case.warnings);
+    }
+}
+
 /// What knows one mode and one absorber says which commands know several.
 #[test]
 fn other_commands_say_who_reads_it() {

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from pathlib import Path
 from typing import Any
 
 from . import _vinesink
-from ._case import Progress, _told
+from ._case import CaseWarning, Progress, _level, _told
 from ._results import Check, Record
 
 
@@ -57,8 +58,13 @@ class ModalCase:
     _allow_outside: bool
 
     def __init__(self, text: str, *, folder: str | os.PathLike[str] = ".", allow_outside: bool = False) -> None:
-        self._folder, self._allow_outside = os.fspath(folder), allow_outside
-        self._core = _vinesink.ModalCase.parse("text", text, self._folder, allow_outside)
+        folder = os.fspath(folder)
+        self._keep(_vinesink.ModalCase.parse("text", text, folder, allow_outside), folder, allow_outside)
+
+    def _keep(self, core: _vinesink.ModalCase, folder: str, allow_outside: bool) -> None:
+        self._core, self._folder, self._allow_outside = core, folder, allow_outside
+        for warning in core.warnings():
+            warnings.warn(warning, CaseWarning, stacklevel=_level())
 
     @classmethod
     def from_toml(cls, source: str | os.PathLike[str], *, allow_outside: bool = False) -> ModalCase:
@@ -71,8 +77,8 @@ class ModalCase:
         if isinstance(source, str) and "\n" in source and "=" in source:
             return cls(source, allow_outside=allow_outside)
         case = cls.__new__(cls)
-        case._folder, case._allow_outside = str(Path(source).resolve().parent), allow_outside
-        case._core = _vinesink.ModalCase.read(source, allow_outside)
+        folder = str(Path(source).resolve().parent)
+        case._keep(_vinesink.ModalCase.read(source, allow_outside), folder, allow_outside)
         return case
 
     def __repr__(self) -> str:

@@ -7,6 +7,7 @@ mod place;
 mod read;
 mod table;
 mod universal;
+mod warnings;
 
 use std::ops::Range;
 
@@ -15,7 +16,7 @@ use toml::de::DeTable;
 use super::comment;
 use super::criteria::Criterion;
 use super::document;
-use super::error::CaseError;
+use super::error::{CaseError, Problem};
 use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::digest::sha256;
@@ -55,6 +56,8 @@ pub struct ModalCase {
     pub modes_file: Option<ModesFile>,
     /// Within which bounds better absorbers are looked for.
     pub bounds: Bounds,
+    /// What is almost surely a slip, in the order of the file's lines.
+    pub warnings: Vec<Problem>,
     /// Where the values of each absorber stand in the text, as [`AbsorberKey::ALL`].
     pub(crate) values: Vec<[Option<Range<usize>>; AbsorberKey::ALL.len()]>,
 }
@@ -216,7 +219,10 @@ impl ModalCase {
         let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
         let mut reader = Reader::of(visible);
         match read::read(&mut reader, &document, sha256(text.as_bytes()), modes.as_ref())? {
-            Some(case) if reader.problems.is_empty() => Ok(Self { modes_file: modes, ..case }),
+            Some((case, spans)) if reader.problems.is_empty() => {
+                let warnings = warnings::of(&case, visible, &spans);
+                Ok(Self { modes_file: modes, warnings, ..case })
+            }
             _ => Err(refused(reader.problems, reader.more)),
         }
     }

@@ -12,6 +12,7 @@ use super::asked::{ModalCriteriaTable, ModalOptimizeTable, read_bounds, read_cri
 use super::file::{ModesTable, modes_of_file};
 use super::place::find_place;
 use super::table::{Modes, ModesFile};
+use super::warnings::Spans;
 use super::{AbsorberKey, ActsOn, Load, ModalCase, PlacedAbsorber, StructuralMode};
 use crate::case::Heading;
 use crate::case::error::CaseError;
@@ -175,7 +176,7 @@ pub(super) fn read(
     document: &DeTable,
     text_hash: String,
     file: Option<&ModesFile>,
-) -> Result<Option<ModalCase>, CaseError> {
+) -> Result<Option<(ModalCase, Spans)>, CaseError> {
     let own = fields::<ModalTables>();
     let of_one: Vec<&str> = fields::<crate::case::Tables>()
         .iter()
@@ -196,9 +197,15 @@ pub(super) fn read(
         reader.report(root.span_of(name), message, expected, help);
     }
     let heading = reader.read::<Heading>(&root);
+    let mut spans = Spans::default();
     let (places, modes) = match root.has("modes") {
-        true => modes_of_file(reader, &root, file)?,
-        false => read_modes(reader, &root),
+        true => {
+            let read = modes_of_file(reader, &root, file)?;
+            spans.damping =
+                damping_of_file(&root).map_or(Vec::new(), |span| vec![span; read.1.len()]);
+            read
+        }
+        false => read_modes(reader, &root, &mut spans.damping),
     };
     let (mut absorbers, mut values) = (Vec::new(), Vec::new());
     for table in tables::<ModalAbsorberTable>(reader, &root, "absorber") {
@@ -225,7 +232,12 @@ pub(super) fn read(
     }
     let mut loads = Vec::new();
     for table in tables::<LoadTable>(reader, &root, "excitation") {
-        loads.extend(read_load(reader, &table, &places, &modes));
+        let keys = ["frequency", "from", "to"].into_iter().filter(|key| table.has(key));
+        let written = keys.map(|key| table.span_of_value(key)).collect();
+        if let Some(load) = read_load(reader, &table, &places, &modes) {
+            loads.push(load);
+            spans.frequencies.push(written);
+        }
     }
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
     if simulation.as_ref().is_some_and(|one| one.discard.is_some()) {
@@ -255,6 +267,7 @@ pub(super) fn read(
         periods,
         modes_file: None,
         bounds,
+        warnings: Vec::new(),
         values,
     };
     for load in &case.loads {
@@ -271,15 +284,24 @@ pub(super) fn read(
             }
         }
     }
-    Ok(Some(case))
+    Ok(Some((case, spans)))
 }
 
-/// Places and modes of the tables `[[mode]]`.
-fn read_modes(reader: &mut Reader, root: &Table) -> Modes {
+/// Where the table `[modes]` says the damping ratio of all modes, or else names their file.
+fn damping_of_file(root: &Table) -> Option<Range<usize>> {
+    let table = root.value("modes")?.get_ref().as_table()?;
+    ["damping_ratio", "file"].into_iter().find_map(|key| Some(table.get(key)?.span()))
+}
+
+/// Places and modes of the tables `[[mode]]`, and where each says its damping ratio.
+fn read_modes(reader: &mut Reader, root: &Table, damping: &mut Vec<Range<usize>>) -> Modes {
     let mut places: Vec<String> = Vec::new();
     let mut modes = Vec::new();
     for table in tables::<ModeTable>(reader, root, "mode") {
-        modes.extend(read_mode(reader, &table, &mut places));
+        if let Some(mode) = read_mode(reader, &table, &mut places) {
+            modes.push(mode);
+            damping.push(table.span_of_value("damping_ratio"));
+        }
     }
     let shapes: Vec<_> = modes.iter().map(|(_, shape)| shape.clone()).collect();
     let modes: Vec<StructuralMode> = modes

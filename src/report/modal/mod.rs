@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 use super::criteria::{Checked, row as criteria_row};
 use super::document::criteria::{badge, counted, row};
+use super::document::place::FilePlace;
 use super::document::{Content, Word, headed};
 use super::error::RenderError;
 use super::render::{Files, in_lines, page_files};
@@ -341,12 +342,17 @@ pub fn document(
             "each": each.collect::<Vec<_>>(),
         })
     });
+    let notes = warnings(case).into_iter().map(|one| {
+        let mut note = json!(one);
+        note["kind"] = json!("warning");
+        note
+    });
     let fields = json!({
         "name": name,
         "verdict": { "tone": word.tone(), "word": word, "headline": headline(answer) },
         "quantities": quantities,
         "criteria": criteria(case, answer),
-        "notes": [],
+        "notes": notes.collect::<Vec<_>>(),
         "band": null,
         "places_of_shapes": case.places,
         "modes": modes.collect::<Vec<_>>(),
@@ -400,21 +406,29 @@ pub fn text(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Result<String
     render("modal.txt", &units(case), &simulation(name, case, answer))
 }
 
+/// What is almost surely a slip in its file.
+fn warnings(case: &ModalCase) -> Vec<FilePlace> {
+    case.warnings.iter().map(FilePlace::from).collect()
+}
+
 /// What `check` says of it; `path` is that of its file.
 pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -> Checked {
     let units = units(case);
     let told = |one: &JudgedPlace| {
         placed(case, one, criteria_row(&units, &one.judged, Some(frequency(one))))
     };
-    let document = json!({
+    let mut document = json!({
         "case": name,
         "title": case.title,
         "holds": answer.all_hold(),
         "criteria": answer.judged.iter().map(told).collect::<Vec<_>>(),
         "loads": along(case, answer, &Beside::default()),
     });
+    if !case.warnings.is_empty() {
+        document["warnings"] = json!(warnings(case));
+    }
     let page = json!({
-        "path": path, "case": name, "warnings": [], "criteria": criteria(case, answer), "outside": null, "choice": null,
+        "path": path, "case": name, "warnings": warnings(case), "criteria": criteria(case, answer), "outside": null, "choice": null,
         "alternatives": null, "ranges": null, "combined": null, "reliability": null,
     });
     Checked::of(document, page, units)
