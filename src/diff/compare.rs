@@ -243,10 +243,14 @@ impl Comparator<'_> {
         }
     }
 
-    /// Lists along a band are counted: places are added where the amplitude is largest, and what a list says
-    /// is summed up in shares, peaks and criteria.
+    /// Lists along a band, or a load of a structure of several modes, are counted: places are added where the amplitude is
+    /// largest, and what a list says is summed up in shares, peaks and criteria.
     fn list(&mut self, path: &str, old: &[Value], new: &[Value]) {
-        if path.starts_with("band/") {
+        let along_load = || {
+            let key = without_elements(path);
+            ["loads/motions", "loads/places", "loads/forces/steps"].contains(&key.as_str())
+        };
+        if path.starts_with("band/") || along_load() {
             let folded = &mut self.found.folded;
             *(if old == new { &mut folded.same } else { &mut folded.unjudged }) += 1;
             return;

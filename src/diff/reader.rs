@@ -10,8 +10,10 @@ use crate::quantity::Kind;
 use crate::quantity::catalogue::Dimension;
 
 /// Quantities that a reviewer looks at first, by path, the most important first.
-const HEADLINES: [&str; 23] = [
+const HEADLINES: [&str; 29] = [
+    "absorbers",
     "band/worst/peak",
+    "loads/worst/peak",
     "quantities/decay_time",
     "quantities/active_decay_time",
     "quantities/peak_displacement",
@@ -19,9 +21,13 @@ const HEADLINES: [&str; 23] = [
     "quantities/rms_displacement",
     "ranges/from",
     "ranges/to",
+    "loads/forces/limits",
+    "worst_off/peak",
     "quantities/impacts_per_period",
     "quantities/impact_speed",
     "band/bare/peak",
+    "loads/bare/peak",
+    "off/worst/peak",
     "band/damper/peak",
     "band/stable_share",
     "band/z3_share",
@@ -37,8 +43,9 @@ const HEADLINES: [&str; 23] = [
 ];
 
 /// The same of what has no size. Those before [`FURTHER_STATES`] are told before the fold.
-const STATES: [&str; 8] = [
+const STATES: [&str; 9] = [
     "choice/winner",
+    "loads/worst",
     "main",
     "theory/area",
     "theory/strip",
@@ -48,10 +55,11 @@ const STATES: [&str; 8] = [
     "theory/fixed_points",
 ];
 /// See [`STATES`].
-const FURTHER_STATES: usize = 5;
+const FURTHER_STATES: usize = 6;
 
 /// What a reader calls the keys of a document; others are called as they are.
-const WORDS: [(&str, &str); 17] = [
+const WORDS: [(&str, &str); 22] = [
+    ("absorbers", "absorber"),
     ("alternatives", ""),
     ("answers", "answer"),
     ("boundaries", "boundary"),
@@ -60,8 +68,11 @@ const WORDS: [(&str, &str); 17] = [
     ("combined", "combination"),
     ("deviations", "deviation"),
     ("fixed_points", "fixed point"),
+    ("forces", ""),
+    ("loads", "load"),
     ("main", "main motion"),
     ("motions", "motion"),
+    ("off", "natural frequencies off"),
     ("orbits", "exact orbit"),
     ("quantities", ""),
     ("ranges", "range of"),
@@ -69,6 +80,7 @@ const WORDS: [(&str, &str); 17] = [
     ("stretches", "stable range"),
     ("theory", ""),
     ("winner", "better device"),
+    ("worst_off", "natural frequencies off, worst"),
 ];
 
 /// The most important first; a number that stands in several places is told once.

@@ -684,6 +684,19 @@ fn criteria_are_told_by_their_places() {
     assert!(told.contains("peak displacement at foot") && told.contains("**flipped**"), "{told}");
     assert!(told.contains("≤ 20 mm, now ≤ 1 mm"), "{told}");
     assert!(!told.contains("peak displacement at top"), "{told}");
+    // What an absorber was made, and the worst of a load, come before a fold; each motion at each frequency does not.
+    fs::write(path("case.toml"), case.replace("LIMIT", "1 mm").replace("50 mm", "12 mm"))
+        .expect("written");
+    assert!(vinesink(&["report", &path("case.toml"), "--out", &path("third")]).status.success());
+    let told = vinesink(&["diff", &path("new/case"), &path("third/case")]);
+    let told = String::from_utf8_lossy(&told.stdout).into_owned();
+    let (first, rest) = told.split_once("<details>").expect("a fold");
+    assert!(first.contains("| Absorber 1: clearance | 50.00 mm | 12.00 mm |"), "{told}");
+    assert!(
+        first.contains("| Load 1 worst: excitation frequency") || first.contains("| Load 1 worst"),
+        "{told}"
+    );
+    assert!(!rest.contains("steps") && !rest.contains(" places "), "{told}");
 }
 
 /// What `check` finds of each criterion with its error, in SI units, of one case.
