@@ -8,6 +8,11 @@ use crate::numerics::scan;
 const PIECES: u32 = 256;
 const CLOSER: u32 = 16;
 
+/// How far beside the frequency of an undamped mode dampers are looked at, over it; twice as far an amplitude that nothing limits is
+/// half as large, and one that they limit the same.
+const BESIDE: f64 = 1e-7;
+const DIVERGES: f64 = 1.5;
+
 /// Amplitudes at a frequency in Hz; infinite where nothing limits them.
 pub(super) fn amplitudes(
     case: &ModalCase,
@@ -15,13 +20,27 @@ pub(super) fn amplitudes(
     at: f64,
     dampers: &[ModalDamper],
 ) -> ModalAmplitudes {
-    match case.system(load, at) {
-        Ok(system) => ModalAmplitudes::of(&system, dampers, &case.shapes()),
-        Err(_) => ModalAmplitudes {
-            places: vec![f64::INFINITY; case.places.len()],
-            strokes: vec![f64::INFINITY; dampers.len()],
-        },
-    }
+    let of = |at: f64| {
+        let system = case.system(load, at).ok()?;
+        Some(ModalAmplitudes::of(&system, dampers, &case.shapes()))
+    };
+    // At an undamped mode's own frequency it has no steady motion by itself, and has one with dampers that see it.
+    let beside = || {
+        let near = [1.0, 2.0].map(|times| of(at * (1.0 + times * BESIDE)));
+        let [Some(near), Some(far)] = near else { return None };
+        let limited =
+            |(near, far): (&f64, &f64)| if *near > DIVERGES * far { f64::INFINITY } else { *near };
+        let all = |near: &[f64], far: &[f64]| near.iter().zip(far).map(limited).collect();
+        Some(ModalAmplitudes {
+            places: all(&near.places, &far.places),
+            strokes: all(&near.strokes, &far.strokes),
+        })
+    };
+    let unlimited = || ModalAmplitudes {
+        places: vec![f64::INFINITY; case.places.len()],
+        strokes: vec![f64::INFINITY; dampers.len()],
+    };
+    of(at).or_else(|| beside().filter(|_| !dampers.is_empty())).unwrap_or_else(unlimited)
 }
 
 /// The largest amplitude of any place at a frequency in Hz.

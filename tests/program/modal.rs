@@ -785,3 +785,21 @@ fn velocities_and_accelerations_are_those_of_an_independent_simulation() {
         }
     }
 }
+
+/// At the frequency of an undamped mode dampers that see it limit it, as they do where it is hardly damped; one at its node does not.
+#[test]
+fn dampers_limit_an_undamped_mode() {
+    let with = |ratio: &str| {
+        let case = text("cases/several/floor.toml").replace("\"1.5 %\"", ratio);
+        choices(&ModalCase::parse("case.toml", &case).expect("a case"))
+    };
+    let (undamped, hardly) = (with("0"), with("1e-9"));
+    let [one, two] = &undamped[..] else { panic!("{undamped:?}") };
+    // The second load drives the mode that has its node at the one damper.
+    assert!(one.worst[0].is_finite() && one.worst[1].is_infinite(), "{one:?}");
+    for (a, b) in
+        two.worst.iter().chain(&two.strokes).zip(hardly[1].worst.iter().chain(&hardly[1].strokes))
+    {
+        assert!((a / b - 1.0).abs() < 1e-4, "{a} {b}");
+    }
+}
