@@ -797,9 +797,12 @@ fn dampers_limit_an_undamped_mode() {
     let [one, two] = &undamped[..] else { panic!("{undamped:?}") };
     // The second load drives the mode that has its node at the one damper.
     assert!(one.worst[0].is_finite() && one.worst[1].is_infinite(), "{one:?}");
-    for (a, b) in
-        two.worst.iter().chain(&two.strokes).zip(hardly[1].worst.iter().chain(&hardly[1].strokes))
+    // The search is of the worst, near whose least value it is flat and strokes are not.
+    for (of, known, most) in
+        [(&two.worst, &hardly[1].worst, 1e-4), (&two.strokes, &hardly[1].strokes, 1e-2)]
     {
-        assert!((a / b - 1.0).abs() < 1e-4, "{a} {b}");
+        for (a, b) in of.iter().zip(known) {
+            assert!((a / b - 1.0).abs() < most, "{a} {b}");
+        }
     }
 }
