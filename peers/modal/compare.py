@@ -5,7 +5,7 @@ acceleration where criteria ask for these.
 
     python3 peers/modal/compare.py target/release/vinesink cases/several/*.toml
 
-Base motion is not read. Needs a C compiler; prints a table in Markdown."""
+Needs a C compiler; prints a table in Markdown."""
 
 import json
 import pathlib
@@ -36,16 +36,17 @@ def simulated(program, case, load, place, frequency, seed):
     modes, absorbers = listed(case["mode"]), listed(case["absorber"])
     only = next(iter(modes[0]["shape"]))
     numbers = [len(modes), len(absorbers)]
+    base = number(load["amplitude"]) if load["kind"] == "base-displacement" else 0.0
     for k, mode in enumerate(modes, 1):
-        force = number(load["amplitude"])
+        force = 0.0 if base else number(load["amplitude"])
         force *= (load["mode"] == k) if "mode" in load else mode["shape"][load.get("place", only)]
         numbers += [number(mode[key]) for key in ("frequency", "damping_ratio", "mass")]
-        numbers += [force, mode["shape"][place]] + [mode["shape"][one.get("place", only)] for one in absorbers]
+        numbers += [force, float(mode.get("participation", 0)), mode["shape"][place]] + [mode["shape"][one.get("place", only)] for one in absorbers]
     for one in absorbers:
         numbers += [number(one[key]) for key in ("mass", "clearance", "restitution")]
     slowest = min(number(mode["damping_ratio"]) * number(mode["frequency"]) for mode in modes)
     out = max(OUT * frequency / (2 * 3.141592653589793 * slowest), 256)
-    numbers += [frequency, seed, round(out), MEASURED]
+    numbers += [frequency, base, seed, round(out), MEASURED]
     run = subprocess.run([program], input=" ".join(map(repr, numbers)), capture_output=True, text=True, check=True)
     return [float(one) for one in run.stdout.split()]
 

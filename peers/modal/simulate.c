@@ -1,8 +1,8 @@
 /* A structure of several modes with several absorbers in closed form between contacts, 400 steps in a period of the fastest of
    modes and excitation, and bisection of each contact: shares no code and no method with the engine, which proves its impacts.
-   Reads, in SI units: modes N, absorbers M; of each mode its frequency in Hz, damping ratio, mass, force and its shape at the place
-   that is watched and at each absorber; of each absorber mass, clearance and restitution; the excitation's frequency in Hz, a seed,
-   periods that are left out and periods that are measured. Prints the largest displacement of the place in m, its root mean
+   Reads, in SI units: modes N, absorbers M; of each mode its frequency in Hz, damping ratio, mass, force, participation and its shape
+   at the place that is watched and at each absorber; of each absorber mass, clearance and restitution; the excitation's frequency in
+   Hz, the amplitude of the base, a seed, periods that are left out and periods that are measured. Prints the largest displacement of the place in m, its root mean
    square, the same of its velocity and of its acceleration between contacts, impacts of each absorber in a period, and the phase of
    the last impact of each, over the period, with its speed then.
    cc -O2 simulate.c -lm */
@@ -12,25 +12,24 @@
 
 enum { MOST = 8, STEPS = 400, CONTACTS = 12, HALVINGS = 36 };
 static int modes, absorbers;
-static double w[MOST], damping[MOST], mass[MOST], force[MOST], watched[MOST], shape[MOST][MOST];
-static double ball[MOST], clearance[MOST], restitution[MOST], omega;
+static double w[MOST], damping[MOST], mass[MOST], force[MOST], watched[MOST], shape[MOST][MOST], base;
+static double participation[MOST], ball[MOST], clearance[MOST], restitution[MOST], omega;
 static double q[MOST], v[MOST], y[MOST], u[MOST];
 static double steady[MOST][2];
 /* What a whole step makes of a free motion. */
 static double whole[MOST][4];
 
-static double sum(const double *of, const double *by)
+/* What the modes and the base, displaced by `moved`, come to at the place that is watched, and at an absorber. */
+static double sum(const double *of, double moved)
 {
-    double all = 0;
-    for (int k = 0; k < modes; k++) all += by[k] * of[k];
-    return all;
+    for (int k = 0; k < modes; k++) moved += watched[k] * of[k];
+    return moved;
 }
 
-static double at(int j, const double *of)
+static double at(int j, const double *of, double moved)
 {
-    double all = 0;
-    for (int k = 0; k < modes; k++) all += shape[k][j] * of[k];
-    return all;
+    for (int k = 0; k < modes; k++) moved += shape[k][j] * of[k];
+    return moved;
 }
 
 static void free_motion(int k, double h, double *of)
@@ -60,12 +59,12 @@ static void advance(double t, double h, int is_whole)
 }
 
 /* The absorber that is farthest beyond its walls; none where all are within. */
-static int beyond(void)
+static int beyond(double t)
 {
     int worst = -1;
-    double most = 1;
+    double most = 1, moved = base * sin(omega * t);
     for (int j = 0; j < absorbers; j++) {
-        double gap = fabs(at(j, q) - y[j]) / clearance[j];
+        double gap = fabs(at(j, q, moved) - y[j]) / clearance[j];
         if (gap > most) worst = j, most = gap;
     }
     return worst;
@@ -74,7 +73,7 @@ static int beyond(void)
 /* The acceleration of the place that is watched. */
 static double acceleration(double t)
 {
-    double all = 0, s = sin(omega * t);
+    double s = sin(omega * t), all = -base * omega * omega * s;
     for (int k = 0; k < modes; k++)
         all += watched[k] * (force[k] / mass[k] * s - 2 * damping[k] * w[k] * v[k] - w[k] * w[k] * q[k]);
     return all;
@@ -85,7 +84,7 @@ static double peaks[3], squares[3];
 
 static void measure(double t, int ends)
 {
-    double now[3] = {sum(q, watched), sum(v, watched), acceleration(t)};
+    double now[3] = {sum(q, base * sin(omega * t)), sum(v, base * omega * cos(omega * t)), acceleration(t)};
     for (int n = 0; n < 3; n++) {
         if (fabs(now[n]) > peaks[n]) peaks[n] = fabs(now[n]);
         if (ends) squares[n] += now[n] * now[n];
@@ -105,14 +104,16 @@ int main(void)
     if (modes < 1 || modes > MOST || absorbers < 1 || absorbers > MOST) return 2;
     for (int k = 0; k < modes; k++) {
         w[k] = 2 * M_PI * number();
-        damping[k] = number(), mass[k] = number(), force[k] = number(), watched[k] = number();
+        damping[k] = number(), mass[k] = number(), force[k] = number(), participation[k] = number(), watched[k] = number();
         for (int j = 0; j < absorbers; j++) shape[k][j] = number();
     }
     for (int j = 0; j < absorbers; j++) ball[j] = number(), clearance[j] = number(), restitution[j] = number();
-    omega = 2 * M_PI * number();
+    omega = 2 * M_PI * number(), base = number();
+    /* In coordinates against the base a force that its acceleration makes. */
+    for (int k = 0; k < modes; k++) force[k] += mass[k] * participation[k] * omega * omega * base;
     srand((unsigned)number());
     double fastest = omega, out = number(), measured = number();
-    double share = 1.2 * rand() / RAND_MAX;
+    double share = 1.2 * rand() / RAND_MAX, moving = base * omega;
     long impacts[MOST] = {0};
     double last[MOST][2] = {{0}};
     for (int k = 0; k < modes; k++) {
@@ -128,8 +129,8 @@ int main(void)
     double step = 2 * M_PI / omega / (double)each;
     for (int k = 0; k < modes; k++) free_motion(k, step, whole[k]);
     for (int j = 0; j < absorbers; j++) {
-        y[j] = at(j, q) + clearance[j] * 1.9 * ((double)rand() / RAND_MAX - 0.5);
-        u[j] = at(j, v);
+        y[j] = at(j, q, 0) + clearance[j] * 1.9 * ((double)rand() / RAND_MAX - 0.5);
+        u[j] = at(j, v, moving);
     }
     long steps = (long)(out + measured) * each, first = (long)out * each;
     for (long i = 0; i < steps; i++) {
@@ -140,24 +141,25 @@ int main(void)
             for (int k = 0; k < modes; k++) q0[k] = q[k], v0[k] = v[k];
             for (int j = 0; j < absorbers; j++) y0[j] = y[j];
             advance(t, left, contacts == 0);
-            if (contacts == CONTACTS || beyond() < 0) break;
+            if (contacts == CONTACTS || beyond(t + left) < 0) break;
             double inside = 0, outside = left;
-            int j = beyond();
+            int j = beyond(t + left);
             for (int halved = 0; halved <= HALVINGS; halved++) {
                 double middle = halved < HALVINGS ? 0.5 * (inside + outside) : inside;
                 for (int k = 0; k < modes; k++) q[k] = q0[k], v[k] = v0[k];
                 for (int n = 0; n < absorbers; n++) y[n] = y0[n];
                 advance(t, middle, 0);
-                int here = beyond();
+                int here = beyond(t + middle);
                 if (here >= 0) j = here, outside = middle;
                 else inside = middle;
             }
             t += inside;
             left -= inside;
             if (i >= first) measure(t, 0);
-            double relative = at(j, v) - u[j], yields = 1 / ball[j];
+            moving = base * omega * cos(omega * t);
+            double relative = at(j, v, moving) - u[j], yields = 1 / ball[j];
             for (int k = 0; k < modes; k++) yields += shape[k][j] * shape[k][j] / mass[k];
-            if (relative * (at(j, q) - y[j]) > 0) {
+            if (relative * (at(j, q, base * sin(omega * t)) - y[j]) > 0) {
                 double impulse = (1 + restitution[j]) * relative / yields;
                 for (int k = 0; k < modes; k++) v[k] -= impulse * shape[k][j] / mass[k];
                 u[j] += impulse / ball[j];
