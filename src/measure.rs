@@ -121,13 +121,21 @@ pub enum Measure {
 }
 
 /// The largest acceleration of the oscillator by that between impacts and the largest relative speed of an impact, each with
-/// its error: that between impacts, unless impacts have a pulse. The pulse of the fastest rides on an acceleration that is
-/// not known, and no larger than that between impacts.
+/// its error: that between impacts, unless impacts have a pulse.
 pub fn with_pulse(kind: &Kind, flights: [f64; 2], speed: [f64; 2], units: &Units) -> [f64; 2] {
-    let Some(pulse) = units.pulse().filter(|_| speed[0] > 0.0) else { return flights };
-    let (top, rides) = (pulse * speed[0], flights[0] + flights[1]);
+    let pulse = units.pulse().unwrap_or(0.0);
+    riding(kind, flights, speed.map(|one| pulse * one))
+}
+
+/// The same by the largest acceleration of a pulse, 0 where there is none. It rides on an acceleration that is not known, and
+/// no larger than that between impacts.
+pub fn riding(kind: &Kind, flights: [f64; 2], [top, error]: [f64; 2]) -> [f64; 2] {
+    if top <= 0.0 {
+        return flights;
+    }
+    let rides = flights[0] + flights[1];
     let least = flights[0].max(top - rides);
-    let most = top + pulse * speed[1] + rides;
+    let most = top + error + rides;
     match kind.error {
         ErrorKind::Bound => [least, most - least],
         ErrorKind::Interval => [0.5 * (least + most), 0.5 * (most - least)],

@@ -63,7 +63,7 @@ def simulated(program, case, out, seed):
         numbers += absorber
     numbers += [case["at"], case["base"], seed, out, 64]
     run = subprocess.run([program], input=" ".join(map(repr, numbers)), capture_output=True, text=True, check=True)
-    found = [float(one) for one in run.stdout.split()][6:]
+    found = [float(one) for one in run.stdout.split()][7:]
     count = len(case["absorbers"])
     return found[:count], found[count::2], found[count + 1 :: 2]
 

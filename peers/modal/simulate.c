@@ -2,9 +2,9 @@
    modes and excitation, and bisection of each contact: shares no code and no method with the engine, which proves its impacts.
    Reads, in SI units: modes N, absorbers M; of each mode its frequency in Hz, damping ratio, mass, force, participation and its shape
    at the place that is watched and at each absorber; of each absorber mass, clearance and restitution; the excitation's frequency in
-   Hz, the amplitude of the base, a seed, periods that are left out and periods that are measured. Prints the largest displacement of the place in m, its root mean
-   square, the same of its velocity and of its acceleration between contacts, impacts of each absorber in a period, and the phase of
-   the last impact of each, over the period, with its speed then.
+   Hz, the amplitude of the base, a seed, periods that are left out and periods that are measured. Prints the largest displacement of
+   the place in m, its root mean square, the same of its velocity and of its acceleration between contacts, the largest jump of its
+   velocity, impacts of each absorber in a period, and the phase of the last impact of each, over the period, with its speed then.
    cc -O2 simulate.c -lm */
 #include <math.h>
 #include <stdio.h>
@@ -80,7 +80,7 @@ static double acceleration(double t)
 }
 
 /* Displacement, velocity and acceleration of the place: the largest, and sums of squares at ends of steps. */
-static double peaks[3], squares[3];
+static double peaks[3], squares[3], jumps;
 
 static void measure(double t, int ends)
 {
@@ -161,7 +161,12 @@ int main(void)
             for (int k = 0; k < modes; k++) yields += shape[k][j] * shape[k][j] / mass[k];
             if (relative * (at(j, q, base * sin(omega * t)) - y[j]) > 0) {
                 double impulse = (1 + restitution[j]) * relative / yields;
-                for (int k = 0; k < modes; k++) v[k] -= impulse * shape[k][j] / mass[k];
+                double jump = 0;
+                for (int k = 0; k < modes; k++) {
+                    v[k] -= impulse * shape[k][j] / mass[k];
+                    jump += watched[k] * impulse * shape[k][j] / mass[k];
+                }
+                if (i >= first && fabs(jump) > jumps) jumps = fabs(jump);
                 u[j] += impulse / ball[j];
                 last[j][0] = fmod(omega * t / (2 * M_PI), 1), last[j][1] = fabs(u[j]);
                 if (i >= first) impacts[j]++;
@@ -171,6 +176,7 @@ int main(void)
         if (i >= first) measure((double)(i % each + 1) * step, 1);
     }
     for (int n = 0; n < 3; n++) printf("%.9e %.9e ", peaks[n], sqrt(squares[n] / (double)(steps - first)));
+    printf("%.9e ", jumps);
     for (int j = 0; j < absorbers; j++) printf("%.6f ", (double)impacts[j] / measured);
     for (int j = 0; j < absorbers; j++) printf("%.15f %.15e ", last[j][0], last[j][1]);
     printf("\n");

@@ -170,7 +170,7 @@ impl Physical {
 }
 
 /// Longest impact over the natural period: its pulse would be a part of the motion, which the model has not.
-const MOST_CONTACT: f64 = 0.02;
+pub(super) const MOST_CONTACT: f64 = 0.02;
 
 pub(super) const TABLES: [&str; 3] = ["oscillator", "absorber", "excitation"];
 

@@ -2,11 +2,13 @@
 
 use super::ModalError;
 use super::linear::{amplitudes, largest, linear_places};
+use super::sensors::{measured, measures, sensors};
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
 use crate::measure::PlaceMeasure;
 use crate::motions::{ModalMotion, longest_flight, modal_at_rest, modal_motions};
 use crate::numerics::scan;
+use crate::simulation::Reading;
 
 /// What is known along a load.
 #[derive(Debug, Clone, PartialEq)]
@@ -156,12 +158,6 @@ impl AlongLoad {
     }
 }
 
-/// What is measured of a place in a motion, in SI units, and its error.
-pub(super) fn measured(motion: &ModalMotion, place: usize, asked: PlaceMeasure) -> [f64; 2] {
-    let read = motion.read(asked.reads).nth(place);
-    read.map_or([f64::NAN, 0.0], |read| if asked.mean { read.rms } else { [read.peak, read.error] })
-}
-
 impl AtFrequency {
     pub(super) fn of(
         case: &ModalCase,
@@ -170,7 +166,7 @@ impl AtFrequency {
         starts: u32,
     ) -> Result<Self, ModalError> {
         let system = case.system(load, at)?;
-        let motions = modal_motions(&system, &case.sensors(), starts, case.periods)?;
+        let motions = modal_motions(&system, &sensors(case), starts, case.periods)?;
         Ok(Self { at, motions })
     }
 
@@ -192,7 +188,7 @@ fn reach_at_rest(case: &ModalCase, load: &Load, at: f64) -> f64 {
 /// For each sensor of the structure the frequency at which it reads most while every absorber rests, with that motion: often where a
 /// wall begins to reach one.
 pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, ModalMotion)> {
-    let sensors = case.sensors();
+    let sensors = sensors(case);
     let at_rest = |at: f64| modal_at_rest(&case.system(load, at).ok()?, &sensors);
     let mut all = linear_places(load.range_hz, case);
     // An absorber may be near a node of the structure's motion in a range of frequencies that no two of these hold.
@@ -228,6 +224,8 @@ pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, Modal
     all.sort_by(f64::total_cmp);
     let there: Vec<(f64, ModalMotion)> =
         all.into_iter().filter_map(|at| Some((at, at_rest(at)?))).collect();
+    // What rests has no impacts.
+    let flies = |n: usize| !matches!(sensors[n].reads, Reading::Jump { .. });
     let of_sensor = |n: usize| {
         let peak = |motion: &ModalMotion| motion.sensors[n].peak;
         let k =
@@ -245,7 +243,8 @@ pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, Modal
         });
         Some(best)
     };
-    let mut farthest: Vec<_> = (0..sensors.len()).filter_map(of_sensor).collect();
+    let mut farthest: Vec<_> =
+        (0..sensors.len()).filter(|n| flies(*n)).filter_map(of_sensor).collect();
     farthest.dedup_by(|a, b| a.0 == b.0);
     farthest
 }
@@ -272,7 +271,7 @@ fn neighbours(places: &[AtFrequency], k: usize) -> [Option<&AtFrequency>; 2] {
 /// absorber moves.
 fn beside_worst(places: &[AtFrequency], case: &ModalCase) -> Vec<f64> {
     let mut wanted: Vec<f64> = Vec::new();
-    let measures = case.measures();
+    let measures = measures(case);
     let each = measures.iter().flat_map(|asked| (0..case.places.len()).map(move |p| (p, *asked)));
     for ((p, asked), rests) in each.flat_map(|one| [(one, true), (one, false)]) {
         let largest = |k: &usize| places[*k].largest(p, asked, rests).unwrap_or_default();
@@ -313,7 +312,7 @@ mod tests {
             );
             let case = ModalCase::parse("case.toml", &text).expect("a case");
             let load = &case.loads[0];
-            let sensors = case.sensors();
+            let sensors = sensors(&case);
             let farthest = farthest_at_rest(&case, load);
             for p in 0..2 {
                 let at = |k: u32| low + (high - low) * f64::from(k) / 3e3;

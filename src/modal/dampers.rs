@@ -1,7 +1,9 @@
 //! Tuned mass dampers beside the absorbers of a structure of several modes.
 
-use super::linear::{amplitudes, largest, largest_peak, linear_peak, linear_places};
-use crate::case::{ActsOn, Load, ModalCase};
+use super::linear::{
+    amplitudes, asked_of, largest, largest_peak, linear_most, linear_peak, linear_places,
+};
+use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion};
 use crate::dampers::simplex;
 use crate::linear::ModalDamper;
 
@@ -16,6 +18,8 @@ pub struct DamperChoice {
     pub worst: Vec<f64>,
     /// The largest stroke of each damper under any load, in m.
     pub strokes: Vec<f64>,
+    /// What each criterion comes to, in SI units.
+    pub criteria: Vec<f64>,
 }
 
 /// Steps of a simplex, and how often it begins again where it ended.
@@ -24,8 +28,9 @@ const RESTARTS: u32 = 3;
 /// Its first size in the logarithms of frequency and damping ratio.
 const SIMPLEX: [f64; 2] = [0.02, 0.3];
 
-/// The best one damper and, of structures that several modes drive, one for each of these modes: tuned and damped so that the
-/// largest displacement of any place under any load is smallest. Each is where its mode moves most.
+/// The best one damper and, of structures that several modes drive, one for each of these modes: tuned and damped so that what criteria
+/// ask for is smallest over what they allow, or without criteria the largest displacement of any place, under any load. Each is where
+/// its mode moves most.
 pub fn choices(case: &ModalCase) -> Vec<DamperChoice> {
     let driven = driven_modes(case);
     let mut counts = vec![1];
@@ -90,8 +95,16 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
         case.loads.iter().map(|load| (load, linear_places(load.range_hz, case))).collect();
     let cost = |logarithms: &[f64]| {
         let dampers = built(logarithms);
+        let of = |load: &Load, at: f64| {
+            let amplitudes = amplitudes(case, load, at, &dampers);
+            let over = |one: &PlaceCriterion| asked_of(one, &amplitudes, at) / one.criterion.limit;
+            match case.criteria.is_empty() {
+                true => amplitudes.places.iter().copied().fold(0.0, f64::max),
+                false => case.criteria.iter().map(over).fold(0.0, f64::max),
+            }
+        };
         let each = along.iter().flat_map(|(load, all)| all.iter().map(move |at| (load, at)));
-        each.map(|(load, at)| linear_peak(case, load, *at, &dampers)).fold(0.0, f64::max)
+        each.map(|(load, at)| of(load, *at)).fold(0.0, f64::max)
     };
     let sizes: Vec<f64> = (0..start.len()).map(|k| SIMPLEX[k % 2]).collect();
     let dampers = built(&simplex(start, &sizes, STEPS, RESTARTS, cost));
@@ -104,6 +117,7 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
     DamperChoice {
         worst: case.loads.iter().map(|load| largest_peak(case, load, &dampers)).collect(),
         strokes: (0..count).map(stroke).collect(),
+        criteria: case.criteria.iter().map(|one| linear_most(case, one, &dampers)).collect(),
         dampers,
         places,
     }

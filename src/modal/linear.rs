@@ -1,7 +1,10 @@
 //! The structure along a load without absorbers, alone or with tuned mass dampers.
 
-use crate::case::{Load, ModalCase};
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
+
+use crate::case::{Load, ModalCase, PlaceCriterion};
 use crate::linear::{ModalAmplitudes, ModalDamper};
+use crate::measure::PlaceMeasure;
 use crate::numerics::scan;
 
 /// Pieces of a range in which the largest amplitude is looked for, beside ever closer ones around the modes.
@@ -54,6 +57,25 @@ pub(super) fn largest_peak(case: &ModalCase, load: &Load, dampers: &[ModalDamper
         largest(load.range_hz, case, |at| amplitudes(case, load, at, dampers).places[p])[0]
     };
     (0..case.places.len()).map(of_place).fold(0.0, f64::max)
+}
+
+/// What a criterion is about, in SI units, where places move with these amplitudes at a frequency in Hz.
+pub(super) fn asked_of(asked: &PlaceCriterion, amplitudes: &ModalAmplitudes, at: f64) -> f64 {
+    let places = amplitudes.places.iter().enumerate();
+    let places = places.filter(|(p, _)| asked.place.is_none_or(|one| one == *p));
+    let amplitude = places.map(|(_, amplitude)| *amplitude).fold(0.0, f64::max);
+    let PlaceMeasure { reads, mean } = asked.measure;
+    let mean = if mean { FRAC_1_SQRT_2 } else { 1.0 };
+    (0..reads.rates()).fold(mean * amplitude, |value, _| value * TAU * at)
+}
+
+/// The most of what a criterion is about under any load, in SI units.
+pub fn linear_most(case: &ModalCase, asked: &PlaceCriterion, dampers: &[ModalDamper]) -> f64 {
+    let along = |load: &Load| {
+        let of = |at: f64| asked_of(asked, &amplitudes(case, load, at, dampers), at);
+        largest(load.range_hz, case, of)[0]
+    };
+    case.loads.iter().map(along).fold(0.0, f64::max)
 }
 
 /// Frequencies in Hz at which it is looked at along a range, ascending.

@@ -9,6 +9,7 @@ mod drift;
 mod forces;
 mod linear;
 mod optimum;
+mod sensors;
 
 use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion, RewriteError};
 use crate::criteria::{Judged, all_hold};
@@ -24,8 +25,9 @@ pub use along::{AlongLoad, AtFrequency, WorstOfPlace, seconds};
 pub use dampers::{DamperChoice, choices};
 pub use drift::{OffStructure, off_structures};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
-pub use linear::{linear_peak, linear_places};
+pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
+pub use sensors::sensors;
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]

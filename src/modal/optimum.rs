@@ -7,7 +7,8 @@
 
 use std::cmp::Ordering;
 
-use super::along::{farthest_at_rest, measured};
+use super::along::farthest_at_rest;
+use super::sensors::{measured, sensors};
 use super::{ModalAnswer, ModalError};
 use crate::case::{Bounds, Load, ModalCase, PlacedAbsorber, Rounding};
 use crate::criteria::Outcome;
@@ -101,7 +102,7 @@ impl ModalOptimum {
         let limits = limits(case, &own.answer);
         let looked_at = frequencies(case, &own.answer, &limits);
         let own_reach = looked_at.first().map_or(f64::INFINITY, |(_, _, reach)| *reach);
-        let (count, sensors) = (numbers(case), case.sensors());
+        let (count, sensors) = (numbers(case), sensors(case));
         let score = |parts: &[f64], best: f64| {
             let candidate = candidate(case, parts);
             let at_rest = case.loads.iter().flat_map(|load| farthest_at_rest(&candidate, load));

@@ -50,7 +50,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         ],
     ),
     // What may be asked, one list for criteria, sweeps, pages and optima.
-    ("measure", &["excitation", "linear", "motions", "quantity", "system"]),
+    ("measure", &["excitation", "linear", "motions", "quantity", "simulation", "system"]),
     // One search, one rule of identity: every command reads what this room has found.
     (
         "motions",
@@ -75,11 +75,13 @@ const ROOMS: &[(&str, &[&str])] = &[
             "dampers",
             "executor",
             "linear",
+            "measure",
             "method",
             "motions",
             "numerics",
             "optimize",
             "orbits",
+            "quantity",
             "simulation",
             "system",
         ],

@@ -1,4 +1,7 @@
-//! What is asked of a structure of several modes: limits by place, and the bounds of better absorbers.
+//! What is asked of a structure of several modes: limits by place, how impacts count in them, and the bounds of better absorbers.
+
+use std::f64::consts::FRAC_PI_4;
+use std::ops::Range;
 
 use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
@@ -7,13 +10,16 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::place::find_place;
-use super::{Bounds, PlaceCriterion};
+use super::{Bounds, PlaceCriterion, PlacedAbsorber, StructuralMode};
 use crate::case::criteria::{Criterion, Subject, possible};
 use crate::case::number::{Form, sign_of};
+use crate::case::physical::MOST_CONTACT;
 use crate::case::reader::{Reader, Table};
 use crate::case::schema::add_key;
 use crate::case::value::ValuePlace;
+use crate::measure::Measure;
 use crate::quantity::Dimension;
+use crate::quantity::numbers::rounded_to;
 
 /// What may be asked of a place.
 const SUBJECTS: [(Subject, &str); 6] = [
@@ -28,7 +34,12 @@ const SUBJECTS: [(Subject, &str); 6] = [
 /// What the structure must achieve.
 #[derive(Deserialize, JsonSchema)]
 #[schemars(extend("additionalProperties" = false), transform = with_subjects)]
-pub(super) struct ModalCriteriaTable {}
+pub(super) struct ModalCriteriaTable {
+    /// f_c, up to which a sensor reads `acceleration`, above 0: it then includes impacts, each of which an ideal low-pass filter
+    /// shows with a peak of 2 f_c times the jump of the velocity, as `contact_time` = pi/(4 f_c) of every absorber does.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0), example = "1 kHz")]
+    pub acceleration_upto: Option<f64>,
+}
 
 /// An example of a limit.
 fn example(subject: Subject) -> &'static str {
@@ -93,14 +104,11 @@ pub(super) fn read_bounds(reader: &mut Reader, root: &Table, places: &[String]) 
 /// Limits: a text, a table, or a list of tables.
 pub(super) fn read_criteria(
     reader: &mut Reader,
-    root: &Table,
+    table: &Table,
     places: &[String],
 ) -> Vec<PlaceCriterion> {
-    let Some(table) = reader.table::<ModalCriteriaTable>(root, "criteria") else {
-        return Vec::new();
-    };
     let each = SUBJECTS.into_iter();
-    each.flat_map(|(subject, _)| read_limits(reader, &table, subject, places)).collect()
+    each.flat_map(|(subject, _)| read_limits(reader, table, subject, places)).collect()
 }
 
 /// Limits of one subject.
@@ -165,4 +173,63 @@ fn read_limits(
         found.extend(criterion.map(|criterion| PlaceCriterion { place, measure, criterion }));
     }
     found
+}
+
+/// Gives absorbers the time that an impact takes for a sensor which reads up to so many hertz, and reports times that say nothing.
+pub(super) fn read_contact_times(
+    reader: &mut Reader,
+    root: &Table,
+    upto: Option<(Range<usize>, f64)>,
+    criteria: &[PlaceCriterion],
+    modes: &[StructuralMode],
+    absorbers: &mut [PlacedAbsorber],
+) {
+    let times = absorbers.iter().filter(|one| one.contact_time_s.is_some()).count();
+    let asked = criteria.iter().any(|one| one.criterion.measure == Measure::PeakAcceleration);
+    let fastest = modes.iter().map(|mode| mode.frequency_hz).fold(0.0, f64::max);
+    let most = MOST_CONTACT / fastest;
+    let longest = absorbers.iter().filter_map(|one| one.contact_time_s).fold(0.0, f64::max);
+    let mut refused = |span, message: &str, expected: &str, help: &str| {
+        reader.report(span, message, expected, help);
+    };
+    let of_absorbers = root.span_of("absorber");
+    match upto {
+        Some((span, _)) if !asked => refused(
+            span,
+            "`acceleration_upto` is about an `acceleration` that nothing asks for",
+            "expected it beside `acceleration`",
+            "ask for one, such as acceleration = \"<= 2 g\", or remove the line",
+        ),
+        Some((span, _)) if times > 0 => refused(
+            span,
+            "`acceleration_upto` stands beside a `contact_time`",
+            "expected one of them",
+            "remove one of them: both say how an impact is read",
+        ),
+        Some((span, upto)) if FRAC_PI_4 / upto > most => refused(
+            span,
+            "`acceleration_upto` is below what a sensor needs to tell an impact from the fastest mode",
+            "expected a higher frequency",
+            &format!(
+                "a sensor that reads impacts reads up to {} Hz or more here",
+                rounded_to(FRAC_PI_4 / most, 3)
+            ),
+        ),
+        Some((_, upto)) => {
+            absorbers.iter_mut().for_each(|one| one.contact_time_s = Some(FRAC_PI_4 / upto));
+        }
+        None if times > 0 && times < absorbers.len() => refused(
+            of_absorbers,
+            "some absorbers have a `contact_time` and some have none",
+            "expected it of all or of none",
+            "write contact_time = \"0.5 ms\" in every [[absorber]]: impacts without it would be left out",
+        ),
+        None if longest > most => refused(
+            of_absorbers,
+            "an impact takes more than a fiftieth of the fastest mode's period",
+            &format!("expected a `contact_time` of at most {} s", rounded_to(most, 3)),
+            "leave out modes that an impact is too slow to shake, or write a shorter time",
+        ),
+        None => {}
+    }
 }

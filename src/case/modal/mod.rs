@@ -21,7 +21,6 @@ use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::digest::sha256;
 use crate::measure::PlaceMeasure;
-use crate::simulation::{Reading, Sensor};
 use vinesink_core::names;
 
 pub(super) use read::ModalFile;
@@ -115,6 +114,8 @@ pub struct PlacedAbsorber {
     pub clearance_m: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
+    /// How long an impact takes in s, as a half-sine, where the acceleration is to have it.
+    pub contact_time_s: Option<f64>,
 }
 
 impl PlacedAbsorber {
@@ -276,30 +277,6 @@ impl ModalCase {
     pub fn shapes(&self) -> Vec<Vec<f64>> {
         let places = 0..self.places.len();
         places.map(|p| self.modes.iter().map(|mode| mode.shape[p]).collect()).collect()
-    }
-
-    /// What is measured of its places: the largest displacement, and what else criteria ask for.
-    pub fn measures(&self) -> Vec<PlaceMeasure> {
-        let mut measures = vec![PlaceMeasure::PEAK];
-        for one in &self.criteria {
-            if !measures.contains(&one.measure) {
-                measures.push(one.measure);
-            }
-        }
-        measures
-    }
-
-    /// Sensors for that, in SI units: one for each place, of the displacement first.
-    pub fn sensors(&self) -> Vec<Sensor> {
-        let mut readings: Vec<Reading> = self.measures().iter().map(|one| one.reads).collect();
-        readings.sort_unstable();
-        readings.dedup();
-        let of = |reads: Reading| {
-            // The derivative by a time in seconds.
-            let scale = (0..reads as usize).fold(1.0, |scale, _| scale * self.omega());
-            self.shapes().into_iter().map(move |shape| Sensor { shape, reads, scale })
-        };
-        readings.into_iter().flat_map(of).collect()
     }
 
     /// Radians per unit of the dimensionless time: the first mode's natural frequency in rad/s.

@@ -8,7 +8,9 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::asked::{ModalCriteriaTable, ModalOptimizeTable, read_bounds, read_criteria};
+use super::asked::{
+    ModalCriteriaTable, ModalOptimizeTable, read_bounds, read_contact_times, read_criteria,
+};
 use super::file::{ModesTable, modes_of_file};
 use super::place::find_place;
 use super::table::{Modes, ModesFile};
@@ -63,6 +65,9 @@ struct ModalAbsorberTable {
     /// r_j, the coefficient of restitution, from 0 to 1.
     #[schemars(range(min = 0, max = 1), example = 0.3)]
     restitution: f64,
+    /// How long an impact takes, as a half-sine: `acceleration` of the criteria then has it. Of all absorbers or of none.
+    #[schemars(extend("x-measurand" = "a time", "exclusiveMinimum" = 0), example = "0.5 ms")]
+    contact_time: Option<f64>,
 }
 
 names! { name:
@@ -228,6 +233,7 @@ pub(super) fn read(
             mass_kg: read.mass,
             clearance_m: read.clearance,
             restitution: read.restitution,
+            contact_time_s: read.contact_time,
         }));
     }
     let mut loads = Vec::new();
@@ -248,7 +254,15 @@ pub(super) fn read(
             "leave it out: every start is flown until its slowest mode has died out",
         );
     }
-    let criteria = read_criteria(reader, &root, &places);
+    let asked = reader.optional::<ModalCriteriaTable>(&root, "criteria");
+    let (criteria, upto) = match &asked {
+        Some((table, read)) => (
+            read_criteria(reader, table, &places),
+            read.acceleration_upto.map(|upto| (table.span_of("acceleration_upto"), upto)),
+        ),
+        None => (Vec::new(), None),
+    };
+    read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
     let Some(heading) = heading.filter(|_| reader.problems.is_empty()) else { return Ok(None) };
     let asked = simulation.as_ref();

@@ -61,6 +61,8 @@ pub fn counted(judged: &[Judged], rows: Vec<Value>) -> Option<Value> {
             "too_close": count("too-close-to-call"),
             "count_inactive": true,
             "contact_time": null,
+            // Where absorbers differ in it.
+            "longest_contact_time": null,
             "all": rows,
         })
     })

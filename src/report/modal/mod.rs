@@ -17,10 +17,11 @@ use super::template::{render, worded};
 use crate::case::{ActsOn, Load, ModalCase, StructuralMode};
 use crate::criteria::Outcome;
 use crate::executor::Executor;
+use crate::measure::Device;
 use crate::method::Method;
 use crate::modal::{
     DamperChoice, ForceStep, JudgedPlace, ModalAnswer, ModalError, OffStructure, OverForce,
-    WorstOfPlace, choices, modes_alone, off_structures,
+    WorstOfPlace, choices, linear_most, modes_alone, off_structures,
 };
 use crate::motions::{ModalMotion, SensorExtent};
 use crate::quantity::catalogue as of;
@@ -135,7 +136,43 @@ fn placed(case: &ModalCase, one: &JudgedPlace, mut row: Value) -> Value {
 fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
     let judged = &answer.judged;
     let rows = judged.iter().map(|one| placed(case, one, row(&one.judged, Some(frequency(one)))));
-    json!(counted(&answer.criteria(), rows.collect()))
+    let mut counted = counted(&answer.criteria(), rows.collect());
+    let times = || case.absorbers.iter().filter_map(|one| one.contact_time_s);
+    let least = times().min_by(f64::total_cmp);
+    let longest = times().max_by(f64::total_cmp).filter(|longest| Some(*longest) != least);
+    if let Some(counted) = &mut counted {
+        let time = |one: f64| given(&of::CONTACT_TIME, one);
+        counted["contact_time"] = json!(least.map(time));
+        counted["longest_contact_time"] = json!(longest.map(time));
+    }
+    json!(counted)
+}
+
+/// Whether values meet all criteria; none without criteria.
+fn holds(case: &ModalCase, values: &[f64]) -> Option<bool> {
+    let all = case.criteria.iter().zip(values);
+    (!case.criteria.is_empty())
+        .then(|| all.into_iter().all(|(one, value)| *value <= one.criterion.limit))
+}
+
+/// Each criterion with what the structure without absorbers and with each choice of dampers comes to, where there are any.
+fn compared(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
+    if beside.dampers.is_empty() {
+        return Vec::new();
+    }
+    let each = answer.judged.iter().zip(&case.criteria).enumerate();
+    let rows = each.map(|(n, (judged, asked))| {
+        let told = |device: Device, value: f64| {
+            let kind = asked.criterion.measure.kind(device).unwrap_or(&of::PEAK);
+            json!({ "value": closed(kind, value), "misses": value > asked.criterion.limit })
+        };
+        let dampers = beside.dampers.iter().map(|one| told(Device::Damper, one.criteria[n]));
+        let mut row = placed(case, judged, row(&judged.judged, Some(frequency(judged))));
+        row["without"] = told(Device::Without, linear_most(case, asked, &[]));
+        row["dampers"] = dampers.collect();
+        row
+    });
+    rows.collect()
 }
 
 /// What the amplitude of a load is of.
@@ -285,6 +322,7 @@ fn absorbers(case: &ModalCase) -> Vec<Value> {
             "mass": given(&of::ABSORBER_MASS, one.mass_kg),
             "clearance": given(&of::CLEARANCE, one.clearance_m),
             "restitution": given(&of::RESTITUTION, one.restitution),
+            "contact_time": one.contact_time_s.map(|time| given(&of::CONTACT_TIME, time)),
             // Over the mass that its impacts see.
             "mass_ratio": closed(&of::MASS_RATIO, case.modes.iter().map(ratio).sum()),
         })
@@ -339,6 +377,7 @@ pub fn document(
             "count": one.dampers.len(),
             "worst": closed(&of::DAMPER_PEAK, one.worst.iter().copied().fold(0.0, f64::max)),
             "stroke": closed(&of::DAMPER_STROKE, one.strokes.iter().copied().fold(0.0, f64::max)),
+            "holds": holds(case, &one.criteria),
             "each": each.collect::<Vec<_>>(),
         })
     });
@@ -352,6 +391,7 @@ pub fn document(
         "verdict": { "tone": word.tone(), "word": word, "headline": headline(answer) },
         "quantities": quantities,
         "criteria": criteria(case, answer),
+        "compared": compared(case, answer, beside),
         "notes": notes.collect::<Vec<_>>(),
         "band": null,
         "places_of_shapes": case.places,

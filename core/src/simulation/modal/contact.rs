@@ -79,7 +79,7 @@ impl Inverse {
 
 impl All {
     /// The modes' values at an absorber.
-    fn shape(&self, j: usize) -> Vector {
+    pub(super) fn shape(&self, j: usize) -> Vector {
         self.constants.views[j].shape.map(|value| value * self.clearances[j])
     }
 }

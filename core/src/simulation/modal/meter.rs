@@ -8,7 +8,7 @@
 
 use super::contact::HeldPanel;
 use super::motion::{Constants, Gap, Phasors, View};
-use super::{All, Course, MOST, ModalObserver, ModalSegment, STILL};
+use super::{All, Course, MOST, ModalImpact, ModalObserver, ModalSegment, STILL};
 use crate::numerics::gauss;
 use crate::simulation::certificate::{Hull, Quintic};
 use crate::simulation::flow::{Phasor, mean_to};
@@ -32,9 +32,37 @@ pub enum Reading {
     Velocity,
     /// Its acceleration between impacts.
     Acceleration,
+    /// The jump of its velocity in impacts of one absorber. It has no mean.
+    Jump {
+        /// Which absorber, from 0.
+        absorber: usize,
+    },
 }
 
-/// Reads `scale` times the displacement `z + sum_k phi_k q_k` of a place, or a derivative of it by the fast time.
+impl Reading {
+    /// The order of the derivative that it is in a flight; none of what there is in impacts alone.
+    const fn in_flight(self) -> Option<usize> {
+        match self {
+            Self::Displacement => Some(0),
+            Self::Velocity => Some(1),
+            Self::Acceleration => Some(2),
+            Self::Jump { .. } => None,
+        }
+    }
+
+    /// How often a time unit divides it.
+    pub const fn rates(self) -> usize {
+        match self {
+            Self::Jump { .. } => 1,
+            other => match other.in_flight() {
+                Some(order) => order,
+                None => 0,
+            },
+        }
+    }
+}
+
+/// Reads `scale` times the displacement `z + sum_k phi_k q_k` of a place, a derivative of it by the fast time, or its jumps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensor {
     /// Value of each mode's shape; what a place has none of is 0.
@@ -53,7 +81,8 @@ impl Sensor {
 
     /// What it reads at most of a sine of this amplitude and frequency.
     pub fn of_sine(&self, amplitude: f64, frequency: f64) -> f64 {
-        (0..self.reads as usize).fold(self.scale * amplitude, |value, _| value * frequency)
+        let Some(order) = self.reads.in_flight() else { return 0.0 };
+        (0..order).fold(self.scale * amplitude, |value, _| value * frequency)
     }
 }
 
@@ -69,8 +98,10 @@ pub struct SensorRecord {
 /// Reads sensors.
 #[derive(Debug, Clone)]
 pub struct ModalMeter {
-    /// What each reads, as the order of a derivative, and how it sees the motion.
-    views: Vec<(usize, View<MOST>)>,
+    /// What each reads in flights, as the order of a derivative, and how it sees the motion.
+    views: Vec<(Option<usize>, View<MOST>)>,
+    /// What each reads of the velocity that an impact gives an absorber; nothing of impacts of others.
+    jumps: Vec<Option<(usize, f64)>>,
     rule: Vec<(f64, f64)>,
     peaks: Vec<f64>,
     squares: Vec<f64>,
@@ -78,7 +109,7 @@ pub struct ModalMeter {
 }
 
 /// The largest order of a derivative.
-const MOST_ORDER: usize = Reading::Acceleration as usize;
+const MOST_ORDER: usize = 2;
 
 impl ModalMeter {
     /// Of a structure, for these sensors.
@@ -91,15 +122,23 @@ impl ModalMeter {
             let steady = shape.iter().zip(&all.steady).fold(base, |sum, (phi, [s, c])| {
                 LinearResponse { sine: sum.sine + phi * s, cosine: sum.cosine + phi * c }
             });
-            let order = *reads as usize;
-            let steady = (0..order).fold(steady, |of, _| LinearResponse {
+            let order = reads.in_flight();
+            let steady = (0..order.unwrap_or(0)).fold(steady, |of, _| LinearResponse {
                 sine: -frequency * of.cosine,
                 cosine: frequency * of.sine,
             });
             (order, all.constants.view(shape, all.base, steady, 1.0 / scale))
         });
+        let jump = |Sensor { shape, reads, scale }: &Sensor| {
+            let Reading::Jump { absorber } = *reads else { return None };
+            let there = all.shape(absorber);
+            let each = shape.iter().zip(&there).zip(&all.masses).take(all.modes);
+            let yields: f64 = each.map(|((here, there), mass)| here * there / mass).sum();
+            Some((absorber, scale * yields * all.absorber_masses[absorber]))
+        };
         Self {
             views: views.collect(),
+            jumps: sensors.iter().map(jump).collect(),
             rule: gauss::uniform(NODES),
             peaks: vec![0.0; sensors.len()],
             squares: vec![0.0; sensors.len()],
@@ -126,7 +165,7 @@ impl ModalObserver for ModalMeter {
                 self.add_squares(all, begin, whole);
                 let mut derived = *begin;
                 for order in 0..=MOST_ORDER {
-                    if self.views.iter().any(|one| one.0 == order) {
+                    if self.views.iter().any(|one| one.0 == Some(order)) {
                         match all.modes {
                             1 => self.find_peaks::<1>(all, order, &derived, whole),
                             2 => self.find_peaks::<2>(all, order, &derived, whole),
@@ -139,6 +178,14 @@ impl ModalObserver for ModalMeter {
                 }
             }
             Course::Held(panel) => self.add_held(panel, whole),
+        }
+    }
+
+    fn impact(&mut self, impact: &ModalImpact) {
+        let [before, after] = impact.y_velocity;
+        for (peak, jump) in self.peaks.iter_mut().zip(&self.jumps) {
+            let of = jump.filter(|(absorber, _)| *absorber == impact.absorber);
+            *peak = of.map_or(*peak, |(_, by)| peak.max((by * (after - before)).abs()));
         }
     }
 }
@@ -159,7 +206,8 @@ impl ModalMeter {
             let free = view.shape.iter().zip(&all_sizes).map(|(phi, size)| phi.abs() * size);
             free.sum::<f64>() + view.steady_size > peak
         };
-        let watched = self.views.iter().zip(&mut self.peaks).filter(|(one, _)| one.0 == order);
+        let watched =
+            self.views.iter().zip(&mut self.peaks).filter(|(one, _)| one.0 == Some(order));
         let watched = watched.map(|((_, view), peak)| (view, peak));
         let mut watched: Vec<_> = watched.filter(|(view, peak)| beyond(view, **peak)).collect();
         if watched.is_empty() {
@@ -228,6 +276,7 @@ impl ModalMeter {
         let first = constants.derivative(begin);
         let derived = [*begin, first, constants.derivative(&first)];
         for ((order, view), sum) in self.views.iter().zip(&mut self.squares) {
+            let Some(order) = order else { continue };
             let [s, c] = view.steady;
             let mut terms = [Phasor::new(c, -s) * Phasor::new(cos, sin); MOST + 1];
             for (k, [re, im]) in derived[*order].z.iter().enumerate().take(all.modes) {
@@ -245,6 +294,7 @@ impl ModalMeter {
 
     fn add_held(&mut self, panel: &HeldPanel, whole: f64) {
         for (n, (order, view)) in self.views.iter().enumerate() {
+            let Some(order) = order else { continue };
             let sight = panel.sight(view).derivative(*order);
             let moment = |s: f64| Gap::of(sight.moment(s), STILL);
             let cube = whole * whole * whole;

@@ -1,0 +1,105 @@
+//! What such a case can be read with, and is almost surely a slip: a unit or a per cent sign, by the limits of
+//! [`crate::case::warnings`].
+
+use std::ops::Range;
+
+use super::{AbsorberKey, ModalCase};
+use crate::case::error::Problem;
+use crate::case::warnings::{FAR_APART, HEAVY_DAMPING, MASS_RATIOS};
+use crate::case::warnings::{hertz, meant, percent, short, times};
+
+/// Where numbers stand that a slip may be in.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Spans {
+    /// The damping ratio of each mode; of modes in a file that in `[modes]`, or the name of the file.
+    pub damping: Vec<Range<usize>>,
+    /// Of each load the frequency, or both ends of its range.
+    pub frequencies: Vec<Vec<Range<usize>>>,
+}
+
+/// Everything that a case is warned of, in the order of its lines.
+pub(super) fn of(case: &ModalCase, text: &str, spans: &Spans) -> Vec<Problem> {
+    let read = Read { case, text };
+    let mut found = read.damping(spans);
+    found.extend(read.masses());
+    found.extend(read.frequencies(spans));
+    found.sort_by_key(|warning| warning.span.start);
+    found
+}
+
+struct Read<'a> {
+    case: &'a ModalCase,
+    text: &'a str,
+}
+
+impl Read<'_> {
+    fn written(&self, span: &Range<usize>) -> &str {
+        self.text[span.clone()].trim_matches(['"', '\''])
+    }
+
+    fn warning(&self, span: &Range<usize>, message: String, label: &str, meant: String) -> Problem {
+        Problem::new(self.text, span.clone(), message, label).help(meant).into_warning()
+    }
+
+    /// Of modes that share a place in the text the worst is told.
+    fn damping(&self, spans: &Spans) -> Vec<Problem> {
+        let modes = self.case.modes.iter().map(|mode| mode.damping_ratio);
+        let mut heavy: Vec<(&Range<usize>, f64)> = Vec::new();
+        for (span, ratio) in spans.damping.iter().zip(modes).filter(|one| one.1 > HEAVY_DAMPING) {
+            match heavy.last_mut().filter(|(last, _)| *last == span) {
+                Some((_, most)) => *most = most.max(ratio),
+                None => heavy.push((span, ratio)),
+            }
+        }
+        let told = heavy.into_iter().map(|(span, ratio)| {
+            let message = format!("a damping ratio is {}", percent(ratio));
+            let part = ratio / 100.0;
+            let meant = format!("was {} ({}) meant?", percent(part), short(part));
+            self.warning(span, message, "most structures have less than 5 %", meant)
+        });
+        told.collect()
+    }
+
+    fn masses(&self) -> Vec<Problem> {
+        let [least, most] = MASS_RATIOS;
+        let key = AbsorberKey::ALL.iter().position(|key| *key == AbsorberKey::Mass);
+        let of = |(one, values): (&super::PlacedAbsorber, &[Option<Range<usize>>; 4])| {
+            let inverse =
+                self.case.modes.iter().map(|mode| mode.shape[one.place].powi(2) / mode.mass_kg);
+            let ratio = one.mass_kg * inverse.sum::<f64>();
+            let span = values[key?].as_ref().filter(|_| !(least..=most).contains(&ratio))?;
+            let message = format!(
+                "`mass` = {}: the absorber has {} times the mass that its impacts see",
+                self.written(span),
+                short(ratio)
+            );
+            let meant = "check the units of its mass and of the modal masses, which belong to the scale of the shapes: \
+                         an absorber usually has a few per cent";
+            Some(self.warning(span, message, "no small mass beside a structure", meant.to_owned()))
+        };
+        self.case.absorbers.iter().zip(&self.case.values).filter_map(of).collect()
+    }
+
+    /// Frequencies of loads that are far from those of all modes.
+    fn frequencies(&self, spans: &Spans) -> Vec<Problem> {
+        let apart = |ratio: f64| ratio.max(1.0 / ratio);
+        let loads = self.case.loads.iter().zip(&spans.frequencies);
+        let each = loads.flat_map(|(load, spans)| spans.iter().zip(load.range_hz));
+        let far = each.filter_map(|(span, hz)| {
+            let natural = self.case.modes.iter().map(|mode| mode.frequency_hz);
+            let nearest = natural
+                .min_by(|a, b| apart(hz / a).total_cmp(&apart(hz / b)))
+                .filter(|nearest| apart(hz / nearest) > FAR_APART)?;
+            let (ratio, written) = (hz / nearest, self.written(span));
+            let than = format!("the nearest natural frequency, {}", hertz(nearest));
+            let message = format!("{written} is {}", times(ratio, &than));
+            Some(self.warning(
+                span,
+                message,
+                "far from every mode",
+                meant(written, hz, ratio, true),
+            ))
+        });
+        far.collect()
+    }
+}
