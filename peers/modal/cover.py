@@ -44,8 +44,8 @@ def design(number):
     for _ in range(absorbers):
         k = draw.choice(loads)["mode"]
         place = max(range(places), key=lambda p: abs(modes[k]["shape"][p]))
-        driven = modes[loads[0]["mode"]]
-        static = loads[0]["base"] or loads[0]["amplitude"] / driven["mass"] / (2 * math.pi * driven["frequency"]) ** 2
+        deflected = lambda load: load["amplitude"] / modes[load["mode"]]["mass"] / (2 * math.pi * modes[load["mode"]]["frequency"]) ** 2
+        static = max(load["base"] or deflected(load) for load in loads)
         bodies.append({"place": place, "mass": log(0.01, 0.1) * modes[k]["mass"], "clearance": static * log(2, 40), "restitution": draw.uniform(0.1, 0.8)})
     return modes, bodies, loads
 

@@ -98,7 +98,7 @@ impl Case {
 
     /// What is probably a slip in it, as the program says it of the text.
     fn warnings(&self) -> Vec<String> {
-        warned(&self.name, &self.text, &self.inner.warnings())
+        warned(&self.name, &self.text, self.inner.warnings())
     }
 
     /// Clearance, natural frequency and mass, which turn dimensionless numbers into the case's units.

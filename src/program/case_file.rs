@@ -62,7 +62,7 @@ pub fn read_any(path: &Path, reading: Reading) -> Result<(AnyCase, String)> {
     let read = case_input::read_any(path, reading.reach());
     let (case, text) = read.map_err(|error| refused(path, error))?;
     match &case {
-        AnyCase::One(case) => warn(path, &case.warnings(), &text),
+        AnyCase::One(case) => warn(path, case.warnings(), &text),
         AnyCase::Several(case) => warn(path, &case.warnings, &text),
     }
     Ok((case, text))
@@ -72,7 +72,7 @@ pub fn read_any(path: &Path, reading: Reading) -> Result<(AnyCase, String)> {
 pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
     let read = case_input::read(path, reading.reach());
     let (case, text) = read.map_err(|error| refused(path, error))?;
-    warn(path, &case.warnings(), &text);
+    warn(path, case.warnings(), &text);
     Ok((case, text))
 }
 

@@ -875,8 +875,8 @@ fn limits_are_asked_of_the_structure_alone_and_of_dampers() {
             let [from, to] = load.range_hz;
             for k in 0..=4000 {
                 let at = from + (to - from) * f64::from(k) / 4e3;
-                let squared = (std::f64::consts::TAU * at).powi(2);
-                most = most.max(squared * linear_peak(&case, load, at, &choice.dampers));
+                let rate = std::f64::consts::TAU * at;
+                most = most.max(rate * rate * linear_peak(&case, load, at, &choice.dampers));
             }
         }
         // The highest of tops that are almost as high is told to five digits, and lies between the frequencies of the scan.

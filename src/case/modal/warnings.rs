@@ -64,8 +64,10 @@ impl Read<'_> {
         let [least, most] = MASS_RATIOS;
         let key = AbsorberKey::ALL.iter().position(|key| *key == AbsorberKey::Mass);
         let of = |(one, values): (&super::PlacedAbsorber, &[Option<Range<usize>>; 4])| {
-            let inverse =
-                self.case.modes.iter().map(|mode| mode.shape[one.place].powi(2) / mode.mass_kg);
+            let inverse = self.case.modes.iter().map(|mode| {
+                let phi = mode.shape[one.place];
+                phi * phi / mode.mass_kg
+            });
             let ratio = one.mass_kg * inverse.sum::<f64>();
             let span = values[key?].as_ref().filter(|_| !(least..=most).contains(&ratio))?;
             let message = format!(

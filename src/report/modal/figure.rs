@@ -37,8 +37,8 @@ pub(super) fn loads(
         }
         let highest = along.places.iter().flat_map(|one| &one.motions);
         let highest = highest.map(most).fold(0.0, f64::max);
-        let limit = tightest(case);
-        let top = 1.15 * limit.map_or(highest, |limit| limit.max(highest));
+        let limits = limits(case);
+        let top = 1.15 * limits.iter().map(|one| one.0).fold(highest, f64::max);
         let x = AxisOf::si(units, &of::EXCITATION_FREQUENCY).axis([from, to]);
         let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
         let curve = |of: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
@@ -55,9 +55,7 @@ pub(super) fn loads(
             };
             panel = panel.with(Layer::curve(style, linear(&choice.dampers)).labelled(name));
         }
-        if let Some(limit) = limit {
-            panel = panel.with(Layer::horizontal(limit, LIMIT).labelled("limit"));
-        }
+        panel = with_limits(panel, &limits);
         // Not those in which every absorber rests, which are on the line without them.
         let seen = along.places.iter().flat_map(|one| {
             let acts = |motion: &&ModalMotion| !motion.rests();
@@ -93,10 +91,10 @@ pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure
             });
             each.collect::<Vec<_>>()
         };
-        let limit = tightest(case);
+        let limits = limits(case);
         // An absorber may work far above what is seen, and how far beyond a limit decides nothing.
         let most = seen(false).into_iter().map(|[_, y]| y).fold(0.0, f64::max);
-        let top = 1.15 * limit.map_or(most, |limit| most.clamp(limit, 3.0 * limit));
+        let top = 1.15 * limits.last().map_or(most, |(limit, _)| most.clamp(*limit, 3.0 * limit));
         let range = [first.times, last.times].map(|times| times * load.amplitude);
         let mut x = AxisOf::si(units, amplitude_of(load)).axis(range);
         x.scale = AxisScale::Log;
@@ -105,9 +103,7 @@ pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure
         let mut panel = Panel::new(x, y)
             .with(Layer::curve(Role::BareOscillator, bare).labelled("without absorbers"))
             .with(Layer::vertical(load.amplitude, Role::Forcing).labelled("the load"));
-        if let Some(limit) = limit {
-            panel = panel.with(Layer::horizontal(limit, LIMIT).labelled("limit"));
-        }
+        panel = with_limits(panel, &limits);
         for (j, range_of) in working.iter().enumerate() {
             let Some([from, to]) = range_of.filter(|[from, _]| *from < top) else { continue };
             // From the right edge on, evenly on a logarithmic axis.
@@ -141,10 +137,26 @@ fn in_rows(figure: Figure) -> Figure {
     figure.with_layout(Layout::rows(&vec![1.0; count])).with_size(720, height)
 }
 
-/// The smallest limit of the displacement of any place.
-fn tightest(case: &ModalCase) -> Option<f64> {
-    let of = case.criteria.iter().filter(|one| one.measure == PlaceMeasure::PEAK);
-    of.map(|one| one.criterion.limit).min_by(f64::total_cmp)
+/// Limits of displacements with their names, the smallest first: each once, by its place where there is more than one.
+fn limits(case: &ModalCase) -> Vec<(f64, String)> {
+    let peaks = case.criteria.iter().filter(|one| one.measure == PlaceMeasure::PEAK);
+    let mut found: Vec<(f64, Option<usize>)> =
+        peaks.map(|one| (one.criterion.limit, one.place)).collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.dedup_by(|a, b| a.0 == b.0);
+    let several = found.len() > 1;
+    let named = |(limit, place): (f64, Option<usize>)| match place.filter(|_| several) {
+        Some(place) => (limit, format!("limit at {}", case.places[place])),
+        None => (limit, "limit".to_owned()),
+    };
+    found.into_iter().map(named).collect()
+}
+
+/// With a line for each of them.
+fn with_limits(panel: Panel, limits: &[(f64, String)]) -> Panel {
+    limits.iter().fold(panel, |panel, (limit, name)| {
+        panel.with(Layer::horizontal(*limit, LIMIT).labelled(name.clone()))
+    })
 }
 
 fn heading(case: &ModalCase, number: usize, load: &Load) -> String {
