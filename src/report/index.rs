@@ -50,6 +50,11 @@ pub struct Summary {
     notes: Vec<Value>,
     figures: Vec<Value>,
     band: Value,
+    /// Of a structure of several modes; none of others.
+    #[serde(default, skip_serializing)]
+    absorbers: Vec<Value>,
+    #[serde(default, skip_serializing)]
+    loads: Vec<Value>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -91,12 +96,18 @@ impl Summary {
     fn cells(&self) -> [Value; 6] {
         let of = |ids: &[&str]| ids.iter().find_map(|id| self.quantities.get(*id)).cloned();
         let one = |from: Option<Value>| json!({ "from": from });
-        let clearance = one(of(&["clearance"]));
+        let clearance = match &self.absorbers[..] {
+            [] => one(of(&["clearance"])),
+            several => range_of(several, &["/clearance"]),
+        };
         let band = &self.band;
         if band.is_null() {
             let frequency = of(&["excitation_frequency", "frequency_ratio", "initial_amplitude"]);
             let excitation = match of(&["sweep_from"]) {
                 Some(from) => json!({ "from": from, "to": of(&["sweep_to"]) }),
+                None if !self.loads.is_empty() => {
+                    range_of(&self.loads, &["/load/from", "/load/to"])
+                }
                 None => one(frequency),
             };
             // Of a released structure the time to come to rest, which has no level.
@@ -120,6 +131,15 @@ impl Summary {
         let range = json!({ "from": band["from"], "to": band["to"] });
         [clearance, range, bare, peak, change, damper]
     }
+}
+
+/// From the least to the largest of quantities at some places of some rows, or the one.
+fn range_of(rows: &[Value], pointers: &[&str]) -> Value {
+    let all = rows.iter().flat_map(|row| pointers.iter().filter_map(|at| row.pointer(at)));
+    let value = |of: &&Value| of["value"].as_f64().unwrap_or(f64::NAN);
+    let least = all.clone().min_by(|a, b| value(a).total_cmp(&value(b)));
+    let most = all.max_by(|a, b| value(a).total_cmp(&value(b)));
+    json!({ "from": least, "to": most.filter(|most| least.map(|one| value(&one)) != Some(value(most))) })
 }
 
 /// Both files of the index of some reports, by their names.
