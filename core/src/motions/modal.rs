@@ -78,8 +78,8 @@ const SAME: f64 = 0.02;
 /// The same of those that do.
 const SAME_REPEATING: f64 = 1e-6;
 
-/// The long-term motions that these sensors read, from so many starts, that from rest among them; the most common first. Where every absorber can rest, that motion is the last. What does not repeat is measured for at least so
-/// many excitation periods.
+/// The long-term motions that these sensors read, from so many starts, that from rest among them; the most common first. Where every
+/// absorber can rest, that motion is the last. What does not repeat is measured for at least so many excitation periods.
 ///
 /// # Errors
 /// [`ModalStartError`] where the structure's own motion is not finite.

@@ -32,7 +32,7 @@ pub enum Reading {
     Velocity,
     /// Its acceleration between impacts.
     Acceleration,
-    /// The jump of its velocity in impacts of one absorber. It has no mean.
+    /// The jump of its velocity in impacts of one absorber, 0 of one that there is not. It has no mean.
     Jump {
         /// Which absorber, from 0.
         absorber: usize,
@@ -41,23 +41,16 @@ pub enum Reading {
 
 impl Reading {
     /// The order of the derivative that it is in a flight; none of what there is in impacts alone.
-    const fn in_flight(self) -> Option<usize> {
-        match self {
-            Self::Displacement => Some(0),
-            Self::Velocity => Some(1),
-            Self::Acceleration => Some(2),
-            Self::Jump { .. } => None,
-        }
+    fn in_flight(self) -> Option<usize> {
+        (!matches!(self, Self::Jump { .. })).then(|| self.rates())
     }
 
     /// How often a time unit divides it.
     pub const fn rates(self) -> usize {
         match self {
-            Self::Jump { .. } => 1,
-            other => match other.in_flight() {
-                Some(order) => order,
-                None => 0,
-            },
+            Self::Displacement => 0,
+            Self::Velocity | Self::Jump { .. } => 1,
+            Self::Acceleration => 2,
         }
     }
 }
@@ -131,6 +124,9 @@ impl ModalMeter {
         });
         let jump = |Sensor { shape, reads, scale }: &Sensor| {
             let Reading::Jump { absorber } = *reads else { return None };
+            if absorber >= all.absorbers {
+                return None;
+            }
             let there = all.shape(absorber);
             let each = shape.iter().zip(&there).zip(&all.masses).take(all.modes);
             let yields: f64 = each.map(|((here, there), mass)| here * there / mass).sum();
