@@ -84,6 +84,11 @@ pub struct Criterion {
 }
 
 impl Criterion {
+    /// Whether it asks for an acceleration in g, which its page then tells in g.
+    pub(crate) fn is_in_g(&self) -> bool {
+        self.measure.is_of_shaking() && self.as_written.ends_with('g')
+    }
+
     /// That a measure is at most so much, as nobody has written it yet; none of a measure that has no key.
     pub(crate) fn at_most(measure: Measure, limit: f64) -> Option<Self> {
         let subject = Subject::ALL.into_iter().find(|one| one.measure() == measure)?;

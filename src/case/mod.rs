@@ -283,11 +283,9 @@ impl Case {
     /// What turns the system's results back into the case's units.
     pub fn units(&self) -> Units {
         let own = self.design.units();
-        // What is asked in g is told in g.
-        let in_g = |one: &Criterion| one.measure.is_of_shaking() && one.as_written.ends_with('g');
         match self.report.units {
             PageUnits::Us => own.in_us(),
-            PageUnits::Si if self.criteria.iter().any(in_g) => own.in_g(),
+            PageUnits::Si if self.criteria.iter().any(Criterion::is_in_g) => own.in_g(),
             PageUnits::Si => own,
         }
     }

@@ -42,7 +42,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
     let case = match case_file::read_any(path, *reading)?.0 {
         AnyCase::One(case) => *case,
-        AnyCase::Several(case) => return several::analyze(&arguments.one, &case),
+        AnyCase::Several(case) => {
+            several::without(path, &[("--fidelity", arguments.fidelity.is_some())])?;
+            return several::analyze(&arguments.one, &case);
+        }
     };
     if case.design.release().is_none() {
         one_case::steady(&case, path, "an analysis")?;

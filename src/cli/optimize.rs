@@ -151,17 +151,13 @@ fn several(arguments: &Arguments, case: &ModalCase, text: &str) -> Result<bool> 
         ("--out", arguments.out.is_some()),
         ("--robust", arguments.robust),
     ];
-    if let Some((option, _)) = given.iter().find(|(_, given)| *given) {
-        return Err(miette!(
-            help = format!("leave out {option}"),
-            "{}: {option} has no meaning for several modes or absorbers, whose worst displacement is looked at",
-            arguments.one.path.display()
-        ));
-    }
+    several::without(&arguments.one.path, &given)?;
     let better = several::optimize(&arguments.one, case, text)?;
     if let (Some(new), Some(better)) = (&arguments.write, &better) {
         store::write_new(new, better.as_bytes())?;
         arguments.tell(&format!("written: {}", new.display()), "\n")?;
+    } else if let Some(new) = &arguments.write {
+        arguments.tell(&format!("not written: {}", new.display()), "\n")?;
     }
     Ok(better.is_some())
 }

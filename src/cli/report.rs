@@ -117,6 +117,7 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
     let case = match case {
         AnyCase::One(case) => *case,
         AnyCase::Several(case) => {
+            several::without(path, &arguments.of_one_mode())?;
             let files = several::report(path, name, &case, arguments.long)?;
             Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
             output::print_path(&folder.join("report.md"))?;
@@ -134,6 +135,13 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
     Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
     output::print_path(&folder.join("report.md"))?;
     Ok(holds)
+}
+
+impl Arguments {
+    /// Options about one mode and one absorber, and whether they were given.
+    fn of_one_mode(&self) -> [(&'static str, bool); 2] {
+        [("--fidelity", self.fidelity.is_some()), ("--live", self.live.is_some())]
+    }
 }
 
 /// The live page for the report of a case, with its name.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use miette::{IntoDiagnostic, Result};
+use miette::{IntoDiagnostic, Result, miette};
 use vinesink::case::ModalCase;
 use vinesink::modal::{ModalAnswer, ModalOptimum, checks, orbits, seconds};
 use vinesink::program::case_file::name;
@@ -14,6 +14,18 @@ use vinesink::report::render::Files;
 
 use super::budget::Long;
 use super::one_case::OneCase;
+
+/// Refuses options that nothing reads for such a case, by their names where they were given.
+pub fn without(path: &Path, given: &[(&str, bool)]) -> Result<()> {
+    match given.iter().find(|(_, given)| *given) {
+        None => Ok(()),
+        Some((option, _)) => Err(miette!(
+            help = format!("leave out {option}"),
+            "{}: {option} has no meaning for several modes or absorbers",
+            path.display()
+        )),
+    }
+}
 
 /// What is known of it, unless that takes too long.
 pub fn answered(path: &Path, case: &ModalCase, long: Long) -> Result<ModalAnswer> {

@@ -67,7 +67,17 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
     let case = match case_file::read_any(path, *reading)?.0 {
         AnyCase::One(case) => *case,
-        AnyCase::Several(case) => return several::simulate(&arguments.one, &case),
+        AnyCase::Several(case) => {
+            let Arguments { periods, discard, initial, impacts, .. } = &arguments;
+            let given = [
+                ("--initial", initial.is_some()),
+                ("--impacts", impacts.is_some()),
+                ("--periods", periods.is_some()),
+                ("--discard", discard.is_some()),
+            ];
+            several::without(path, &given)?;
+            return several::simulate(&arguments.one, &case);
+        }
     };
     let Arguments { periods, discard, initial, impacts, .. } = &arguments;
     one_case::without(&case, path, &[("--discard", discard.is_some())])?;

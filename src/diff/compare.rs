@@ -248,7 +248,16 @@ impl Comparator<'_> {
     fn list(&mut self, path: &str, old: &[Value], new: &[Value]) {
         let along_load = || {
             let key = without_elements(path);
-            ["loads/motions", "loads/places", "loads/forces/steps"].contains(&key.as_str())
+            let counted = [
+                "motions",
+                "places",
+                "forces/steps",
+                "forces/limits/open",
+                "forces/limits/fails",
+                "forces/working",
+            ];
+            key == "compared"
+                || key.strip_prefix("loads/").is_some_and(|rest| counted.contains(&rest))
         };
         if path.starts_with("band/") || along_load() {
             let folded = &mut self.found.folded;

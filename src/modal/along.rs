@@ -55,6 +55,8 @@ pub struct WorstOfPlace {
 /// place.
 const EVEN: u32 = 13;
 const ROUNDS: u32 = 3;
+/// How far beside the frequency of an undamped mode it is looked at, over it.
+const BESIDE: f64 = 1e-6;
 /// How often the ends of a range of frequencies are halved.
 const HALVINGS: u32 = 50;
 /// Least distance of a neighbour, over the range: less than that of the closest round, and none so near that chance decides a slope.
@@ -90,11 +92,13 @@ impl AlongLoad {
             }
             false => vec![from],
         };
+        // Nor is there one where an even step falls on it: a little beside.
+        let steady = |at: f64| if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) };
         let mut places: Vec<AtFrequency> = Vec::new();
         for round in 0..=ROUNDS {
             let starts =
                 if round == 0 && from < to { case.starts.div_ceil(2) } else { case.starts };
-            let look = |k: usize| AtFrequency::of(case, load, wanted[k], starts);
+            let look = |k: usize| AtFrequency::of(case, load, steady(wanted[k]), starts);
             let found = map(on, "motions along the loads", wanted.len(), look);
             places.extend(found.into_iter().collect::<Result<Vec<_>, _>>()?);
             places.sort_by(|a, b| a.at.total_cmp(&b.at));

@@ -1,11 +1,13 @@
 //! Tuned mass dampers beside the absorbers of a structure of several modes.
 
+use super::cost::cost;
 use super::linear::{
     amplitudes, asked_of, largest, largest_peak, linear_most, linear_peak, linear_places,
 };
-use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion};
+use crate::case::{ActsOn, Load, ModalCase};
 use crate::dampers::simplex;
 use crate::linear::ModalDamper;
+use crate::measure::PlaceMeasure;
 
 /// Dampers of equal mass, together as heavy as the absorbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +27,11 @@ pub struct DamperChoice {
 /// Steps of a simplex, and how often it begins again where it ended.
 const STEPS: u64 = 150;
 const RESTARTS: u32 = 3;
+/// How far beside a single frequency dampers are to work, over it: one for that frequency alone is a spring without damping.
+const ASIDE: f64 = 0.02;
+/// What the largest displacement over that of the structure alone counts beside limits that are of something else: one that holds
+/// by a little more is not worth several times the vibration.
+const BESIDE: f64 = 0.1;
 /// Its first size in the logarithms of frequency and damping ratio.
 const SIMPLEX: [f64; 2] = [0.02, 0.3];
 
@@ -91,20 +98,30 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
         };
         pairs.map(damper).collect()
     };
+    let wide = |load: &Load| match load.range_hz {
+        [from, to] if from == to => [from * (1.0 - ASIDE), to * (1.0 + ASIDE)],
+        range => range,
+    };
     let along: Vec<(&Load, Vec<f64>)> =
-        case.loads.iter().map(|load| (load, linear_places(load.range_hz, case))).collect();
+        case.loads.iter().map(|load| (load, linear_places(wide(load), case))).collect();
+    let bare = case.loads.iter().map(|load| largest_peak(case, load, &[])).fold(0.0, f64::max);
+    let others = case.criteria.iter().any(|one| one.measure != PlaceMeasure::PEAK);
     let cost = |logarithms: &[f64]| {
         let dampers = built(logarithms);
-        let of = |load: &Load, at: f64| {
-            let amplitudes = amplitudes(case, load, at, &dampers);
-            let over = |one: &PlaceCriterion| asked_of(one, &amplitudes, at) / one.criterion.limit;
-            match case.criteria.is_empty() {
-                true => amplitudes.places.iter().copied().fold(0.0, f64::max),
-                false => case.criteria.iter().map(over).fold(0.0, f64::max),
+        let (mut over, mut peak) = (vec![0.0_f64; case.criteria.len()], 0.0_f64);
+        for (load, all) in &along {
+            for at in all {
+                let there = amplitudes(case, load, *at, &dampers);
+                peak = there.places.iter().copied().fold(peak, f64::max);
+                for (over, one) in over.iter_mut().zip(&case.criteria) {
+                    *over = over.max(asked_of(one, &there, *at) / one.criterion.limit);
+                }
             }
-        };
-        let each = along.iter().flat_map(|(load, all)| all.iter().map(move |at| (load, at)));
-        each.map(|(load, at)| of(load, *at)).fold(0.0, f64::max)
+        }
+        match case.criteria.is_empty() {
+            true => peak,
+            false => cost(&over) + if others { BESIDE * peak / bare } else { 0.0 },
+        }
     };
     let sizes: Vec<f64> = (0..start.len()).map(|k| SIMPLEX[k % 2]).collect();
     let dampers = built(&simplex(start, &sizes, STEPS, RESTARTS, cost));

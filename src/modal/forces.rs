@@ -42,12 +42,13 @@ pub struct ForceStep {
 /// What all limits come to with other amplitudes, over the load's own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceLimits {
-    /// The largest with which all hold with their errors, below the first that fails; none of those that were looked at.
-    pub holds: Option<f64>,
-    /// Those below the first that fails with which it is too close to call.
+    /// Between which of those that were looked at, the load's own among them, all hold with their errors; none where they do not
+    /// with its own.
+    pub holds: Option<[f64; 2]>,
+    /// Those with which it is too close to call.
     pub open: Vec<f64>,
-    /// The least with which one fails; none of those that were looked at.
-    pub fails: Option<f64>,
+    /// Those with which one fails.
+    pub fails: Vec<f64>,
 }
 
 impl OverForce {
@@ -107,13 +108,19 @@ impl OverForce {
         if case.criteria.is_empty() {
             return None;
         }
-        let failed = |step: &ForceStep| step.outcomes.contains(&Outcome::Fails);
-        let fails = self.steps.iter().find(|step| failed(step)).map(|step| step.times);
-        let before = self.steps.iter().filter(|step| fails.is_none_or(|fails| step.times < fails));
-        let holds = |step: &&ForceStep| step.outcomes.iter().all(|one| *one == Outcome::Holds);
-        let (hold, open): (Vec<&ForceStep>, Vec<_>) = before.partition(holds);
-        let open = open.into_iter().map(|step| step.times).collect();
-        Some(ForceLimits { holds: hold.last().map(|step| step.times), open, fails })
+        let fails = |step: &ForceStep| step.outcomes.contains(&Outcome::Fails);
+        let holds = |step: &ForceStep| step.outcomes.iter().all(|one| *one == Outcome::Holds);
+        let times = |of: &dyn Fn(&ForceStep) -> bool| -> Vec<f64> {
+            self.steps.iter().filter(|step| of(step)).map(|step| step.times).collect()
+        };
+        let own = self.steps.iter().position(|step| step.times == 1.0 && holds(step));
+        let stretch = own.map(|own| {
+            let before = self.steps[..own].iter().rev().take_while(|step| holds(step)).last();
+            let behind = self.steps[own..].iter().take_while(|step| holds(step)).last();
+            [before, behind].map(|step| step.map_or(1.0, |step| step.times))
+        });
+        let open = times(&|step| !fails(step) && !holds(step));
+        Some(ForceLimits { holds: stretch, open, fails: times(&fails) })
     }
 }
 

@@ -4,6 +4,7 @@
 //! For the program itself: this module may change at any time.
 
 mod along;
+mod cost;
 mod dampers;
 mod drift;
 mod forces;

@@ -8,6 +8,7 @@
 use std::cmp::Ordering;
 
 use super::along::farthest_at_rest;
+use super::cost::cost;
 use super::sensors::{measured, sensors};
 use super::{ModalAnswer, ModalError};
 use crate::case::{Bounds, Load, ModalCase, PlacedAbsorber, Rounding};
@@ -38,9 +39,9 @@ pub struct JudgedAbsorbers {
     pub text: String,
     /// What they do, as `check` finds it.
     pub answer: ModalAnswer,
-    /// The most that any motion may have of what a criterion is about, over what that allows, of the worst one; without criteria the
-    /// largest displacement over that of the structure alone.
-    pub reach: f64,
+    /// The most that any motion may have of what each criterion is about, over what that allows; without criteria the largest
+    /// displacement over that of the structure alone.
+    pub reaches: Vec<f64>,
 }
 
 /// What was found.
@@ -62,8 +63,8 @@ impl JudgedAbsorbers {
             let worst = answer.worst_of(one.measure, one.place, None);
             worst.map_or(f64::INFINITY, |worst| (worst.value + worst.error) / one.most)
         };
-        let reach = limits.iter().map(reach).fold(0.0, f64::max);
-        Ok(Self { case, text, answer, reach })
+        let reaches = limits.iter().map(reach).collect();
+        Ok(Self { case, text, answer, reaches })
     }
 
     /// First how many criteria are missed, then how many are not known to hold, then how far it may move.
@@ -74,7 +75,7 @@ impl JudgedAbsorbers {
         let fails: fn(Outcome) -> bool = |one| matches!(one, Outcome::Fails | Outcome::NotMeasured);
         let open: fn(Outcome) -> bool = |one| one != Outcome::Holds;
         let by = |which| count(self, which).cmp(&count(other, which));
-        by(fails).then(by(open)).then(self.reach.total_cmp(&other.reach))
+        by(fails).then(by(open)).then(cost(&self.reaches).total_cmp(&cost(&other.reaches)))
     }
 }
 
@@ -101,24 +102,36 @@ impl ModalOptimum {
         let own = JudgedAbsorbers::of(case.clone(), text.to_owned(), on)?;
         let limits = limits(case, &own.answer);
         let looked_at = frequencies(case, &own.answer, &limits);
-        let own_reach = looked_at.first().map_or(f64::INFINITY, |(_, _, reach)| *reach);
+        let own_over = limits.iter().map(|limit| {
+            let all = looked_at.iter().map(|(load, at, _)| (load, at));
+            let along = own.answer.along.iter();
+            let there =
+                along.flat_map(|along| along.places.iter().map(move |one| (&along.load, one)));
+            let there =
+                there.filter(|(load, one)| all.clone().any(|place| place == (*load, &one.at)));
+            there.map(|(_, one)| over_limit(&one.motions, limit)).fold(0.0, f64::max)
+        });
+        let own_cost = cost(&own_over.collect::<Vec<_>>());
         let (count, sensors) = (numbers(case), sensors(case));
         let score = |parts: &[f64], best: f64| {
             let candidate = candidate(case, parts);
             let at_rest = case.loads.iter().flat_map(|load| farthest_at_rest(&candidate, load));
             let at_rest: Vec<ModalMotion> = at_rest.map(|one| one.1).collect();
-            let (known, mut reach) = (best.max(-own_reach), over_limits(&at_rest, &limits));
+            let known = best.max(-own_cost);
+            let mut over: Vec<f64> = limits.iter().map(|one| over_limit(&at_rest, one)).collect();
             for (load, at, _) in &looked_at {
                 let found = candidate.system(load, *at).ok();
                 let found =
                     found.and_then(|system| modal_motions(&system, &sensors, FEW_STARTS, 0).ok());
                 let Some(motions) = found else { return f64::NEG_INFINITY };
-                reach = reach.max(over_limits(&motions, &limits));
-                if -reach < known {
+                for (over, limit) in over.iter_mut().zip(&limits) {
+                    *over = over.max(over_limit(&motions, limit));
+                }
+                if -cost(&over) < known {
                     break;
                 }
             }
-            -reach
+            -cost(&over)
         };
         let first = (CANDIDATES * count).min(MOST_CANDIDATES);
         let seen = spread_out("candidates", count, first, on, &score);
@@ -161,27 +174,24 @@ fn limits(case: &ModalCase, answer: &ModalAnswer) -> Vec<Limit> {
 }
 
 /// The most of any motion over what is allowed.
-fn over_limits(motions: &[ModalMotion], limits: &[Limit]) -> f64 {
+fn over_limit(motions: &[ModalMotion], limit: &Limit) -> f64 {
     let of = |motion: &ModalMotion| {
-        let over = |one: &Limit| {
-            let places = 0..motion.read(one.measure.reads).count();
-            let asked = places.filter(|p| one.place.is_none_or(|place| place == *p));
-            let values = asked.map(|p| measured(motion, p, one.measure)[0]);
-            values.fold(0.0, f64::max) / one.most
-        };
-        limits.iter().map(over).fold(0.0, f64::max)
+        let places = 0..motion.read(limit.measure.reads).count();
+        let asked = places.filter(|p| limit.place.is_none_or(|place| place == *p));
+        asked.map(|p| measured(motion, p, limit.measure)[0]).fold(0.0, f64::max)
     };
-    motions.iter().map(of).fold(0.0, f64::max)
+    motions.iter().map(of).fold(0.0, f64::max) / limit.most
 }
 
 /// Loads and frequencies that candidates are flown at with what the case's own absorbers come to, those first where that is worst.
 fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<(Load, f64, f64)> {
     let mut found = Vec::new();
     for along in &own.along {
-        let over = |k: usize| over_limits(&along.places[k].motions, limits);
-        let moving = |k: usize| {
+        let over_one = |k: usize, one: &Limit| over_limit(&along.places[k].motions, one);
+        let over = |k: usize| limits.iter().map(|one| over_one(k, one)).fold(0.0, f64::max);
+        let moving = |k: usize, one: &Limit| {
             let all = along.places[k].motions.iter().filter(|one| !one.rests());
-            over_limits(&all.cloned().collect::<Vec<_>>(), limits)
+            over_limit(&all.cloned().collect::<Vec<_>>(), one)
         };
         let last = along.places.len() - 1;
         let [from, to] = along.load.range_hz;
@@ -191,9 +201,13 @@ fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<(Lo
         };
         let even = (0..FEW).map(|k| from + (to - from) * k as f64 / (FEW - 1) as f64);
         let mut chosen: Vec<usize> = even.filter_map(nearest).collect();
-        chosen.extend((0..=last).max_by(|a, b| over(*a).total_cmp(&over(*b))));
-        // Where others rest is told for each by itself.
-        chosen.extend((0..=last).max_by(|a, b| moving(*a).total_cmp(&moving(*b))));
+        for one in limits {
+            let most = |of: &dyn Fn(usize, &Limit) -> f64| {
+                (0..=last).max_by(|a, b| of(*a, one).total_cmp(&of(*b, one)))
+            };
+            // Where others rest is told for each by itself.
+            chosen.extend(most(&over_one).into_iter().chain(most(&moving)));
+        }
         let resonant =
             |k: &usize| case.modes.iter().any(|one| one.frequency_hz == along.places[*k].at);
         chosen.extend((0..=last).filter(resonant));

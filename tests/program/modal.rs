@@ -84,6 +84,9 @@ fn slips_are_told_where_they_are() {
     refused("place = \"tip\" }", "place = \"top\" }", &["\"top\"", "did you mean \"tip\"?"]);
     refused("\"<= 4 mm\"", "\">= 4 mm\"", &["not written as one"]);
     refused("damping_ratio = \"0.5 %\"", "damping_ratio = 1.5", &["`damping_ratio`", "0.85"]);
+    // A mode that is wrong is one all the same.
+    let third = text(MAST).replacen("damping_ratio = \"0.5 %\"", "damping_ratio = 1.5", 1);
+    assert!(!wrong(&third).contains("`mode` is 3"), "{}", wrong(&third));
     refused("peak_displacement", "reduction_db", &["it is read where a structure has one mode"]);
     refused(
         "peak_displacement = { limit = \"<= 4 mm\"",
@@ -170,6 +173,21 @@ fn other_commands_say_who_reads_it() {
         problem.help.as_deref().is_some_and(|help| help.contains("`vinesink check`")),
         "{problem:?}"
     );
+    // Options that nothing reads are refused.
+    for arguments in [
+        ["simulate", "--initial", "0,0,0,1"],
+        ["simulate", "--impacts", "impacts.csv"],
+        ["simulate", "--periods", "9"],
+        ["analyze", "--fidelity", "orbit"],
+        ["report", "--fidelity", "orbit"],
+        ["optimize", "--objective", "margin"],
+    ] {
+        let [command, option, value] = arguments;
+        let output = vinesink(&[command, MAST, option, value]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_ne!(output.status.code(), Some(0), "{command} {option}: {told}");
+        assert!(told.contains(&format!("leave out {option}")), "{command} {option}: {told}");
+    }
     for command in ["sweep", "tradeoff"] {
         let output = vinesink(&[command, MAST]);
         let told = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -584,11 +602,15 @@ fn a_report_tells_what_other_amplitudes_do() {
         let limit = case.criteria[0].criterion.limit;
         assert!(case.criteria.len() == 1 && case.criteria[0].place.is_none());
         let limits = found.limits(&case).expect("a limit");
-        assert!(limits.holds.expect("at small forces") >= 1.0, "the criterion holds");
-        let first = found.steps.iter().find(|step| most(step) > limit).map(|step| step.times);
-        assert_eq!(limits.fails, first);
-        let below = |times: &f64| limits.fails.is_none_or(|fails| *times < fails);
-        assert!(limits.holds.iter().chain(&limits.open).all(below));
+        let [from, to] = limits.holds.expect("the criterion holds");
+        assert!(from <= 1.0 && to >= 1.0, "{limits:?}");
+        let over = found.steps.iter().filter(|step| most(step) > limit).map(|step| step.times);
+        assert_eq!(limits.fails, over.collect::<Vec<_>>());
+        let outside = |times: &f64| !(from..=to).contains(times);
+        assert!(limits.fails.iter().chain(&limits.open).all(outside), "{limits:?}");
+        // Between and at both ends all hold, and beside them not.
+        let told = found.steps.iter().filter(|step| (from..=to).contains(&step.times)).count();
+        assert!(told + limits.fails.len() + limits.open.len() <= 9, "{limits:?}");
     }
     // Three absorbers of 5, 10 and 20 mm on one mode: sqrt(R/(1 + R)) and the symmetry breaking of PHYSICS, r = 0.6.
     let (graded, _) =
@@ -885,4 +907,17 @@ fn limits_are_asked_of_the_structure_alone_and_of_dampers() {
         let peaked = linear_most(&case, acceleration, &of_peak.dampers);
         assert!(told <= 1.001 * peaked, "{told} {peaked}");
     }
+}
+
+/// An even step of a range that falls on an undamped mode's own frequency, where the structure alone has no steady motion.
+#[test]
+fn a_range_may_have_an_undamped_mode_in_its_middle() {
+    let case = "title = 't'\nsource = 's'\n[[mode]]\nfrequency = '2 Hz'\ndamping_ratio = 0\nmass = '1 t'\nshape = { a = 1 }\n\
+                [[absorber]]\nmass = '90 kg'\nclearance = '3 mm'\nrestitution = 0.3\n[[excitation]]\nkind = 'force'\n\
+                amplitude = '100 N'\nfrom = '1.8 Hz'\nto = '2.2 Hz'\n[simulation]\nstarts = 1\n";
+    let case = ModalCase::parse("case.toml", case).expect("a case");
+    let answer = ModalAnswer::of(&case, &Serial).expect("flown");
+    let there = |at: f64| (at / 2.0 - 1.0).abs() < 1e-5;
+    assert!(answer.along[0].places.iter().any(|one| there(one.at)), "{:?}", answer.along[0].bare);
+    assert!(answer.worst(None).is_some_and(|worst| worst.value.is_finite()));
 }

@@ -236,11 +236,17 @@ pub(super) fn read(
             contact_time_s: read.contact_time,
         }));
     }
+    // Those that are wrong count: their own errors are told.
+    let tables_of_modes = match root.value("mode").map(Spanned::get_ref) {
+        Some(DeValue::Array(all)) => all.len(),
+        _ => modes.len(),
+    };
+    let count = tables_of_modes.max(modes.len());
     let mut loads = Vec::new();
     for table in tables::<LoadTable>(reader, &root, "excitation") {
         let keys = ["frequency", "from", "to"].into_iter().filter(|key| table.has(key));
         let written = keys.map(|key| table.span_of_value(key)).collect();
-        if let Some(load) = read_load(reader, &table, &places, &modes) {
+        if let Some(load) = read_load(reader, &table, &places, &modes, count) {
             loads.push(load);
             spans.frequencies.push(written);
         }
@@ -439,6 +445,7 @@ fn read_load(
     table: &Table,
     places: &[String],
     modes: &[StructuralMode],
+    count: usize,
 ) -> Option<Load> {
     let read = reader.read::<LoadTable>(table)?;
     let mut refused = |key: &str, message: String, expected: &str, help: &str| {
@@ -464,9 +471,9 @@ fn read_load(
                 "remove one of the two lines",
             );
         }
-        // Where there are none, that was said of them.
-        (_, Some(mode), None) if mode as usize > modes.len() && !modes.is_empty() => {
-            let message = format!("`mode` is {mode}, and there are {}", modes.len());
+        // Of one that could not be read that was said.
+        (_, Some(mode), None) if mode as usize > count => {
+            let message = format!("`mode` is {mode}, and there are {count}");
             return refused(
                 "mode",
                 message,

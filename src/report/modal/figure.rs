@@ -37,7 +37,7 @@ pub(super) fn loads(
         }
         let highest = along.places.iter().flat_map(|one| &one.motions);
         let highest = highest.map(most).fold(0.0, f64::max);
-        let limits = limits(case);
+        let limits = limits(case, answer.worst(Some(k)).map(|one| one.place));
         let top = 1.15 * limits.iter().map(|one| one.0).fold(highest, f64::max);
         let x = AxisOf::si(units, &of::EXCITATION_FREQUENCY).axis([from, to]);
         let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
@@ -78,7 +78,12 @@ const WORKS: Style = Style::new(Color::BluishGreen, 6.0, Dash::Solid);
 
 /// Largest displacement of any place over the amplitude of each load, with a bar between the displacements at which each absorber
 /// works.
-pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure {
+pub(super) fn forces(
+    case: &ModalCase,
+    answer: &ModalAnswer,
+    beside: &Beside,
+    facts: &Value,
+) -> Figure {
     let units = units(case);
     let mut figure = Figure::new("forces", "");
     for (k, (load, found)) in case.loads.iter().zip(&beside.forces).enumerate() {
@@ -91,7 +96,7 @@ pub(super) fn forces(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure
             });
             each.collect::<Vec<_>>()
         };
-        let limits = limits(case);
+        let limits = limits(case, answer.worst(Some(k)).map(|one| one.place));
         // An absorber may work far above what is seen, and how far beyond a limit decides nothing.
         let most = seen(false).into_iter().map(|[_, y]| y).fold(0.0, f64::max);
         let top = 1.15 * limits.last().map_or(most, |(limit, _)| most.clamp(*limit, 3.0 * limit));
@@ -137,9 +142,12 @@ fn in_rows(figure: Figure) -> Figure {
     figure.with_layout(Layout::rows(&vec![1.0; count])).with_size(720, height)
 }
 
-/// Limits of displacements with their names, the smallest first: each once, by its place where there is more than one.
-fn limits(case: &ModalCase) -> Vec<(f64, String)> {
-    let peaks = case.criteria.iter().filter(|one| one.measure == PlaceMeasure::PEAK);
+/// Limits of displacements of any place or of the one that moves farthest, with their names, the smallest first: each once, by its
+/// place where there is more than one.
+fn limits(case: &ModalCase, farthest: Option<usize>) -> Vec<(f64, String)> {
+    let peaks = case.criteria.iter().filter(|one| {
+        one.measure == PlaceMeasure::PEAK && (one.place.is_none() || one.place == farthest)
+    });
     let mut found: Vec<(f64, Option<usize>)> =
         peaks.map(|one| (one.criterion.limit, one.place)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));

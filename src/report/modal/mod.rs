@@ -68,12 +68,13 @@ impl Beside {
 /// Units of the pages of a case: lengths in that of the smallest clearance.
 fn units(case: &ModalCase) -> Units {
     let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
-    Units::from(Scales {
+    let units = Units::from(Scales {
         physical: true,
         clearance: least,
         natural_frequency: case.omega(),
         oscillator_mass: case.modes[0].mass_kg,
-    })
+    });
+    if case.criteria.iter().any(|one| one.criterion.is_in_g()) { units.in_g() } else { units }
 }
 
 fn given(kind: &'static Kind, value: f64) -> Quantity {
@@ -185,9 +186,9 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
     let amplitude = |times: f64| simulated(amplitude_of(load), times * load.amplitude);
     let limits = of_load.limits(case).map(|limits| {
         json!({
-            "holds": limits.holds.map(amplitude),
+            "holds": limits.holds.map(|ends| ends.map(amplitude)),
             "open": limits.open.into_iter().map(amplitude).collect::<Vec<_>>(),
-            "fails": limits.fails.map(amplitude),
+            "fails": limits.fails.into_iter().map(amplitude).collect::<Vec<_>>(),
         })
     });
     let working = of_load
@@ -421,7 +422,7 @@ pub fn files(
     let mut document = document(name, case, answer, beside, Content::Report);
     let mut drawn = vec![
         figure::loads(case, answer, beside, &document),
-        figure::forces(case, beside, &document),
+        figure::forces(case, answer, beside, &document),
     ];
     drawn.retain(|figure| !figure.panels.is_empty());
     let figures = worded(drawn, &units(case))?;

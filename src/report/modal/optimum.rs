@@ -21,7 +21,7 @@ fn candidate(found: &JudgedAbsorbers) -> Value {
         "criteria": criteria(&found.case, &found.answer),
         "all_hold": found.answer.all_hold(),
         // The most that any motion may have of what a criterion is about, over what is allowed.
-        "reach": found.reach,
+        "reach": found.reaches.iter().copied().fold(0.0, f64::max),
         "worst": found.answer.worst(None).map(|one| worst_row(&found.case, &one)),
         "loads": peaks.collect::<Vec<_>>(),
     })
