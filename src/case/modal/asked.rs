@@ -146,7 +146,7 @@ fn read_limits(
                 places.first().map_or("", String::as_str)
             );
             let message = format!("a limit of `{key}` is not written as one");
-            let expected = "expected \"<=\" and a value with its unit, in quotes";
+            let expected = "expected \"<=\", as it is the most that is allowed, and a value with its unit, in quotes";
             reader.report(one.span(), &message, expected, &help);
             continue;
         };

@@ -293,12 +293,21 @@ pub(super) fn read(
     for load in &case.loads {
         for frequency in load.range_hz {
             if let Err(error) = case.system(load, frequency) {
-                let help = "check the values and their units";
+                let own = |mode: &StructuralMode| {
+                    mode.damping_ratio == 0.0 && mode.frequency_hz == frequency
+                };
+                let help = match case.modes.iter().position(own) {
+                    Some(k) => format!(
+                        "give mode {} a damping ratio, or the load another frequency: at that of an undamped mode nothing limits the structure",
+                        k + 1
+                    ),
+                    None => "check the values and their units".to_owned(),
+                };
                 reader.report(
                     root.span_of("excitation"),
                     error.to_string(),
                     "expected values that fit one another",
-                    help,
+                    &help,
                 );
                 return Ok(None);
             }
