@@ -40,6 +40,9 @@ def design(number):
         # Every third load is a base that moves: by as much as its mode is deflected.
         base = log(1e-5, 1e-3) if draw.random() < 0.33 else None
         loads.append({"mode": k, "place": at, "base": base, "amplitude": force, "range": [mode["frequency"] * log(0.85, 0.97), mode["frequency"] * log(1.03, 1.15)]})
+    # Some over all modes at once.
+    if draw.random() < 0.25:
+        loads = [{**loads[0], "place": 0, "range": [first * 0.9, modes[-1]["frequency"] * 1.1]}]
     bodies = []
     for _ in range(absorbers):
         k = draw.choice(loads)["mode"]
@@ -107,9 +110,11 @@ def main():
             most = {key: 0.0 for _, key, _, _ in READINGS}
             for k, load in enumerate(loads):
                 [low, high], reach = load["range"], [0.0] * 2
-                for step in range(FREQUENCIES):
-                    # Between what the program looks at: no multiple of a twelfth.
-                    frequency = low + (high - low) * (step + 0.37) / FREQUENCIES
+                # Between what the program looks at: no multiple of a twelfth; and around each mode in the range.
+                along = [low + (high - low) * (step + 0.37) / FREQUENCIES for step in range(FREQUENCIES)]
+                around = [mode["frequency"] * (1 + 0.013 * step) for mode in modes for step in range(-6, 7)]
+                wide = len([mode for mode in modes if low < mode["frequency"] < high]) > 1
+                for frequency in [*along, *(at for at in around if wide and low < at < high)]:
                     for seed in range(1, STARTS + 1):
                         for place in range(2):
                             found = simulated(program, modes, bodies, load, place, frequency, seed)

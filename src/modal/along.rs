@@ -19,6 +19,8 @@ pub struct AlongLoad {
     pub places: Vec<AtFrequency>,
     /// For each place of the structure its largest displacement without absorbers in m, and where in Hz.
     pub bare: Vec<[f64; 2]>,
+    /// Natural frequencies in its range, in Hz.
+    pub modes: Vec<f64>,
 }
 
 /// What is known at a frequency.
@@ -59,8 +61,15 @@ const ROUNDS: u32 = 3;
 const BESIDE: f64 = 1e-6;
 /// How often the ends of a range of frequencies are halved.
 const HALVINGS: u32 = 50;
-/// Least distance of a neighbour, over the range: less than that of the closest round, and none so near that chance decides a slope.
+/// Least distance of a neighbour, over the range, and over the frequency where the range is wide: less than that of the closest round,
+/// and none so near that chance decides a slope.
 const NEAREST: f64 = 0.005;
+const NEAREST_OF_FREQUENCY: f64 = 0.0025;
+/// Even steps that are longer than this, over a mode's frequency, may step over its resonance: it is then looked at beside it as well.
+const COARSE: f64 = 0.03;
+const CLOSE: [f64; 6] = [-0.1, -0.05, -0.025, 0.025, 0.05, 0.1];
+/// Where a mode has at least this part of the largest value, it is looked at more closely too.
+const NOT_SMALL: f64 = 0.5;
 
 /// About how many seconds its motions take on one processor: of an impact, and impacts in a period of each absorber.
 pub fn seconds(case: &ModalCase) -> f64 {
@@ -69,7 +78,9 @@ pub fn seconds(case: &ModalCase) -> f64 {
     let size = (case.modes.len() * case.absorbers.len()) as f64;
     let of_load = |load: &Load| {
         let [from, to] = load.range_hz;
-        let places = if from < to { f64::from(EVEN + 2 * ROUNDS) } else { 1.0 };
+        let modes = within(case, load).len().max(1) as f64;
+        let more = f64::from(2 * ROUNDS) * modes + close(case, load).count() as f64;
+        let places = if from < to { f64::from(EVEN) + more } else { 1.0 };
         let Ok(system) = case.system(load, load.centre(case)) else { return 0.0 };
         places * longest_flight(&system, case.periods)
     };
@@ -85,8 +96,9 @@ impl AlongLoad {
                 // An undamped mode has no steady motion at its own frequency.
                 let damped = case.modes.iter().filter(|mode| mode.damping_ratio > 0.0);
                 let resonances = damped.map(|mode| mode.frequency_hz);
-                let within = resonances.filter(|at| from < *at && *at < to);
-                let even = scan::places([from, to], EVEN - 1).chain(within);
+                let resonances = resonances.filter(|at| from < *at && *at < to);
+                let even = scan::places([from, to], EVEN - 1).chain(resonances);
+                let even = even.chain(close(case, load));
                 let at_rest = farthest_at_rest(case, load).into_iter().map(|one| one.0);
                 even.chain(at_rest).collect()
             }
@@ -94,7 +106,7 @@ impl AlongLoad {
         };
         // Nor is there one where an even step falls on it: a little beside.
         let steady = |at: f64| if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) };
-        let mut places: Vec<AtFrequency> = Vec::new();
+        let (modes, mut places) = (within(case, load), Vec::<AtFrequency>::new());
         for round in 0..=ROUNDS {
             let starts =
                 if round == 0 && from < to { case.starts.div_ceil(2) } else { case.starts };
@@ -104,12 +116,12 @@ impl AlongLoad {
             places.sort_by(|a, b| a.at.total_cmp(&b.at));
             places.dedup_by(|a, b| a.at == b.at);
             if round < ROUNDS {
-                wanted = beside_worst(&places, case);
+                wanted = beside_worst(&places, case, &modes);
             }
         }
         let bare = (0..case.places.len())
             .map(|p| largest(load.range_hz, case, |at| amplitudes(case, load, at, &[]).places[p]));
-        Ok(Self { load: *load, bare: bare.collect(), places })
+        Ok(Self { load: *load, bare: bare.collect(), places, modes })
     }
 
     /// The worst of a place; none where no motion was found. Between the frequencies it may be worse by as much as the top of the
@@ -132,6 +144,16 @@ impl AlongLoad {
             Some((_, one)) if motion.rests() => reach.max(of(one)[0] + between) - value,
             _ => reach - value + between,
         };
+        // Near another mode it may be more between the frequencies too.
+        let error = (0..self.modes.len()).fold(error, |error, mode| {
+            let near = |k: &usize| nearest(&self.modes, self.places[*k].at) == mode;
+            let near = (0..self.places.len()).filter(near);
+            let moves =
+                near.filter_map(|k| Some((k, self.places[k].largest(place, asked, false)?)));
+            let top = moves.max_by(|a, b| a.1.total_cmp(&b.1));
+            let most = top.map(|(k, top)| top + self.between(k, place, asked, top));
+            most.map_or(error, |most| error.max(most - value))
+        });
         let settled = motions().filter(|(_, one)| one.settled).map(|(_, one)| {
             let [value, error] = of(one);
             // A peak was seen; a mean may be smaller.
@@ -266,26 +288,52 @@ fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -> f6
 /// The next frequencies to either side of one, but for those that are almost the same.
 fn neighbours(places: &[AtFrequency], k: usize) -> [Option<&AtFrequency>; 2] {
     let [first, .., last] = places else { return [None; 2] };
-    let apart =
-        |there: &&AtFrequency| (there.at - places[k].at).abs() >= NEAREST * (last.at - first.at);
+    let here = places[k].at;
+    let least = (NEAREST * (last.at - first.at)).min(NEAREST_OF_FREQUENCY * here);
+    let apart = |there: &&AtFrequency| (there.at - here).abs() >= least;
     [places[..k].iter().rev().find(apart), places[k + 1..].iter().find(apart)]
 }
 
+/// Natural frequencies in the range of a load, in Hz.
+fn within(case: &ModalCase, load: &Load) -> Vec<f64> {
+    let [from, to] = load.range_hz;
+    let all = case.modes.iter().map(|mode| mode.frequency_hz);
+    all.filter(|at| (from..=to).contains(at)).collect()
+}
+
+/// Which of some natural frequencies is nearest; the first where there is none.
+fn nearest(modes: &[f64], at: f64) -> usize {
+    let off = |k: usize| libm::log(at / modes[k]).abs();
+    (0..modes.len()).min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or(0)
+}
+
+/// Frequencies beside those of modes that even steps along a load may step over.
+fn close(case: &ModalCase, load: &Load) -> impl Iterator<Item = f64> {
+    let [from, to] = load.range_hz;
+    let step = (to - from) / f64::from(EVEN - 1);
+    let coarse = within(case, load).into_iter().filter(move |at| step > COARSE * at);
+    let all = coarse.flat_map(|at| CLOSE.map(|off| at * (1.0 + off)));
+    all.filter(move |at| (from..=to).contains(at))
+}
+
 /// Frequencies half way to the neighbours of the worst of all that is measured of each place: of all motions, and of those in which an
-/// absorber moves.
-fn beside_worst(places: &[AtFrequency], case: &ModalCase) -> Vec<f64> {
+/// absorber moves; near each of these modes where that is not small.
+fn beside_worst(places: &[AtFrequency], case: &ModalCase, modes: &[f64]) -> Vec<f64> {
     let mut wanted: Vec<f64> = Vec::new();
     let measures = measures(case);
     let each = measures.iter().flat_map(|asked| (0..case.places.len()).map(move |p| (p, *asked)));
     for ((p, asked), rests) in each.flat_map(|one| [(one, true), (one, false)]) {
-        let largest = |k: &usize| places[*k].largest(p, asked, rests).unwrap_or_default();
-        let most = (0..places.len()).max_by(|a, b| largest(a).total_cmp(&largest(b)));
-        let Some(k) = most else { continue };
-        let here = places[k].at;
-        for there in neighbours(places, k).into_iter().flatten() {
-            let middle = 0.5 * (here + there.at);
-            if !wanted.contains(&middle) {
-                wanted.push(middle);
+        let largest = |k: usize| places[k].largest(p, asked, rests).unwrap_or_default();
+        let most = (0..places.len()).map(largest).fold(0.0, f64::max);
+        for mode in 0..modes.len().max(1) {
+            let near = (0..places.len()).filter(|k| nearest(modes, places[*k].at) == mode);
+            let top = near.max_by(|a, b| largest(*a).total_cmp(&largest(*b)));
+            let Some(k) = top.filter(|k| largest(*k) >= NOT_SMALL * most) else { continue };
+            for there in neighbours(places, k).into_iter().flatten() {
+                let middle = 0.5 * (places[k].at + there.at);
+                if !wanted.contains(&middle) {
+                    wanted.push(middle);
+                }
             }
         }
     }

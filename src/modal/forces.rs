@@ -94,7 +94,7 @@ impl OverForce {
             let bare = at.iter().map(|at| linear_peak(case, &load, *at, &[]));
             let bare = bare.fold(0.0, f64::max);
             let motions = found.iter().flat_map(|one| one.motions.iter().cloned()).collect();
-            let along = AlongLoad { load, places, bare: along.bare.clone() };
+            let along = AlongLoad { load, places, bare: along.bare.clone(), modes: Vec::new() };
             let outcomes = ModalAnswer::judged(&here, vec![along]).criteria();
             let outcomes = outcomes.iter().map(Judged::outcome).collect();
             ForceStep { times: times(step), motions, bare, outcomes }
