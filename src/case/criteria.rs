@@ -1,6 +1,7 @@
 //! The optional table `[criteria]`: what a design must achieve.
 
 use std::f64::consts::FRAC_PI_4;
+use std::ops::Range;
 
 use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
@@ -213,36 +214,51 @@ fn seen_for(
     asked: &[Criterion],
     design: &Design,
 ) -> Option<f64> {
-    const KEY: &str = "acceleration_upto";
+    let span = table.span_of(UPTO);
+    let Design::Physical(of) = design else {
+        let message = "`acceleration_upto` has no meaning beside [reduced]";
+        reader.report(span, message, UPTO_EXPECTED, "remove the line");
+        return None;
+    };
+    let asks = asked.iter().any(|one| one.measure == Measure::PeakAcceleration);
+    sensor_sees(reader, span, upto, [asks, of.contact_time_s.is_some()], of.most_contact_time_s())
+}
+
+/// The key of a criterion's sensor, and what it is expected beside.
+pub(super) const UPTO: &str = "acceleration_upto";
+const UPTO_EXPECTED: &str =
+    "expected a frequency beside `acceleration`, of a case in physical units";
+
+/// How long an impact takes in s for a sensor that reads up to a frequency in Hz: of a case that asks for the largest acceleration or
+/// not, and has a contact time already or not, where impacts may take so long at most.
+pub(super) fn sensor_sees(
+    reader: &mut Reader,
+    span: Range<usize>,
+    upto: f64,
+    [asks, timed]: [bool; 2],
+    most: f64,
+) -> Option<f64> {
     let mut refused = |message: &str, help: &str| {
-        let expected = "expected a frequency beside `acceleration`, of a case in physical units";
-        reader.report(table.span_of(KEY), message, expected, help);
+        reader.report(span.clone(), message, UPTO_EXPECTED, help);
         None
     };
-    let Design::Physical(of) = design else {
-        return refused("`acceleration_upto` has no meaning beside [reduced]", "remove the line");
-    };
-    if !asked.iter().any(|one| one.measure == Measure::PeakAcceleration) {
-        let help = "ask for one, such as acceleration = \"<= 2 g\", or remove the line";
-        return refused(
-            "`acceleration_upto` is about an `acceleration` that nothing asks for",
-            help,
-        );
-    }
-    if of.contact_time_s.is_some() {
-        let help = "remove one of them: both say how an impact is read";
-        return refused("`acceleration_upto` stands beside a `contact_time`", help);
-    }
     let contact_time = FRAC_PI_4 / upto;
-    if contact_time > of.most_contact_time_s() {
-        let least = rounded_to(FRAC_PI_4 / of.most_contact_time_s(), 3);
+    if !asks {
+        let help = "ask for one, such as acceleration = \"<= 2 g\", or remove the line";
+        refused("`acceleration_upto` is about an `acceleration` that nothing asks for", help)
+    } else if timed {
+        let help = "remove one of them: both say how an impact is read";
+        refused("`acceleration_upto` stands beside a `contact_time`", help)
+    } else if contact_time > most {
+        let least = rounded_to(FRAC_PI_4 / most, 3);
         let help = format!("a sensor that reads impacts reads up to {least} Hz or more here");
-        return refused(
+        refused(
             "`acceleration_upto` is below what a sensor needs to tell an impact from the vibration",
             &help,
-        );
+        )
+    } else {
+        Some(contact_time)
     }
-    Some(contact_time)
 }
 
 /// What there is to say of shares in area Z3 where the cavity is inclined, rubs or has unequal walls, and what is

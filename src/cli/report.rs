@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use miette::{Context as _, IntoDiagnostic, Result, miette};
 use vinesink::answer::{Asked, Decided};
-use vinesink::case::Case;
+use vinesink::case::{Case, ModalCase};
 use vinesink::case_input::AnyCase;
 use vinesink::case_report::Report;
 use vinesink::excitation::Scene;
@@ -117,8 +117,7 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
     let case = match case {
         AnyCase::One(case) => *case,
         AnyCase::Several(case) => {
-            several::without(path, &arguments.of_one_mode())?;
-            let files = several::report(path, name, &case, arguments.long)?;
+            let files = arguments.of_several(path, name, &case)?;
             Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
             output::print_path(&folder.join("report.md"))?;
             return Ok(true);
@@ -138,9 +137,11 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
 }
 
 impl Arguments {
-    /// Options about one mode and one absorber, and whether they were given.
-    fn of_one_mode(&self) -> [(&'static str, bool); 2] {
-        [("--fidelity", self.fidelity.is_some()), ("--live", self.live.is_some())]
+    /// The files of the report of a structure of several modes, without options about one.
+    fn of_several(&self, path: &Path, name: &str, case: &ModalCase) -> Result<Files> {
+        let given = [("--fidelity", self.fidelity.is_some()), ("--live", self.live.is_some())];
+        several::without(path, &given)?;
+        several::report(path, name, case, self.long)
     }
 }
 
@@ -167,7 +168,7 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
     let is_checked = |file: &Path| render::is_of_report(file) && file != Path::new("report.html");
     let mut files = match case_file::read_any(path, arguments.reading)?.0 {
         AnyCase::One(case) => rendered(path, name, &case, arguments)?.0,
-        AnyCase::Several(case) => several::report(path, name, &case, arguments.long)?,
+        AnyCase::Several(case) => arguments.of_several(path, name, &case)?,
     };
     files.retain(|file, _| is_checked(file));
     let there = store::read_folder(folder, is_checked)?;

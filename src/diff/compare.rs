@@ -61,6 +61,18 @@ const NATURAL_KEYS: [(&str, &[&str]); 11] = [
     ("rows", &["deviation"]),
 ];
 
+/// Lists of a structure of several modes that are counted, as those along a band are: what they say stands in its worst values,
+/// criteria and limits.
+const COUNTED: [&str; 7] = [
+    "compared",
+    "loads/forces/limits/fails",
+    "loads/forces/limits/open",
+    "loads/forces/steps",
+    "loads/forces/working",
+    "loads/motions",
+    "loads/places",
+];
+
 /// What changed in a report that is on both sides.
 pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDifference {
     let (criteria, agreeing) = criteria::changes(old, new);
@@ -243,23 +255,10 @@ impl Comparator<'_> {
         }
     }
 
-    /// Lists along a band, or a load of a structure of several modes, are counted: places are added where the amplitude is
-    /// largest, and what a list says is summed up in shares, peaks and criteria.
+    /// Lists along a band are counted: places are added where the amplitude is largest, and what a list says
+    /// is summed up in shares, peaks and criteria.
     fn list(&mut self, path: &str, old: &[Value], new: &[Value]) {
-        let along_load = || {
-            let key = without_elements(path);
-            let counted = [
-                "motions",
-                "places",
-                "forces/steps",
-                "forces/limits/open",
-                "forces/limits/fails",
-                "forces/working",
-            ];
-            key == "compared"
-                || key.strip_prefix("loads/").is_some_and(|rest| counted.contains(&rest))
-        };
-        if path.starts_with("band/") || along_load() {
+        if path.starts_with("band/") || COUNTED.contains(&without_elements(path).as_str()) {
             let folded = &mut self.found.folded;
             *(if old == new { &mut folded.same } else { &mut folded.unjudged }) += 1;
             return;

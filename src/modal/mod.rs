@@ -10,6 +10,7 @@ mod drift;
 mod forces;
 mod linear;
 mod optimum;
+mod rest;
 mod sensors;
 
 use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion, RewriteError};

@@ -7,8 +7,8 @@
 
 use std::cmp::Ordering;
 
-use super::along::farthest_at_rest;
 use super::cost::cost;
+use super::rest::farthest_at_rest;
 use super::sensors::{measured, sensors};
 use super::{ModalAnswer, ModalError};
 use crate::case::{Bounds, Load, ModalCase, PlacedAbsorber, Rounding};
@@ -102,16 +102,8 @@ impl ModalOptimum {
         let own = JudgedAbsorbers::of(case.clone(), text.to_owned(), on)?;
         let limits = limits(case, &own.answer);
         let looked_at = frequencies(case, &own.answer, &limits);
-        let own_over = limits.iter().map(|limit| {
-            let all = looked_at.iter().map(|(load, at, _)| (load, at));
-            let along = own.answer.along.iter();
-            let there =
-                along.flat_map(|along| along.places.iter().map(move |one| (&along.load, one)));
-            let there =
-                there.filter(|(load, one)| all.clone().any(|place| place == (*load, &one.at)));
-            there.map(|(_, one)| over_limit(&one.motions, limit)).fold(0.0, f64::max)
-        });
-        let own_cost = cost(&own_over.collect::<Vec<_>>());
+        let most = |n: usize| looked_at.iter().map(|one| one.over[n]).fold(0.0, f64::max);
+        let own_cost = cost(&(0..limits.len()).map(most).collect::<Vec<_>>());
         let (count, sensors) = (numbers(case), sensors(case));
         let score = |parts: &[f64], best: f64| {
             let candidate = candidate(case, parts);
@@ -119,7 +111,7 @@ impl ModalOptimum {
             let at_rest: Vec<ModalMotion> = at_rest.map(|one| one.1).collect();
             let known = best.max(-own_cost);
             let mut over: Vec<f64> = limits.iter().map(|one| over_limit(&at_rest, one)).collect();
-            for (load, at, _) in &looked_at {
+            for LookedAt { load, at, .. } in &looked_at {
                 let found = candidate.system(load, *at).ok();
                 let found =
                     found.and_then(|system| modal_motions(&system, &sensors, FEW_STARTS, 0).ok());
@@ -183,12 +175,20 @@ fn over_limit(motions: &[ModalMotion], limit: &Limit) -> f64 {
     motions.iter().map(of).fold(0.0, f64::max) / limit.most
 }
 
-/// Loads and frequencies that candidates are flown at with what the case's own absorbers come to, those first where that is worst.
-fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<(Load, f64, f64)> {
+/// A load and a frequency that candidates are flown at.
+struct LookedAt {
+    load: Load,
+    /// In Hz.
+    at: f64,
+    /// What the case's own absorbers come to there, over each limit.
+    over: Vec<f64>,
+}
+
+/// Where candidates are flown, those first where the case's own absorbers are worst.
+fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<LookedAt> {
     let mut found = Vec::new();
     for along in &own.along {
-        let over_one = |k: usize, one: &Limit| over_limit(&along.places[k].motions, one);
-        let over = |k: usize| limits.iter().map(|one| over_one(k, one)).fold(0.0, f64::max);
+        let over = |k: usize, one: &Limit| over_limit(&along.places[k].motions, one);
         let moving = |k: usize, one: &Limit| {
             let all = along.places[k].motions.iter().filter(|one| !one.rests());
             over_limit(&all.cloned().collect::<Vec<_>>(), one)
@@ -206,16 +206,21 @@ fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<(Lo
                 (0..=last).max_by(|a, b| of(*a, one).total_cmp(&of(*b, one)))
             };
             // Where others rest is told for each by itself.
-            chosen.extend(most(&over_one).into_iter().chain(most(&moving)));
+            chosen.extend(most(&over).into_iter().chain(most(&moving)));
         }
         let resonant =
             |k: &usize| case.modes.iter().any(|one| one.frequency_hz == along.places[*k].at);
         chosen.extend((0..=last).filter(resonant));
         chosen.sort_unstable();
         chosen.dedup();
-        found.extend(chosen.into_iter().map(|k| (along.load, along.places[k].at, over(k))));
+        found.extend(chosen.into_iter().map(|k| LookedAt {
+            load: along.load,
+            at: along.places[k].at,
+            over: limits.iter().map(|one| over(k, one)).collect(),
+        }));
     }
-    found.sort_by(|a, b| b.2.total_cmp(&a.2));
+    let worst = |one: &LookedAt| one.over.iter().copied().fold(0.0, f64::max);
+    found.sort_by(|a, b| worst(b).total_cmp(&worst(a)));
     found
 }
 

@@ -1,6 +1,5 @@
 //! What is asked of a structure of several modes: limits by place, how impacts count in them, and the bounds of better absorbers.
 
-use std::f64::consts::FRAC_PI_4;
 use std::ops::Range;
 
 use schemars::{JsonSchema, Schema};
@@ -11,7 +10,7 @@ use toml::de::DeValue;
 
 use super::place::find_place;
 use super::{Bounds, PlaceCriterion, PlacedAbsorber, StructuralMode};
-use crate::case::criteria::{Criterion, Subject, possible};
+use crate::case::criteria::{Criterion, Subject, possible, sensor_sees};
 use crate::case::number::{Form, sign_of};
 use crate::case::physical::MOST_CONTACT;
 use crate::case::reader::{Reader, Table};
@@ -185,51 +184,27 @@ pub(super) fn read_contact_times(
     absorbers: &mut [PlacedAbsorber],
 ) {
     let times = absorbers.iter().filter(|one| one.contact_time_s.is_some()).count();
-    let asked = criteria.iter().any(|one| one.criterion.measure == Measure::PeakAcceleration);
-    let fastest = modes.iter().map(|mode| mode.frequency_hz).fold(0.0, f64::max);
-    let most = MOST_CONTACT / fastest;
+    let asks = criteria.iter().any(|one| one.criterion.measure == Measure::PeakAcceleration);
+    let most = MOST_CONTACT / modes.iter().map(|mode| mode.frequency_hz).fold(0.0, f64::max);
+    if let Some((span, upto)) = upto {
+        let time = sensor_sees(reader, span, upto, [asks, times > 0], most);
+        absorbers.iter_mut().for_each(|one| one.contact_time_s = time.or(one.contact_time_s));
+        return;
+    }
     let longest = absorbers.iter().filter_map(|one| one.contact_time_s).fold(0.0, f64::max);
-    let mut refused = |span, message: &str, expected: &str, help: &str| {
-        reader.report(span, message, expected, help);
-    };
-    let of_absorbers = root.span_of("absorber");
-    match upto {
-        Some((span, _)) if !asked => refused(
-            span,
-            "`acceleration_upto` is about an `acceleration` that nothing asks for",
-            "expected it beside `acceleration`",
-            "ask for one, such as acceleration = \"<= 2 g\", or remove the line",
-        ),
-        Some((span, _)) if times > 0 => refused(
-            span,
-            "`acceleration_upto` stands beside a `contact_time`",
-            "expected one of them",
-            "remove one of them: both say how an impact is read",
-        ),
-        Some((span, upto)) if FRAC_PI_4 / upto > most => refused(
-            span,
-            "`acceleration_upto` is below what a sensor needs to tell an impact from the fastest mode",
-            "expected a higher frequency",
-            &format!(
-                "a sensor that reads impacts reads up to {} Hz or more here",
-                rounded_to(FRAC_PI_4 / most, 3)
-            ),
-        ),
-        Some((_, upto)) => {
-            absorbers.iter_mut().for_each(|one| one.contact_time_s = Some(FRAC_PI_4 / upto));
-        }
-        None if times > 0 && times < absorbers.len() => refused(
-            of_absorbers,
+    if times > 0 && times < absorbers.len() {
+        reader.report(
+            root.span_of("absorber"),
             "some absorbers have a `contact_time` and some have none",
             "expected it of all or of none",
             "write contact_time = \"0.5 ms\" in every [[absorber]]: impacts without it would be left out",
-        ),
-        None if longest > most => refused(
-            of_absorbers,
+        );
+    } else if longest > most {
+        reader.report(
+            root.span_of("absorber"),
             "an impact takes more than a fiftieth of the fastest mode's period",
-            &format!("expected a `contact_time` of at most {} s", rounded_to(most, 3)),
+            format!("expected a `contact_time` of at most {} s", rounded_to(most, 3)),
             "leave out modes that an impact is too slow to shake, or write a shorter time",
-        ),
-        None => {}
+        );
     }
 }

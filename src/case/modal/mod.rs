@@ -3,6 +3,7 @@
 
 mod asked;
 mod file;
+mod load;
 mod place;
 mod read;
 mod table;

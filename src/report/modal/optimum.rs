@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::{absorbers, criteria, given, simulated, units, worst_row};
+use super::criteria::criteria;
+use super::{absorbers, given, simulated, units, worst_row};
 use crate::case::{Bounds, ModalCase};
 use crate::modal::{JudgedAbsorbers, ModalOptimum, clearance_bounds};
 use crate::quantity::catalogue as of;

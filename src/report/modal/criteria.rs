@@ -1,0 +1,91 @@
+//! Criteria by place, as data: for pages, for `check`, and beside what the structure alone and dampers come to.
+
+use serde_json::{Value, json};
+
+use super::{Beside, along, closed, given, units, warnings};
+use crate::case::ModalCase;
+use crate::measure::Device;
+use crate::modal::{JudgedPlace, ModalAnswer, linear_most};
+use crate::quantity::Quantity;
+use crate::quantity::catalogue as of;
+use crate::report::criteria::{Checked, row as criteria_row};
+use crate::report::document::criteria::{counted, row};
+
+/// Where a criterion is worst.
+fn frequency(judged: &JudgedPlace) -> Quantity {
+    given(&of::EXCITATION_FREQUENCY, judged.worst.at)
+}
+
+/// A row about a criterion with the place that it is about, that which is worst, and under which load.
+fn placed(case: &ModalCase, one: &JudgedPlace, mut row: Value) -> Value {
+    row["place"] = json!(one.place.map(|place| &case.places[place]));
+    row["worst_place"] = json!(case.places[one.worst.place]);
+    row["load"] = json!(one.worst.load);
+    row
+}
+
+/// The criteria in the form of those of one mode.
+pub(super) fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
+    let judged = &answer.judged;
+    let rows = judged.iter().map(|one| placed(case, one, row(&one.judged, Some(frequency(one)))));
+    let mut counted = counted(&answer.criteria(), rows.collect());
+    let times = || case.absorbers.iter().filter_map(|one| one.contact_time_s);
+    let least = times().min_by(f64::total_cmp);
+    let longest = times().max_by(f64::total_cmp).filter(|longest| Some(*longest) != least);
+    if let Some(counted) = &mut counted {
+        let time = |one: f64| given(&of::CONTACT_TIME, one);
+        counted["contact_time"] = json!(least.map(time));
+        counted["longest_contact_time"] = json!(longest.map(time));
+    }
+    json!(counted)
+}
+
+/// Whether values meet all criteria; none without criteria.
+pub(super) fn holds(case: &ModalCase, values: &[f64]) -> Option<bool> {
+    let all = case.criteria.iter().zip(values);
+    (!case.criteria.is_empty())
+        .then(|| all.into_iter().all(|(one, value)| *value <= one.criterion.limit))
+}
+
+/// Each criterion with what the structure without absorbers and with each choice of dampers comes to, where there are any.
+pub(super) fn compared(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
+    if beside.dampers.is_empty() {
+        return Vec::new();
+    }
+    let each = answer.judged.iter().zip(&case.criteria).enumerate();
+    let rows = each.map(|(n, (judged, asked))| {
+        let told = |device: Device, value: f64| {
+            let kind = asked.criterion.measure.kind(device).unwrap_or(&of::PEAK);
+            json!({ "value": closed(kind, value), "misses": value > asked.criterion.limit })
+        };
+        let dampers = beside.dampers.iter().map(|one| told(Device::Damper, one.criteria[n]));
+        let mut row = placed(case, judged, row(&judged.judged, Some(frequency(judged))));
+        row["without"] = told(Device::Without, linear_most(case, asked, &[]));
+        row["dampers"] = dampers.collect();
+        row
+    });
+    rows.collect()
+}
+
+/// What `check` says of it; `path` is that of its file.
+pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -> Checked {
+    let units = units(case);
+    let told = |one: &JudgedPlace| {
+        placed(case, one, criteria_row(&units, &one.judged, Some(frequency(one))))
+    };
+    let mut document = json!({
+        "case": name,
+        "title": case.title,
+        "holds": answer.all_hold(),
+        "criteria": answer.judged.iter().map(told).collect::<Vec<_>>(),
+        "loads": along(case, answer, &Beside::default()),
+    });
+    if !case.warnings.is_empty() {
+        document["warnings"] = json!(warnings(case));
+    }
+    let page = json!({
+        "path": path, "case": name, "warnings": warnings(case), "criteria": criteria(case, answer), "outside": null, "choice": null,
+        "alternatives": null, "ranges": null, "combined": null, "reliability": null,
+    });
+    Checked::of(document, page, units)
+}
