@@ -337,6 +337,16 @@ fn better_absorbers_of_one_mode_are_those_of_its_own_search() {
     let checked: Value = serde_json::from_slice(&checked.stdout).expect("JSON");
     let criterion = &checked["cases"][0]["criteria"][0];
     assert_eq!(criterion["found"].as_f64(), Some(peak), "{criterion}");
+    // An optimum at an end of its bounds says so.
+    assert_eq!(document["at_bound"], false, "{document}");
+    let narrow =
+        case.replace("[criteria]", "[optimize]\nclearance = [\"3.4 mm\", \"9 mm\"]\n[criteria]");
+    fs::write(path("narrow.toml"), narrow).expect("written");
+    let output = vinesink(&["optimize", &path("narrow.toml"), "--format", "json"]);
+    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let best = found["nearest"][0]["clearance"]["value"].as_f64().expect("a number");
+    assert_eq!(found["at_bound"], best < 3.5e-3, "{best}");
+    assert!(best < 3.5e-3, "the best is at 2.7 mm: {best}");
     // Where nothing meets the limit no file is written.
     fs::write(path("hard.toml"), better.replace("<= 4 mm", "<= 0.5 mm")).expect("written");
     let output = vinesink(&["optimize", &path("hard.toml"), "--write", &path("none.toml")]);

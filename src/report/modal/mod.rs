@@ -223,7 +223,9 @@ fn worst_off(all: &[OffStructure]) -> Option<Value> {
     let peak = largest(&|one| one.worst.map_or(0.0, |worst| worst.value));
     let reach = largest(&|one| one.worst.map_or(0.0, |worst| worst.value + worst.error));
     let dampers = (0..choices).map(|k| closed(&of::DAMPER_PEAK, largest(&|one| one.dampers[k])));
+    let criteria: Vec<_> = all.iter().flat_map(|one| one.criteria.iter().cloned()).collect();
     Some(json!({
+        "word": badge(&criteria),
         "off": largest(&|one| one.off),
         "peak": simulated(&of::PEAK, peak).with_error(reach - peak),
         "dampers": dampers.collect::<Vec<_>>(),

@@ -28,6 +28,21 @@ fn candidate(found: &JudgedAbsorbers) -> Value {
     })
 }
 
+/// Whether a clearance of absorbers that were found is at an end of the bounds within which it was looked for.
+fn at_bound(case: &ModalCase, found: &ModalCase) -> bool {
+    if found.absorbers == case.absorbers {
+        return false;
+    }
+    let mut both = case.absorbers.iter().zip(&found.absorbers);
+    both.any(|(own, one)| {
+        let bounds = clearance_bounds(case.bounds.clearance_m, own);
+        bounds.into_iter().any(|end| (one.clearance_m / end - 1.0).abs() < AT_BOUND)
+    })
+}
+
+/// Distance from a bound, over it, up to which a clearance is at it.
+const AT_BOUND: f64 = 0.03;
+
 /// Between which bounds was looked.
 fn bounds(case: &ModalCase) -> Value {
     let Bounds { clearance_m, restitution, places, split_mass } = &case.bounds;
@@ -56,6 +71,7 @@ pub fn optimum(case: &ModalCase, found: &ModalOptimum) -> Value {
         "candidates": found.candidates,
         "starts": case.starts,
         "nearest": absorbers(&found.nearest().case),
+        "at_bound": at_bound(case, &found.nearest().case),
         "own": candidate(&found.own),
         "best": found.best.iter().map(candidate).collect::<Vec<_>>(),
         "loads": case.loads.iter().map(|load| super::load_row(case, load)).collect::<Vec<_>>(),
