@@ -6,16 +6,16 @@ use std::ops::Range;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vinesink::answer::{Answer, Asked, Decided};
-use vinesink::case::{Case, Objective};
+use vinesink::case::{Case, ModalCase, Objective};
 use vinesink::case_optimum::Optimum;
 use vinesink::case_report::Report;
 use vinesink::diff::{Difference, Document, Reports, markdown};
 use vinesink::executor::map;
 use vinesink::report::criteria::Checked;
 use vinesink::report::render::Files;
-use vinesink::sweep::Plan;
 use vinesink::sweep::columns::{Cell, Column, Storage};
 use vinesink::sweep::work::points;
+use vinesink::sweep::{ModalPlan, Plan};
 
 use crate::work::{Columns, WorkState, json, refused};
 
@@ -68,16 +68,29 @@ pub fn swept(case: &Case, work: &WorkState) -> PyResult<Vec<Column>> {
     };
     // Where motions are followed, along whole lines.
     let together = line * (TOGETHER / line).max(1);
-    let count = plan.points().div_ceil(together);
-    let part = |k: u64| -> Range<u64> {
-        let begin = k * together;
-        begin..(begin + together).min(plan.points())
-    };
+    in_parts(plan.points(), together, work, |part| points(&plan, part).map_err(refused))
+}
+
+/// The same of a structure of several modes.
+pub fn swept_several(case: &ModalCase, work: &WorkState) -> PyResult<Vec<Column>> {
+    let plan = ModalPlan::of(case).ok_or_else(|| refused("the case has no table [sweep]"))?;
+    in_parts(plan.grid.points(), 1, work, |part| Ok(plan.points(part)))
+}
+
+/// The columns of so many points, some together at a time.
+fn in_parts(
+    points: u64,
+    together: u64,
+    work: &WorkState,
+    of: impl Fn(Range<u64>) -> PyResult<Vec<Column>> + Sync,
+) -> PyResult<Vec<Column>> {
+    let part = |k: u64| k * together..((k + 1) * together).min(points);
     work.goes_on();
-    let found = map(work, "points", count as usize, |k| points(&plan, part(k as u64)));
+    let count = points.div_ceil(together) as usize;
+    let found = map(work, "points", count, |k| of(part(k as u64)));
     let mut all: Vec<Column> = Vec::new();
     for found in found {
-        let found = found.map_err(refused)?;
+        let found = found?;
         if all.is_empty() {
             all = found;
             continue;

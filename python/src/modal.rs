@@ -9,8 +9,9 @@ use vinesink::modal::{ModalAnswer, ModalOptimum, orbits};
 use vinesink::report::modal::{Beside, analysis, checked, files, optimum, simulation};
 
 use crate::case::{not_read, reach, warned};
+use crate::decide;
 use crate::report;
-use crate::work::{self, WorkState, json, refused};
+use crate::work::{self, Columns, WorkState, json, refused};
 
 /// A case as it was read.
 #[pyclass(frozen, module = "vinesink._vinesink")]
@@ -114,6 +115,16 @@ impl ModalCase {
             let better = better.map(|best| best.text.clone());
             Ok((json(&optimum(&self.inner, &found))?, better, found.succeeds()))
         })
+    }
+
+    /// The columns of `vinesink sweep`, and their units.
+    fn sweep<'py>(
+        &self,
+        py: Python<'py>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(Columns<'py>, Columns<'py>)> {
+        let found = work::done(py, progress, |work| decide::swept_several(&self.inner, work))?;
+        decide::lists(py, &found)
     }
 
     /// Writes the files of `vinesink report` into a folder.

@@ -183,7 +183,7 @@ fn with_subjects(schema: &mut Schema) {
             Value::Number(_) => json!([{ "type": "number", "minimum": 0 }, { "type": "string" }]),
             _ => json!([{ "type": "string" }]),
         };
-        json!({ "anyOf": types, "examples": [example], "x-plain": [plain] })
+        Some(json!({ "anyOf": types, "examples": [example], "x-plain": [plain] }))
     });
 }
 

@@ -51,8 +51,8 @@ pub use criteria::{Criterion, Relation};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use modal::{
-    ActsOn, Bounds, Load, ModalCase, ModesFile, PlaceCriterion, PlacedAbsorber, StructuralMode,
-    is_modal, modes_file,
+    ActsOn, Bounds, Load, ModalCase, ModalSweep, ModesFile, PlaceCriterion, PlacedAbsorber,
+    StructuralMode, is_modal, modes_file,
 };
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;
@@ -320,7 +320,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         let message =
             "the case is of several modes or absorbers, of which this command knows nothing";
         let expected = "expected [oscillator], [absorber] and [excitation], or [reduced]";
-        let help = "`vinesink check`, `report`, `simulate`, `analyze` and `optimize` read it, and `ModalCase` in Python";
+        let help = "`vinesink check`, `report`, `simulate`, `analyze`, `optimize` and `sweep` read it, and `ModalCase` in Python";
         reader.report(key, message, expected, help);
         return None;
     }

@@ -70,13 +70,13 @@ pub(super) fn one_of(first: &str, second: &str) -> Value {
     json!([{ "required": [first] }, { "required": [second] }])
 }
 
-/// Gives a table a key for each name of an enum, with the name's own description.
-pub(super) fn add_names<T: JsonSchema>(schema: &mut Schema, of: impl Fn(&str) -> Value) {
+/// Gives a table a key for each name of an enum that has one, with the name's own description.
+pub(super) fn add_names<T: JsonSchema>(schema: &mut Schema, of: impl Fn(&str) -> Option<Value>) {
     let names = schema_of::<T>();
     let names = names["oneOf"].as_array().into_iter().flatten();
     for name in names {
         let key = name["const"].as_str().unwrap_or_default();
-        let mut property = of(key);
+        let Some(mut property) = of(key) else { continue };
         property["description"] = name["description"].clone();
         add_key(schema, key, property);
     }

@@ -62,19 +62,24 @@ pub(super) struct SweepTable {
     record: Option<Vec<Recorded>>,
 }
 
-/// An axis for each parameter, with values as the parameter has them.
 fn with_axes(schema: &mut Schema) {
+    with_axes_of(schema, &Parameter::ALL);
+}
+
+/// An axis for each of these parameters, with values as the parameter has them.
+pub(super) fn with_axes_of(schema: &mut Schema, parameters: &[Parameter]) {
     let mut axis = schema_of::<axis::AxisTable>();
     for word in ["$schema", "title"] {
         axis.as_object_mut().and_then(|axis| axis.remove(word));
     }
     add_names::<Parameter>(schema, |key| {
+        parameters.iter().find(|one| one.key() == key)?;
         let mut axis = axis.clone();
         for end in ["from", "to"] {
             axis["properties"][end]["x-parameter"] = key.into();
         }
         axis["properties"]["values"]["items"] = in_design(key);
-        axis
+        Some(axis)
     });
 }
 
@@ -96,8 +101,7 @@ pub(super) fn read(
     of_case: Option<u64>,
 ) -> Option<SweepSettings> {
     let (table, read) = reader.optional::<SweepTable>(root, "sweep")?;
-    let mut axes = read_axes(reader, &table)?;
-    check_axes(reader, &table, &axes)?;
+    let mut axes = axes_among(reader, &table, &Parameter::ALL)?;
     let scene = reader.design?.scene();
     check_scene(reader, &table, read.record.as_deref().unwrap_or_default(), scene)?;
     let follow = match &read.follow {
@@ -146,21 +150,33 @@ pub(super) fn read(
     Some(SweepSettings { axes, starts, periods, follow: follow.is_some(), record })
 }
 
-/// The axes in the order of the file.
-fn read_axes(reader: &mut Reader, table: &Table) -> Option<Vec<SweepAxis>> {
+/// The axes in the order of the file, where these parameters may be axes.
+pub(super) fn axes_among(
+    reader: &mut Reader,
+    table: &Table,
+    parameters: &[Parameter],
+) -> Option<Vec<SweepAxis>> {
     let mut axes = Vec::new();
-    for parameter in Parameter::ALL.into_iter().filter(|one| table.has(one.key())) {
+    for parameter in parameters.iter().copied().filter(|one| table.has(one.key())) {
         let at = table.span_of(parameter.key()).start;
         axes.push((at, axis::read(reader, table, parameter)?));
     }
     axes.sort_by_key(|(at, _)| *at);
-    Some(axes.into_iter().map(|(_, axis)| axis).collect())
+    let axes: Vec<SweepAxis> = axes.into_iter().map(|(_, axis)| axis).collect();
+    check_axes(reader, table, &axes, parameters)?;
+    Some(axes)
 }
 
 /// Reports axes that are too few, too many, or say the same thing twice.
-fn check_axes(reader: &mut Reader, table: &Table, axes: &[SweepAxis]) -> Option<()> {
+fn check_axes(
+    reader: &mut Reader,
+    table: &Table,
+    axes: &[SweepAxis],
+    parameters: &[Parameter],
+) -> Option<()> {
     if axes.is_empty() {
-        let names = or(&Parameter::ALL.map(|parameter| format!("\"{}\"", parameter.key())));
+        let names = parameters.iter().map(|parameter| format!("\"{}\"", parameter.key()));
+        let names = or(&names.collect::<Vec<_>>());
         reader.report(
             table.span_of(""),
             "the sweep varies nothing",

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
+use super::modal::axis_form;
 use super::number::{Bound, Form, toml};
 use super::reader::{Reader, Table, kind};
 use super::restitution::alternatives;
@@ -86,7 +87,11 @@ impl Reader<'_> {
     fn form(&self, schema: &'static Value) -> Option<Form> {
         let parameter = schema["x-parameter"].as_str().or(schema["x-signed"].as_str());
         let Some(parameter) = parameter else { return Form::of(schema) };
-        let mut form = self.design.as_ref()?.form(Parameter::of_name(parameter)?)?;
+        let parameter = Parameter::of_name(parameter)?;
+        let mut form = match (&self.design, self.of_several) {
+            (Some(design), _) => design.form(parameter)?,
+            (None, moves_base) => axis_form(parameter, moves_base?)?,
+        };
         let bound = Bound::of(schema);
         if bound != Bound::default() {
             form.bound = bound;

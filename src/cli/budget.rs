@@ -7,7 +7,7 @@ use std::path::Path;
 use clap::Args;
 use miette::{Result, miette};
 use vinesink::answer::Decided;
-use vinesink::case::Case;
+use vinesink::case::{Case, Problem};
 use vinesink::excitation::Scene;
 use vinesink::operating_range::Reliability;
 use vinesink::program::output;
@@ -43,7 +43,8 @@ impl Long {
             return Ok(());
         }
         let longest = work.iter().max_by(|a, b| a.seconds().total_cmp(&b.seconds()));
-        self.refused(path, case, seconds, &longest.map(Work::to_string).unwrap_or_default())
+        let what = longest.map(Work::to_string).unwrap_or_default();
+        refused(path, &slips(case.warnings()), seconds, &what)
     }
 
     /// What of that which is asked is looked at beside so much work; what takes too long is left out, and said.
@@ -82,11 +83,17 @@ impl Long {
     }
 
     /// The same of a whole sweep, so many seconds on all processors, which was measured or is `what`.
-    pub fn allows_sweep(self, path: &Path, case: &Case, seconds: f64, what: &str) -> Result<()> {
+    pub fn allows_sweep(
+        self,
+        path: &Path,
+        warnings: &[Problem],
+        seconds: f64,
+        what: &str,
+    ) -> Result<()> {
         if self.long || seconds <= ORDINARY_SWEEP {
             return Ok(());
         }
-        self.refused(path, case, seconds, what)
+        refused(path, &slips(warnings), seconds, what)
     }
 
     /// The same of other work, so many seconds.
@@ -96,13 +103,12 @@ impl Long {
         }
         refused(path, "", seconds, what)
     }
+}
 
-    fn refused(self, path: &Path, case: &Case, seconds: f64, what: &str) -> Result<()> {
-        let slips = case.warnings().iter().filter_map(|warning| {
-            Some(format!("line {}: {}; ", warning.line, warning.help.as_ref()?))
-        });
-        refused(path, &slips.collect::<String>(), seconds, what)
-    }
+/// What may be wrong with a case, before what can be done.
+fn slips(warnings: &[Problem]) -> String {
+    let told = |one: &Problem| Some(format!("line {}: {}; ", one.line, one.help.as_ref()?));
+    warnings.iter().filter_map(told).collect()
 }
 
 /// That work would take too long, behind what may be wrong with the case.

@@ -1,6 +1,7 @@
 //! `vinesink sweep CASE`
 
 mod results;
+mod subject;
 mod submit;
 mod task;
 
@@ -10,15 +11,14 @@ use std::time::Instant;
 use clap::{Args, Subcommand};
 use miette::{IntoDiagnostic, Result, miette};
 use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, ParallelIterator as _};
-use vinesink::case::Case;
-use vinesink::excitation::Scene;
 use vinesink::program::case_file::{self, Reading};
 use vinesink::program::output;
 use vinesink::program::progress::{Progress, duration};
 use vinesink::store::Shards;
-use vinesink::sweep::{Plan, parquet, work};
+use vinesink::sweep::{Grid, parquet};
 
 use super::budget::{Long, Work};
+use subject::Subject;
 
 /// Work out every point of a case's table [sweep]
 ///
@@ -129,8 +129,8 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         (Some(Verb::Run { sweep: at, chunk, every, threads, long }), _) => {
             task::keep_to_processors(threads)?;
             let sweep = Sweep::open(&at)?;
-            sweep.is_ordinary(&at.case, long)?;
-            let wanted = task::chunks(chunk, every, sweep.plan.chunks())?;
+            sweep.of.is_ordinary(&at.case, long)?;
+            let wanted = task::chunks(chunk, every, sweep.grid().chunks())?;
             sweep.work(&wanted)?;
             Ok(true)
         }
@@ -139,12 +139,12 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         (Some(Verb::Merge { sweep, wanted }), _) => Sweep::open(&sweep)?.merge(&wanted),
         (None, Some(at)) => {
             let sweep = Sweep::open(&at)?;
-            sweep.is_ordinary(&at.case, arguments.long)?;
+            sweep.of.is_ordinary(&at.case, arguments.long)?;
             if arguments.dry_run {
                 return estimate(&sweep);
             }
             sweep.is_ordinary_in_all(&at.case, arguments.long)?;
-            sweep.work(&(0..sweep.plan.chunks()).collect::<Vec<_>>())?;
+            sweep.work(&(0..sweep.grid().chunks()).collect::<Vec<_>>())?;
             sweep.merge(&arguments.wanted)
         }
         (None, None) => Err(miette!(
@@ -156,8 +156,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
 
 /// A sweep and where its results are.
 struct Sweep {
-    plan: Plan,
-    case: Case,
+    of: Subject,
     case_text: String,
     /// The folder of all sweeps, the name of this one and its own folder there.
     out: PathBuf,
@@ -167,71 +166,50 @@ struct Sweep {
 
 impl Sweep {
     fn open(at: &Where) -> Result<Self> {
-        let (case, text) = case_file::read_with_text(&at.case, at.reading())?;
+        let (case, text) = case_file::read_any(&at.case, at.reading())?;
         let name = case_file::name(&at.case)?;
-        let plan = Plan::of(&case).ok_or_else(|| {
+        let of = Subject::of(case).ok_or_else(|| {
             miette!(
                 help = "add a table [sweep]; `vinesink sweep --help` shows one",
                 "{} does not say what to vary",
                 at.case.display()
             )
         })?;
-        Ok(Self {
-            plan,
-            case,
-            case_text: text,
-            out: at.out.clone(),
-            folder: at.out.join(&name),
-            name,
-        })
+        Ok(Self { of, case_text: text, out: at.out.clone(), folder: at.out.join(&name), name })
     }
 
-    /// Whether each point takes as long as is ordinary, or more is asked for.
-    fn is_ordinary(&self, path: &Path, long: Long) -> Result<()> {
-        match self.flies() {
-            true => long.allows(path, &self.case, &[Work::points(&self.plan)]),
-            false => Ok(()),
-        }
-    }
-
-    /// Whether points are more than closed forms.
-    fn flies(&self) -> bool {
-        self.plan.needs_simulation() || self.case.design.scene() != Scene::Steady
+    fn grid(&self) -> &Grid {
+        self.of.grid()
     }
 
     /// Whether all points together take as long as is ordinary, or more is asked for. Some are worked out to tell where
     /// there are many, or where they are not surely few enough.
     fn is_ordinary_in_all(&self, path: &Path, long: Long) -> Result<()> {
-        let points = self.plan.points();
-        let known = self.seconds(self.roughly());
-        if points <= MANY && long.allows_sweep(path, &self.case, known, "").is_ok() {
+        let points = self.grid().points();
+        let known = self.seconds(self.of.roughly());
+        if points <= MANY && self.of.all_ordinary(path, long, known, "").is_ok() {
             return Ok(());
         }
         let seconds = self.seconds(self.seconds_of_a_point()?);
-        long.allows_sweep(path, &self.case, seconds, &format!("{points} points"))
+        self.of.all_ordinary(path, long, seconds, &format!("{points} points"))
     }
 
     /// Seconds of all points on all processors, from those of one.
     fn seconds(&self, each: f64) -> f64 {
-        let at_once = rayon::current_num_threads().min(self.plan.chunks() as usize).max(1);
-        each * self.plan.points() as f64 / at_once as f64
-    }
-
-    /// Seconds that a point takes at most, about, as far as that is known before; 0 for closed forms.
-    fn roughly(&self) -> f64 {
-        if self.flies() { Work::points(&self.plan).seconds_of_each() } else { 0.0 }
+        let at_once = rayon::current_num_threads().min(self.grid().chunks() as usize).max(1);
+        each * self.grid().points() as f64 / at_once as f64
     }
 
     /// Seconds that a point takes, measured on some spread over the sweep.
     fn seconds_of_a_point(&self) -> Result<f64> {
-        let plan = &self.plan;
+        let plan = self.grid();
         let points = plan.points();
         // Whole chunks where a motion is followed, else a part of them.
         let chunk = plan.points_per_chunk();
         let stretch = if plan.settings.follow { chunk } else { SAMPLE.min(chunk) };
         let stretches = if plan.settings.follow { 1 } else { STRETCHES };
-        if self.roughly() * stretch as f64 > LONGEST_SAMPLE {
-            return Ok(self.roughly());
+        if self.of.roughly() * stretch as f64 > LONGEST_SAMPLE {
+            return Ok(self.of.roughly());
         }
         let begin = Instant::now();
         let progress = Progress::new("sample", stretches);
@@ -240,7 +218,7 @@ impl Sweep {
             let from = (points - stretch.min(points)) * k / (STRETCHES - 1);
             let range = from..from + stretch.min(points);
             worked += range.end - range.start;
-            work::points(plan, range).into_diagnostic()?;
+            self.of.points(range)?;
             progress.advance(1);
         }
         Ok(begin.elapsed().as_secs_f64() / worked.max(1) as f64)
@@ -248,13 +226,13 @@ impl Sweep {
 
     fn shards(&self) -> Result<Shards> {
         let chunks = Path::new(&self.name).join("chunks");
-        Ok(Shards::open(&self.out, &chunks, &self.plan.identity_of_chunks())?)
+        Ok(Shards::open(&self.out, &chunks, &self.grid().identity_of_chunks())?)
     }
 
     /// Works out those of some chunks that are not there, on all processors.
     fn work(&self, chunks: &[u64]) -> Result<()> {
         let shards = self.shards()?;
-        let points = |chunk: &u64| self.plan.chunk(*chunk).count() as u64;
+        let points = |chunk: &u64| self.grid().chunk(*chunk).count() as u64;
         let progress = Progress::new("points", chunks.iter().map(points).sum());
         // Each chunk on its own: in longer pieces a processor would be left with many at the end.
         let worked = chunks.into_par_iter().with_max_len(1).try_for_each(|chunk| {
@@ -273,8 +251,8 @@ impl Sweep {
         if shards.holds(chunk)? {
             return Ok(());
         }
-        let results = work::points(&self.plan, self.plan.chunk(chunk)).into_diagnostic()?;
-        let notes = vec![("vinesink.sweep".to_owned(), self.plan.identity.clone())];
+        let results = self.of.points(self.grid().chunk(chunk))?;
+        let notes = vec![("vinesink.sweep".to_owned(), self.grid().identity.clone())];
         let bytes = parquet::file(&results, &notes).into_diagnostic()?;
         Ok(shards.keep(chunk, &bytes)?)
     }
@@ -284,7 +262,7 @@ impl Sweep {
         let shards = self.shards()?;
         let missing = |chunk| Ok((!shards.holds(chunk)?).then_some(chunk));
         let all: Result<Vec<Option<u64>>> =
-            (0..self.plan.chunks()).into_par_iter().map(missing).collect();
+            (0..self.grid().chunks()).into_par_iter().map(missing).collect();
         Ok(all?.into_iter().flatten().collect())
     }
 }
@@ -294,7 +272,7 @@ fn shown(path: &Path) -> String {
 }
 
 fn plan(sweep: &Sweep) -> Result<bool> {
-    let Plan { settings, .. } = &sweep.plan;
+    let Grid { settings, .. } = sweep.grid();
     let axes: Vec<String> =
         settings.axes.iter().map(|axis| axis.values.len().to_string()).collect();
     let motions = match (settings.axes.last(), settings.starts) {
@@ -304,21 +282,21 @@ fn plan(sweep: &Sweep) -> Result<bool> {
         (_, 1) => "1 start each".to_owned(),
         (_, starts) => format!("{starts} starts each"),
     };
-    let chunks = match sweep.plan.chunks() {
+    let chunks = match sweep.grid().chunks() {
         1 => "1 chunk (0)".to_owned(),
         chunks => format!("{chunks} chunks (0 to {})", chunks - 1),
     };
     output::print(format!(
         "{} = {} points, {motions}, in {chunks}\n",
         axes.join(" x "),
-        sweep.plan.points()
+        sweep.grid().points()
     ))?;
     Ok(true)
 }
 
 fn status(sweep: &Sweep) -> Result<bool> {
     let missing = sweep.missing()?;
-    let chunks = sweep.plan.chunks();
+    let chunks = sweep.grid().chunks();
     output::print(format!("{} of {chunks} chunks are there\n", chunks - missing.len() as u64))?;
     Ok(missing.is_empty())
 }

@@ -17,20 +17,27 @@ use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
 use crate::transient::Study;
 
 use scope::Scope;
+use vinesink_core::names;
 
-/// What a criterion came to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
-    /// It is met, with its error.
-    Holds,
-    /// What was found meets or misses it by less than its error.
-    TooCloseToCall,
-    /// A motion that could decide otherwise was still settling.
-    NotDecided,
-    /// It is missed by what was found.
-    Fails,
-    /// Nothing could be measured.
-    NotMeasured,
+names! { name:
+    /// What a criterion came to, the worse the later.
+    pub enum Outcome {
+        /// It is met, with its error.
+        Holds = "holds",
+        /// What was found meets or misses it by less than its error.
+        TooCloseToCall = "too-close-to-call",
+        /// A motion that could decide otherwise was still settling.
+        NotDecided = "not-decided",
+        /// Nothing could be measured.
+        NotMeasured = "not-measured",
+        /// It is missed by what was found.
+        Fails = "fails",
+    }
+}
+
+/// What several came to together: the worst of them; none where there are none.
+pub fn together(judged: &[Judged]) -> Option<Outcome> {
+    judged.iter().map(Judged::outcome).max()
 }
 
 /// Distance from a count that still is that count: as regimes are told apart.

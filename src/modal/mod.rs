@@ -82,6 +82,12 @@ impl ModalAnswer {
         answer
     }
 
+    /// The largest displacement of any place under any load without absorbers, in m.
+    pub fn bare(&self) -> f64 {
+        let all = self.along.iter().flat_map(|along| &along.bare);
+        all.map(|[most, _]| *most).fold(0.0, f64::max)
+    }
+
     /// The largest displacement of any place under a load, or under any.
     pub fn worst(&self, load: Option<usize>) -> Option<WorstOfPlace> {
         self.worst_of(PlaceMeasure::PEAK, None, load)

@@ -1,9 +1,10 @@
 //! What is recorded of points, as columns with names and units.
 
+use super::Plan;
 use super::facts::{PointFacts, PointMotions};
-use super::{GridPoint, Plan};
 use crate::analysis::{Area, Strip};
 use crate::case::Recorded;
+use crate::criteria::Outcome;
 use crate::motions::Motion;
 use crate::quantity::Dimension;
 use crate::regimes::Regime;
@@ -62,7 +63,7 @@ pub struct Column {
 }
 
 impl Column {
-    fn empty(name: String, unit: &'static str, storage: Storage) -> Self {
+    pub(super) fn empty(name: String, unit: &'static str, storage: Storage) -> Self {
         Self { name, unit, storage, cells: Vec::new() }
     }
 }
@@ -135,9 +136,16 @@ pub fn names(recorded: Recorded) -> Vec<String> {
 }
 
 /// Adds a point and what is recorded of it to the columns of its sweep.
-pub(super) fn push(columns: &mut [Column], point: &GridPoint, recorded: Vec<Option<Cell>>) {
-    let place = [point.number as f64].into_iter().chain(point.coordinates.iter().copied());
+pub(super) fn push(
+    columns: &mut [Column],
+    number: u64,
+    coordinates: &[f64],
+    recorded: Vec<Option<Cell>>,
+) {
+    let place = [number as f64].into_iter().chain(coordinates.iter().copied());
     let cells = place.map(|value| Some(Cell::Number(value))).chain(recorded);
+    // What is not recorded of a point is not known of it.
+    let cells = cells.chain(std::iter::repeat(None));
     let known = |cell: &Cell| cell.number().is_none_or(f64::is_finite);
     for (column, cell) in columns.iter_mut().zip(cells) {
         column.cells.push(cell.filter(known));
@@ -211,6 +219,7 @@ fn number(recorded: Recorded, facts: &PointFacts, found: &PointMotions) -> Optio
 pub(super) fn word(bytes: &[u8]) -> Option<&'static str> {
     let regimes = Regime::ALL.map(Regime::key).into_iter();
     let areas = Area::ALL.map(Area::key);
-    let mut all = regimes.chain(areas).chain(Strip::ALL.map(Strip::key));
+    let outcomes = Outcome::ALL.map(Outcome::name);
+    let mut all = regimes.chain(areas).chain(Strip::ALL.map(Strip::key)).chain(outcomes);
     all.find(|word| word.as_bytes() == bytes)
 }

@@ -24,7 +24,12 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
     let mut results = columns::empty(plan);
     if let Some(unsteady) = &plan.unsteady {
         for point in numbers.map(|number| plan.point(number)) {
-            columns::push(&mut results, &point, unsteady.cells(plan, &point));
+            columns::push(
+                &mut results,
+                point.number,
+                &point.coordinates,
+                unsteady.cells(plan, &point),
+            );
         }
         return Ok(results);
     }
@@ -41,7 +46,8 @@ pub fn points(plan: &Plan, numbers: Range<u64>) -> Result<Vec<Column>, StartErro
             false => vec![Vec::new(); some.len()],
         };
         for (point, found) in some.iter().zip(found) {
-            columns::push(&mut results, point, columns::cells(plan, &PointFacts::of(point, found)));
+            let cells = columns::cells(plan, &PointFacts::of(point, found));
+            columns::push(&mut results, point.number, &point.coordinates, cells);
         }
         begin = end;
     }

@@ -188,12 +188,10 @@ fn other_commands_say_who_reads_it() {
         assert_ne!(output.status.code(), Some(0), "{command} {option}: {told}");
         assert!(told.contains(&format!("leave out {option}")), "{command} {option}: {told}");
     }
-    for command in ["sweep", "tradeoff"] {
-        let output = vinesink(&[command, MAST]);
-        let told = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{command}: {told}");
-        assert!(told.contains("several modes or absorbers"), "{command}: {told}");
-    }
+    let output = vinesink(&["tradeoff", MAST]);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("several modes or absorbers"), "{told}");
 }
 
 /// Peaks of the tip in mm by `peers/modal/simulate.c`, which shares neither code nor method, the largest of six starts over

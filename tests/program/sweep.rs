@@ -619,7 +619,7 @@ fn a_motion_is_followed_both_ways() {
     let k = differing[differing.len() / 2];
     let mut system =
         plan(&sweeping(&format!("clearance = {{ values = [\"{} mm\"] }}\n", 1e3 * clearances[k])));
-    system.settings.starts = 64;
+    system.grid.settings.starts = 64;
     let of = system.point(0).system.expect("valid");
     let there = motions(&Place::new(&of, 64), 100);
     for peak in [up[k], down[k]] {

@@ -19,7 +19,7 @@ use vinesink::report::figure::{
     edges, render,
 };
 use vinesink::report::render;
-use vinesink::report::sweep::{AxisShown, Swept, SweptError, tint};
+use vinesink::report::sweep::{AxisShown, Swept, SweptCase, SweptError, tint};
 use vinesink::sweep::columns::{Cell, Column, Storage};
 use vinesink::sweep::limits::stability_limits;
 use vinesink::system::Parameter;
@@ -61,7 +61,15 @@ fn swept<'a>(case: &'a Case, axes: Vec<AxisShown>, columns: &'a [Column]) -> Swe
     let frequency = axes.iter().find(|axis| axis.parameter == Parameter::Frequency);
     let frequencies = frequency.filter(|_| axes.len() == 2).map_or(&[][..], |axis| &axis.values);
     let limits = stability_limits(case, frequencies, &Serial);
-    Swept { case, axes, columns, starts: 4, periods: 100, limits, results_sha256 }
+    Swept {
+        case: SweptCase::One(case),
+        axes,
+        columns,
+        starts: 4,
+        periods: 100,
+        limits,
+        results_sha256,
+    }
 }
 
 /// All files of the page, as text.

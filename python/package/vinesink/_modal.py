@@ -8,9 +8,11 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from . import _vinesink
 from ._case import CaseWarning, Progress, _level, _told
-from ._results import Check, Record
+from ._results import Check, Record, Sweep
 
 
 class ModalOptimum(Record):
@@ -135,6 +137,14 @@ class ModalCase:
         text, better, succeeds = self._core.optimize(_told(progress))
         case = None if better is None else _of_text(better, self._folder, self._allow_outside)
         return ModalOptimum(json.loads(text), case, succeeds)
+
+    def sweep(self, *, progress: Progress | None = None) -> Sweep:
+        """Every point of its table `[sweep]`: the columns of `vinesink sweep`, one row a point.
+
+        Raises `RefusedError` of a case without that table.
+        """
+        columns, units = self._core.sweep(_told(progress))
+        return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"}, units)
 
     def report(
         self, folder: str | os.PathLike[str], *, name: str | None = None, progress: Progress | None = None

@@ -12,7 +12,7 @@ use vinesink_core::names;
 names! { name:
     /// What moves the structure.
     #[derive(schemars::JsonSchema)]
-    enum LoadKind {
+    pub(super) enum LoadKind {
         /// A force P sin(omega t), at a place or in one mode alone.
         Force = "force",
         /// The base moves by F sin(omega t).

@@ -6,6 +6,7 @@ mod file;
 mod load;
 mod place;
 mod read;
+mod sweep;
 mod table;
 mod universal;
 mod warnings;
@@ -22,9 +23,13 @@ use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::digest::sha256;
 use crate::measure::PlaceMeasure;
+use crate::quantity::Kind;
+use crate::quantity::catalogue as of;
 use vinesink_core::names;
 
 pub(super) use read::ModalFile;
+pub use sweep::ModalSweep;
+pub(super) use sweep::form as axis_form;
 pub use table::ModesFile;
 
 use crate::system::{InvalidModalSystem, ModalAbsorber, ModalParameters, ModalSystem, Mode};
@@ -56,6 +61,8 @@ pub struct ModalCase {
     pub modes_file: Option<ModesFile>,
     /// Within which bounds better absorbers are looked for.
     pub bounds: Bounds,
+    /// What `vinesink sweep` varies.
+    pub sweep: Option<ModalSweep>,
     /// What is almost surely a slip, in the order of the file's lines.
     pub warnings: Vec<Problem>,
     /// Where the values of each absorber stand in the text, as [`AbsorberKey::ALL`].
@@ -154,6 +161,11 @@ pub struct Load {
 }
 
 impl Load {
+    /// What its amplitude is.
+    pub fn amplitude_kind(&self) -> &'static Kind {
+        if self.on == ActsOn::Base { &of::BASE_AMPLITUDE } else { &of::FORCE_AMPLITUDE }
+    }
+
     /// The natural frequency of a mode in its range, of that which it acts on if it acts on one, in Hz; the middle of the range
     /// where there is none.
     pub fn centre(&self, case: &ModalCase) -> f64 {

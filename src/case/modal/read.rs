@@ -14,6 +14,7 @@ use super::asked::{
 use super::file::{ModesTable, modes_of_file};
 use super::load::{LoadTable, read_load};
 use super::place::find_place;
+use super::sweep::{ModalSweepTable, read_sweep};
 use super::table::{Modes, ModesFile};
 use super::warnings::Spans;
 use super::{AbsorberKey, ModalCase, PlacedAbsorber, StructuralMode};
@@ -53,7 +54,7 @@ struct ModeTable {
 /// An absorber of the structure.
 #[derive(Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
-struct ModalAbsorberTable {
+pub(super) struct ModalAbsorberTable {
     /// Where it is: a place of the shapes. May be left out where they have one.
     #[schemars(example = &"tip")]
     place: Option<String>,
@@ -112,6 +113,7 @@ struct ModalTables {
     simulation: Option<SimulationSettings>,
     criteria: Option<ModalCriteriaTable>,
     optimize: Option<ModalOptimizeTable>,
+    sweep: Option<ModalSweepTable>,
 }
 
 /// Starts at each frequency unless given.
@@ -219,7 +221,7 @@ pub(super) fn read(
     let asked = simulation.as_ref();
     let starts = asked.and_then(|one| u32::try_from(one.starts?).ok()).unwrap_or(STARTS);
     let periods = asked.and_then(|one| one.periods).unwrap_or(0);
-    let case = ModalCase {
+    let mut case = ModalCase {
         title: heading.title,
         source: heading.source,
         text_hash,
@@ -232,6 +234,7 @@ pub(super) fn read(
         periods,
         modes_file: None,
         bounds,
+        sweep: None,
         warnings: Vec::new(),
         values,
     };
@@ -258,6 +261,7 @@ pub(super) fn read(
             }
         }
     }
+    case.sweep = read_sweep(reader, &root, &case);
     Ok(Some((case, spans)))
 }
 

@@ -53,9 +53,9 @@ pub(super) struct AxisTable {
 
 /// Reads the axis of a parameter.
 pub(super) fn read(reader: &mut Reader, sweep: &Table, parameter: Parameter) -> Option<SweepAxis> {
-    let (name, design) = (parameter.key(), reader.design?);
+    let name = parameter.key();
     let table = reader.table::<AxisTable>(sweep, name)?;
-    if design.form(parameter).is_none() {
+    if let Some(design) = reader.design.filter(|design| design.form(parameter).is_none()) {
         let structure = format!("a structure that is {}", design.scene().words());
         let writing = design.writing();
         let other = (design.counterpart(parameter), design.carried(parameter), design.scene());

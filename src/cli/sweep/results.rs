@@ -7,14 +7,12 @@ use clap::Args;
 use miette::{IntoDiagnostic, Result, WrapErr as _, miette};
 use vinesink::digest::sha256;
 use vinesink::program::progress::Progress;
-use vinesink::program::{output, parallel::Parallel, reports};
-use vinesink::report::sweep::{AxisShown, MOST_POINTS, Swept};
+use vinesink::program::{output, reports};
+use vinesink::report::sweep::{MOST_POINTS, Swept};
 use vinesink::store::{self, Growing, Output};
-use vinesink::sweep::columns::{self, Column};
+use vinesink::sweep::columns::Column;
 use vinesink::sweep::csv;
-use vinesink::sweep::limits::{StabilityLimit, stability_limits};
 use vinesink::sweep::parquet;
-use vinesink::system::Parameter;
 
 use super::{Sweep, shown};
 
@@ -47,7 +45,7 @@ impl Sweep {
             self.write_as_text(&text).wrap_err_with(|| unfinished(&text))?;
             output::print_path(&text)?;
         }
-        if self.plan.points() > MOST_POINTS as u64 {
+        if self.grid().points() > MOST_POINTS as u64 {
             output::complain(&format!(
                 "There is no page of more than {MOST_POINTS} points; the results are whole."
             ));
@@ -60,11 +58,11 @@ impl Sweep {
     /// Reads the chunks in their order, one at a time, so that memory holds no more.
     fn each_chunk(&self, mut of: impl FnMut(Vec<Column>) -> Result<()>) -> Result<()> {
         let shards = self.shards()?;
-        let progress = Progress::new("chunks", self.plan.chunks());
-        for chunk in 0..self.plan.chunks() {
+        let progress = Progress::new("chunks", self.grid().chunks());
+        for chunk in 0..self.grid().chunks() {
             let path = shards.path(chunk);
-            let mut columns = columns::empty(&self.plan);
-            let rows = usize::try_from(self.plan.points_per_chunk()).unwrap_or(usize::MAX);
+            let mut columns = self.of.empty();
+            let rows = usize::try_from(self.grid().points_per_chunk()).unwrap_or(usize::MAX);
             let read = parquet::read(store::open(&path)?, &mut columns, rows);
             read.into_diagnostic().wrap_err_with(|| shown(&path))?;
             of(columns)?;
@@ -75,11 +73,11 @@ impl Sweep {
 
     fn put_together(&self, path: &Path) -> Result<()> {
         let notes = vec![
-            ("vinesink.sweep".to_owned(), self.plan.identity.clone()),
+            ("vinesink.sweep".to_owned(), self.grid().identity.clone()),
             ("vinesink.version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
             ("vinesink.case".to_owned(), self.case_text.clone()),
         ];
-        let merged = parquet::begin(Growing::begin(path)?, &columns::empty(&self.plan), &notes);
+        let merged = parquet::begin(Growing::begin(path)?, &self.of.empty(), &notes);
         let mut merged = merged.into_diagnostic()?;
         self.each_chunk(|columns| parquet::append(&mut merged, &columns).into_diagnostic())?;
         Ok(merged.into_inner().into_diagnostic()?.finish()?)
@@ -87,7 +85,7 @@ impl Sweep {
 
     fn write_as_text(&self, path: &Path) -> Result<()> {
         let mut writer = Writer::from_writer(Growing::begin(path)?);
-        csv::header(&mut writer, &columns::empty(&self.plan)).into_diagnostic()?;
+        csv::header(&mut writer, &self.of.empty()).into_diagnostic()?;
         self.each_chunk(|columns| csv::rows(&mut writer, &columns).into_diagnostic())?;
         let text = writer.into_inner().map_err(|error| error.into_error()).into_diagnostic()?;
         Ok(text.finish()?)
@@ -95,22 +93,22 @@ impl Sweep {
 
     /// Maps or diagrams with what they say in words.
     fn write_page(&self, merged: &Path, reports: Option<&Path>) -> Result<()> {
-        let mut columns = columns::empty(&self.plan);
+        let mut columns = self.of.empty();
         self.each_chunk(|chunk| {
             for (column, more) in columns.iter_mut().zip(chunk) {
                 column.cells.extend(more.cells);
             }
             Ok(())
         })?;
-        let settings = &self.plan.settings;
+        let settings = &self.grid().settings;
         let bytes = std::fs::read(merged).into_diagnostic().wrap_err_with(|| shown(merged))?;
         let swept = Swept {
-            case: &self.case,
-            axes: settings.axes.iter().map(|axis| AxisShown::of(&self.case, axis)).collect(),
+            case: self.of.shown(),
+            axes: self.of.axes(),
             columns: &columns,
             starts: settings.starts,
             periods: settings.periods,
-            limits: self.limits(),
+            limits: self.of.limits(),
             results_sha256: sha256(&bytes),
         };
         let files = swept.files()?;
@@ -118,18 +116,6 @@ impl Sweep {
         Output::open(out)?.add(&self.name, &files)?;
         reports.map_or(Ok(()), reports::refresh)?;
         output::print_path(&out.join(&self.name).join("sweep.html"))
-    }
-
-    /// Of the exact orbit, which a map over frequency and clearance shows.
-    fn limits(&self) -> Vec<StabilityLimit> {
-        let axes = &self.plan.settings.axes;
-        let of = |parameter| axes.iter().find(|axis| axis.parameter == parameter);
-        match (axes.len(), of(Parameter::Frequency), of(Parameter::Clearance)) {
-            (2, Some(frequency), Some(_)) => {
-                stability_limits(&self.case, &frequency.values, &Parallel)
-            }
-            _ => Vec::new(),
-        }
     }
 }
 

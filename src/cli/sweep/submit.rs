@@ -9,10 +9,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use miette::Result;
-use vinesink::case::{Case, Recording};
+use vinesink::case::{Recording, modes_file};
 use vinesink::program::output::{self, word};
 use vinesink::store::{self, Output};
 
+use super::subject::Subject;
 use super::{Long, Sweep, Where, shown};
 use job::Job;
 
@@ -90,7 +91,7 @@ fn seconds(text: &str) -> Result<u64, String> {
 
 pub fn run(arguments: &Arguments) -> Result<bool> {
     let sweep = Sweep::open(&arguments.sweep)?;
-    sweep.is_ordinary(&arguments.sweep.case, arguments.long)?;
+    sweep.of.is_ordinary(&arguments.sweep.case, arguments.long)?;
     let job = Job::of(arguments, &sweep)?;
     if arguments.dry_run {
         output::print(job.described())?;
@@ -105,7 +106,7 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
     if sweep.missing()?.is_empty() {
         output::print(format!(
             "all {} chunks are there, and nothing is submitted\n  put together  {}\n",
-            sweep.plan.chunks(),
+            sweep.grid().chunks(),
             by_hand("merge")
         ))?;
         return Ok(true);
@@ -113,9 +114,9 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
     let inside = |path: &Path| path.strip_prefix(&job.out).unwrap_or(path).to_owned();
     let scripts = job.files.iter().map(|(file, text)| (inside(file), text.clone().into_bytes()));
     let case = (inside(&job.case), sweep.case_text.clone().into_bytes());
-    let record = record(&sweep.case, at)?;
-    let record = record.map(|(file, bytes)| (inside(&job.folder.join(file)), bytes));
-    let files = scripts.chain([case]).chain(record).collect();
+    let named = named_file(&sweep, at)?;
+    let named = named.map(|(file, bytes)| (inside(&job.folder.join(file)), bytes));
+    let files = scripts.chain([case]).chain(named).collect();
     Output::open(&job.out)?.add("", &files)?;
     let [watch, cancel] = job.submit()?;
     output::print(format!(
@@ -124,7 +125,7 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
          what failed   {}\n  \
          cancel        {cancel}\n  \
          put together  {}   (by hand, where the merge found chunks missing)\n",
-        sweep.plan.chunks(),
+        sweep.grid().chunks(),
         job.tasks,
         by_hand("status"),
         shown(&job.folder.join("*.log")),
@@ -133,12 +134,15 @@ pub fn run(arguments: &Arguments) -> Result<bool> {
     Ok(true)
 }
 
-/// The record that drives a case, where the case's copy looks for it.
-fn record(case: &Case, from: &Where) -> Result<Option<(PathBuf, Vec<u8>)>> {
-    let file = case.recording.as_ref().and_then(Recording::file);
+/// The record that drives a case, or the file of its modes, where the case's copy looks for it.
+fn named_file(sweep: &Sweep, from: &Where) -> Result<Option<(PathBuf, Vec<u8>)>> {
+    let file = match &sweep.of {
+        Subject::One(of) => of.0.recording.as_ref().and_then(Recording::file).map(str::to_owned),
+        Subject::Several(_) => modes_file(&sweep.case_text),
+    };
     let Some(file) = file.filter(|file| Path::new(file).is_relative()) else { return Ok(None) };
     let folder = from.case.parent().unwrap_or(Path::new(""));
-    let (_, text) = store::read_record(folder, file, from.reading().reach())?;
+    let (_, text) = store::read_record(folder, &file, from.reading().reach())?;
     Ok(Some((file.into(), text.into_bytes())))
 }
 

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::scale::Scale;
 use super::word::Word;
 use crate::case::{Case, Criterion, Relation};
-use crate::criteria::{Judged, Outcome};
+use crate::criteria::{Judged, Outcome, together};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::Motions;
@@ -14,25 +14,12 @@ use crate::quantity::catalogue as of;
 
 /// What all criteria together came to; none where the case asks for nothing.
 pub fn badge(judged: &[Judged]) -> Option<Word> {
-    let any = |of: &[&str]| judged.iter().any(|one| of.contains(&outcome(one)));
-    match judged {
-        [] => None,
-        _ if any(&["fails", "not-measured"]) => Some(Word::Fails),
-        _ if any(&["not-decided"]) => Some(Word::NotDecided),
-        _ if any(&["too-close-to-call"]) => Some(Word::TooCloseToCall),
-        _ => Some(Word::Holds),
-    }
-}
-
-/// The word of what one criterion came to.
-fn outcome(judged: &Judged) -> &'static str {
-    match judged.outcome() {
-        Outcome::NotMeasured => "not-measured",
-        Outcome::NotDecided => "not-decided",
-        Outcome::TooCloseToCall => "too-close-to-call",
-        Outcome::Holds => "holds",
-        Outcome::Fails => "fails",
-    }
+    together(judged).map(|worst| match worst {
+        Outcome::Fails | Outcome::NotMeasured => Word::Fails,
+        Outcome::NotDecided => Word::NotDecided,
+        Outcome::TooCloseToCall => Word::TooCloseToCall,
+        Outcome::Holds => Word::Holds,
+    })
 }
 
 /// All criteria of a case, one for each line of `[criteria]`; none where the case asks for nothing.
@@ -49,16 +36,16 @@ pub fn criteria(case: &Case, judged: &[Judged]) -> Option<Value> {
 
 /// Criteria with their rows; none where there are none.
 pub fn counted(judged: &[Judged], rows: Vec<Value>) -> Option<Value> {
-    let count = |of: &str| judged.iter().filter(|one| outcome(one) == of).count();
+    let count = |of: Outcome| judged.iter().filter(|one| one.outcome() == of).count();
     badge(judged).map(|badge| {
         json!({
             "badge": badge,
             "count": judged.len(),
             "holding": judged.iter().filter(|one| one.holds == Some(true)).count(),
-            "failing": count("fails") + count("not-measured"),
-            "undecided": count("not-decided"),
+            "failing": count(Outcome::Fails) + count(Outcome::NotMeasured),
+            "undecided": count(Outcome::NotDecided),
             // Those that hold, and those that an error alone keeps from it.
-            "too_close": count("too-close-to-call"),
+            "too_close": count(Outcome::TooCloseToCall),
             "count_inactive": true,
             "contact_time": null,
             // Where absorbers differ in it.
@@ -105,7 +92,7 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
         "found_flag": judged.found.filter(|_| kind.is_none()).map(|found| found > 0.5),
         // Room that is left; negative where it does not hold.
         "margin": judged.margin.filter(|_| !counted).and_then(quantity),
-        "outcome": outcome(judged),
+        "outcome": judged.outcome().name(),
         "holds": judged.holds,
         "at": at,
         // Share of the resting places from which the absorber stays inactive, where that motion decides.

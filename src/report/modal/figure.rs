@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Beside, amplitude_of, units};
+use super::{Beside, units};
 use crate::case::{ActsOn, Load, ModalCase};
 use crate::linear::ModalDamper;
 use crate::measure::PlaceMeasure;
@@ -101,7 +101,7 @@ pub(super) fn forces(
         let most = seen(false).into_iter().map(|[_, y]| y).fold(0.0, f64::max);
         let top = 1.15 * limits.last().map_or(most, |(limit, _)| most.clamp(*limit, 3.0 * limit));
         let range = [first.times, last.times].map(|times| times * load.amplitude);
-        let mut x = AxisOf::si(units, amplitude_of(load)).axis(range);
+        let mut x = AxisOf::si(units, load.amplitude_kind()).axis(range);
         x.scale = AxisScale::Log;
         let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
         let bare = steps.iter().map(|step| [step.times * load.amplitude, step.bare]).collect();

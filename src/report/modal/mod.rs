@@ -68,7 +68,7 @@ impl Beside {
 }
 
 /// Units of the pages of a case: lengths in that of the smallest clearance.
-fn units(case: &ModalCase) -> Units {
+pub(super) fn units(case: &ModalCase) -> Units {
     let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
     let units = Units::from(Scales {
         physical: true,
@@ -99,8 +99,8 @@ fn word(answer: &ModalAnswer) -> Word {
 /// Whether it moves less than without absorbers.
 fn against_alone(answer: &ModalAnswer) -> Word {
     match answer.worst(None) {
-        Some(worst) if worst.value + worst.error < bare(answer) => Word::Works,
-        Some(worst) if worst.value > bare(answer) => Word::MakesItWorse,
+        Some(worst) if worst.value + worst.error < answer.bare() => Word::Works,
+        Some(worst) if worst.value > answer.bare() => Word::MakesItWorse,
         Some(_) => Word::DoesNothing,
         None => Word::NoAnswer,
     }
@@ -116,20 +116,9 @@ fn headline(answer: &ModalAnswer) -> Option<&'static str> {
     }
 }
 
-/// The largest displacement of any place under any load without absorbers.
-fn bare(answer: &ModalAnswer) -> f64 {
-    let all = answer.along.iter().flat_map(|along| &along.bare);
-    all.map(|[most, _]| *most).fold(0.0, f64::max)
-}
-
-/// What the amplitude of a load is of.
-fn amplitude_of(load: &Load) -> &'static Kind {
-    if load.on == ActsOn::Base { &of::BASE_AMPLITUDE } else { &of::FORCE_AMPLITUDE }
-}
-
 /// What a load does with other amplitudes.
 fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
-    let amplitude = |times: f64| simulated(amplitude_of(load), times * load.amplitude);
+    let amplitude = |times: f64| simulated(load.amplitude_kind(), times * load.amplitude);
     let limits = of_load.limits(case).map(|limits| {
         json!({
             "holds": limits.holds.map(|ends| ends.map(amplitude)),
@@ -151,7 +140,7 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
 }
 
 fn load_row(case: &ModalCase, load: &Load) -> Value {
-    let kind = amplitude_of(load);
+    let kind = load.amplitude_kind();
     let (place, mode) = match load.on {
         ActsOn::Place(place) => (Some(&case.places[place]), None),
         ActsOn::Mode(mode) => (None, Some(mode + 1)),
@@ -289,7 +278,7 @@ pub fn document(
 ) -> Value {
     let word = word(answer);
     let worst = answer.worst(None);
-    let (bare, peak) = (bare(answer), worst.map_or(f64::NAN, |one| one.value));
+    let (bare, peak) = (answer.bare(), worst.map_or(f64::NAN, |one| one.value));
     let error = worst.map_or(0.0, |one| one.error);
     let damper = beside.dampers.first().map(|one| one.worst.iter().copied().fold(0.0, f64::max));
     let level = |peak: f64| 20.0 * libm::log10(peak / bare);

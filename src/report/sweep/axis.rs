@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
-use crate::case::{Case, SweepAxis};
+use crate::case::{Case, ModalCase, SweepAxis};
 use crate::method::Method;
 use crate::quantity::{Digits, Kind, Quantity, Units};
 use crate::report::chart::AxisOf;
 use crate::report::figure::{Axis, AxisScale, edges};
+use crate::report::modal;
 use crate::system::Parameter;
 
 /// An axis as it is shown.
@@ -38,6 +39,20 @@ impl AxisShown {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
         let (kind, own) = (case.design.kind(parameter), case.design.value(parameter));
         Self { parameter, kind, values: values.clone(), logarithmic, own, units: case.units() }
+    }
+
+    /// The same of a structure of several modes.
+    pub fn of_several(case: &ModalCase, axis: &SweepAxis) -> Self {
+        let SweepAxis { parameter, ref values, logarithmic } = *axis;
+        let (kind, own) = (case.kind(parameter), case.own_value(parameter));
+        Self {
+            parameter,
+            kind,
+            values: values.clone(),
+            logarithmic,
+            own,
+            units: modal::units(case),
+        }
     }
 
     /// The boundaries of the values' cells.

@@ -9,9 +9,10 @@ use super::grid::Numbers;
 use super::kinds::AREAS;
 use crate::analysis::Area;
 use crate::case::Recorded;
+use crate::criteria::Outcome;
 use crate::method::Method;
 use crate::quantity::Quantity;
-use crate::quantity::catalogue::POINT_SHARE;
+use crate::quantity::catalogue::{POINT_SHARE, ROOM};
 use crate::regimes::Regime;
 use crate::sweep::columns::{Direction, names};
 
@@ -35,11 +36,12 @@ pub(super) fn document(swept: &Swept) -> Value {
         let single = [Direction::Single];
         directions.iter().chain(&single).any(|way| swept.cells(&names(*of)[0], *way).is_some())
     };
+    let [title, text_hash] = swept.case.heading();
     let recorded = Recorded::ALL.into_iter().filter(is_there).map(Recorded::key);
     let counted: Vec<Counted> = directions.iter().map(|way| Counted::of(swept, *way)).collect();
-    json!({
+    let mut document = json!({
         "format": "vinesink/sweep@2",
-        "title": swept.case.title,
+        "title": title,
         "points": swept.points(),
         "axes": axes(swept),
         // Whether each point is a start of one system.
@@ -52,9 +54,13 @@ pub(super) fn document(swept: &Swept) -> Value {
         "motions": counted.iter().map(Counted::motions).collect::<Vec<_>>(),
         "hysteresis": hysteresis(&counted),
         "version": env!("CARGO_PKG_VERSION"),
-        "case_sha256": swept.case.text_hash,
+        "case_sha256": text_hash,
         "results_sha256": swept.results_sha256,
-    })
+    });
+    if let Some(limits) = limits(swept) {
+        document["limits"] = limits;
+    }
+    document
 }
 
 fn axes(swept: &Swept) -> Vec<Value> {
@@ -84,6 +90,24 @@ fn largest_area(swept: &Swept) -> Option<Value> {
     let (name, points) = all.reduce(|best, one| if one.1 > best.1 { one } else { best })?;
     let share = share(points, areas.iter().flatten().count());
     Some(json!({ "name": name, "share": Quantity { method: Method::Theory, ..share } }))
+}
+
+/// Where all limits hold: at which share of the points at which they were judged, and where there is the most room, or least is missing.
+fn limits(swept: &Swept) -> Option<Value> {
+    let outcomes = swept.outcomes()?;
+    let count = |of: Outcome| outcomes.iter().filter(|one| **one == Some(of)).count();
+    let of_all = |points| share(points, outcomes.iter().flatten().count());
+    let rooms = swept.named(ROOM.id, Direction::Single).unwrap_or_default();
+    let rooms = rooms.into_iter().enumerate().filter_map(|(point, room)| Some((point, room?)));
+    let best = rooms.reduce(|best, one| if one.1 > best.1 { one } else { best });
+    let best = best.map(|(point, room)| {
+        json!({ "of": Quantity::new(&ROOM, room, Method::Simulation), "at": swept.place(point) })
+    });
+    let (hold, fail) = (count(Outcome::Holds), count(Outcome::Fails));
+    Some(json!({
+        "hold": of_all(hold), "fail": of_all(fail), "points": hold, "best": best,
+        "all": outcomes.iter().flatten().count() == hold, "open": outcomes.iter().flatten().count() > hold + fail,
+    }))
 }
 
 fn share(points: usize, of: usize) -> Quantity {
@@ -140,6 +164,11 @@ impl<'a> Counted<'a> {
             "theory": self.theory(),
             "orbit": self.orbit(),
         });
+        if let Some(largest) =
+            self.extreme(Recorded::Peak, 1.0).filter(|_| self.swept.is_of_several())
+        {
+            facts["largest_peak"] = largest;
+        }
         if let Some(decay) = self.decay() {
             facts["decay"] = decay;
         }

@@ -1,15 +1,15 @@
 //! The table of a sweep, looked at by axes, slices and directions.
 
-use super::Swept;
 use super::axis::{At, AxisShown};
+use super::{Swept, SweptCase};
 use crate::case::Recorded;
-use crate::excitation::Scene;
+use crate::criteria::Outcome;
 use crate::quantity::{Kind, Units};
 use crate::regimes::Regime;
 use crate::report::chart::{AxisOf, FITTED};
 use crate::report::figure::Axis;
 use crate::sweep::columns::{Cell, Column, Direction};
-use crate::sweep::indices;
+use crate::sweep::{LIMITS, indices};
 use crate::system::Parameter;
 
 /// What a panel or a mark of a direction is called.
@@ -59,7 +59,12 @@ impl Swept<'_> {
     }
 
     pub(super) fn is_steady(&self) -> bool {
-        self.case.design.scene() == Scene::Steady
+        self.case.is_steady()
+    }
+
+    /// Whether it is of several modes or absorbers: at each point the worst motion is told, not the main one.
+    pub(super) fn is_of_several(&self) -> bool {
+        matches!(self.case, SweptCase::Several(_))
     }
 
     /// Up and down where a motion was followed.
@@ -96,6 +101,13 @@ impl Swept<'_> {
     pub(super) fn areas(&self) -> Option<Vec<Option<&'static str>>> {
         let cells = self.cells(Recorded::Area.key(), Direction::Single)?;
         Some(cells.iter().map(|cell| cell.and_then(Cell::text)).collect())
+    }
+
+    /// What all limits come to at each point, where there are limits.
+    pub(super) fn outcomes(&self) -> Option<Vec<Option<Outcome>>> {
+        let cells = self.cells(LIMITS, Direction::Single)?;
+        let outcome = |cell: &Option<Cell>| cell.and_then(Cell::text).and_then(Outcome::of_name);
+        Some(cells.iter().map(outcome).collect())
     }
 
     pub(super) fn regimes(&self, direction: Direction) -> Option<Vec<Option<Regime>>> {

@@ -1,6 +1,7 @@
 //! How areas and counts are coloured.
 
 use crate::analysis::Area;
+use crate::criteria::Outcome;
 use crate::regimes::Regime;
 use crate::report::figure::Tint;
 use crate::report::figures::regimes::tint;
@@ -11,6 +12,15 @@ pub(super) const AREAS: [(&str, Tint); 4] = [
     (Area::Z2.key(), tint(Regime::TwoAsymmetric)),
     (Area::Z3.key(), tint(Regime::TwoSymmetric)),
     (Area::Z4.key(), tint(Regime::StronglyModulated)),
+];
+
+/// Tints of what all limits come to, and their words, in the order of [`Outcome::ALL`].
+pub(super) const OUTCOMES: [(Tint, &str); Outcome::ALL.len()] = [
+    (Tint([0x4F, 0x8F, 0xC9]), "all limits hold"),
+    (Tint([0xC9, 0xDC, 0xEE]), "too close to call"),
+    (Tint([0xF3, 0xE3, 0xC3]), "a motion still settles"),
+    (Tint([0x60, 0x60, 0x60]), "nothing measured"),
+    (Tint([0xE0, 0x9A, 0x3E]), "a limit fails"),
 ];
 
 /// Tints of the number of motions found, and its name: the last stands for all larger ones.

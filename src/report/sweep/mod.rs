@@ -9,9 +9,12 @@ mod kinds;
 use serde_json::json;
 
 use super::figure::Figure;
+use super::modal;
 use super::render::{Files, RenderError, page_files};
 use super::template::worded;
-use crate::case::Case;
+use crate::case::{Case, ModalCase};
+use crate::excitation::Scene;
+use crate::quantity::Units;
 use crate::sweep::columns::Column;
 use crate::sweep::limits::StabilityLimit;
 
@@ -21,11 +24,44 @@ pub use axis::AxisShown;
 /// A page shows at most so many points; of more, the table alone is the result.
 pub const MOST_POINTS: usize = 1_000_000;
 
+/// The case that a sweep belongs to.
+#[derive(Debug, Clone, Copy)]
+pub enum SweptCase<'a> {
+    /// Of one mode and one absorber.
+    One(&'a Case),
+    /// Of several.
+    Several(&'a ModalCase),
+}
+
+impl SweptCase<'_> {
+    /// Its title, and the SHA-256 of its text.
+    fn heading(&self) -> [&str; 2] {
+        match self {
+            Self::One(case) => [&case.title, &case.text_hash],
+            Self::Several(case) => [&case.title, &case.text_hash],
+        }
+    }
+
+    fn units(&self) -> Units {
+        match self {
+            Self::One(case) => case.units(),
+            Self::Several(case) => modal::units(case),
+        }
+    }
+
+    fn is_steady(&self) -> bool {
+        match self {
+            Self::One(case) => case.design.scene() == Scene::Steady,
+            Self::Several(_) => true,
+        }
+    }
+}
+
 /// A sweep with its results.
 #[derive(Debug, Clone)]
 pub struct Swept<'a> {
     /// The case it belongs to.
-    pub case: &'a Case,
+    pub case: SweptCase<'a>,
     /// The axes; the last varies fastest.
     pub axes: Vec<AxisShown>,
     /// What is known, a value for each point in each column. Columns are found by their names, and any may be
@@ -106,7 +142,7 @@ impl Swept<'_> {
     pub fn files(&self) -> Result<Files, SweptError> {
         let document = facts::document(self);
         let json = serde_json::to_string_pretty(&document).map_err(RenderError::from)? + "\n";
-        let facts = json!({ "page": document, "steady": self.is_steady() });
+        let facts = json!({ "page": document, "steady": self.is_steady(), "several": self.is_of_several() });
         let mut files =
             page_files("sweep", "sweep.md", Some(""), &self.units(), facts, &self.figures()?)?;
         files.insert("sweep.json".into(), json.into_bytes());

@@ -39,11 +39,11 @@ impl Job {
         let program = std::env::current_exe().into_diagnostic();
         let program = program.wrap_err("cannot tell where this program is")?;
         let out = std::path::absolute(&arguments.sweep.out).into_diagnostic()?;
-        let tasks = arguments.tasks.unwrap_or(MOST_TASKS).min(sweep.plan.chunks());
+        let tasks = arguments.tasks.unwrap_or(MOST_TASKS).min(sweep.grid().chunks());
         // Jobs that differ get folders of their own: what is running keeps the files it began with.
         let told = format!(
             "{} {engine:?} {tasks} {cpus_per_task} {time:?} {retries} {pause} {}",
-            sweep.plan.identity,
+            sweep.grid().identity,
             program.display()
         );
         let folder = out.join(&sweep.name).join("submit").join(&sha256(told.as_bytes())[..12]);

@@ -65,7 +65,7 @@ impl LineDiagram<'_> {
         }));
         let facts = json!({
             "of": of.id, "x": self.axis.kind.id, "x_ends": self.axis.ends(),
-            "followed": self.directions.len() > 1, "steady": self.swept.is_steady(),
+            "followed": self.directions.len() > 1, "steady": self.swept.is_steady(), "several": self.swept.is_of_several(),
             "simulated": self.directions.iter().any(|way| self.swept.cells(Recorded::Peak.key(), *way).is_some())
         });
         Some(Figure::new(name, "").with_panel(panel).with_facts(WORDS, facts))

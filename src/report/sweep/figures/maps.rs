@@ -4,10 +4,11 @@ use serde_json::json;
 
 use super::super::Swept;
 use super::super::grid::{self, Plane};
-use super::super::kinds::{AREAS, COUNTS};
+use super::super::kinds::{AREAS, COUNTS, OUTCOMES};
 use super::QUANTITIES;
 use super::overlay::{self, Lines};
 use crate::case::Recorded;
+use crate::criteria::Outcome;
 use crate::regimes::Regime;
 use crate::report::figure::{
     Axis, Cells, Figure, GridCell, Image, Key, Layer, Layout, Panel, Ramp, Tint, inliers,
@@ -48,7 +49,8 @@ pub(super) fn all(swept: &Swept) -> Vec<Figure> {
     let slices = chosen(swept.slices(), MOST_PANELS / directions.len());
     let both = |slice: &usize| directions.iter().map(|way| (*slice, *way)).collect::<Vec<_>>();
     let panels = Panels { swept, plane, shown: slices.iter().flat_map(both).collect() };
-    let mut maps: Vec<Map> = regimes(swept).or_else(|| areas(swept)).into_iter().collect();
+    let first = regimes(swept).or_else(|| areas(swept)).or_else(|| limits(swept));
+    let mut maps: Vec<Map> = first.into_iter().collect();
     maps.extend(QUANTITIES.iter().filter_map(|(name, of, ramp)| panels.values(name, *of, *ramp)));
     maps.extend(motions(swept));
     maps.iter().filter_map(|map| panels.figure(map)).collect()
@@ -103,6 +105,15 @@ fn areas(swept: &Swept) -> Option<Map> {
     let indices = swept.areas()?.into_iter().map(|area| area.and_then(index)).collect();
     let table = AREAS.map(|(area, tint)| (tint, area));
     kinds("sweep-areas", "areas", &table, vec![(swept.directions()[0], indices)])
+}
+
+/// What all limits come to; nothing where that is the same everywhere.
+fn limits(swept: &Swept) -> Option<Map> {
+    let outcomes = swept.outcomes()?;
+    outcomes.iter().find(|one| **one != outcomes[0])?;
+    let index = |one: Outcome| Outcome::ALL.iter().position(|other| *other == one);
+    let indices = outcomes.into_iter().map(|one| one.and_then(index)).collect();
+    kinds("sweep-limits", "limits", &OUTCOMES, vec![(Direction::Single, indices)])
 }
 
 /// How many motions there are; nothing where one is all that could be found.
@@ -175,7 +186,7 @@ impl Panels<'_> {
         }
         figure.keys.clone_from(&map.keys);
         let facts = json!({
-            "of": map.of, "steady": self.swept.is_steady(), "basin": self.swept.is_basin(), "lines": lines,
+            "of": map.of, "steady": self.swept.is_steady(), "several": self.swept.is_of_several(), "basin": self.swept.is_basin(), "lines": lines,
             "x": self.plane.x.kind.id, "y": self.plane.y.kind.id,
             "x_ends": self.plane.x.ends(), "y_ends": self.plane.y.ends(),
             "cut": map.bar.as_ref().is_some_and(|(_, cut)| *cut),

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::super::Swept;
 use super::super::grid::Plane;
 use super::super::kinds::AREAS;
+use super::super::{Swept, SweptCase};
 use super::contours;
 use crate::analysis::Manifold;
 use crate::case::Recorded;
@@ -46,7 +46,8 @@ pub(super) fn boundaries(
 /// Those of closed form and exact orbits themselves, over frequency and clearance.
 fn computed(swept: &Swept, plane: Plane) -> Option<Vec<Layer>> {
     let axes = [plane.x.parameter, plane.y.parameter];
-    let (system, units) = (swept.case.system(), swept.case.units());
+    let SweptCase::One(case) = swept.case else { return None };
+    let (system, units) = (case.system(), case.units());
     let gamma = system.forcing_per_clearance();
     if axes != [Parameter::Frequency, Parameter::Clearance] || gamma == 0.0 {
         return None;

@@ -1,0 +1,133 @@
+//! Points of a structure of several modes: each is a case of its own, and has what is known of that.
+
+use std::ops::Range;
+
+use super::columns::{Cell, Column, Storage, push};
+use super::{Grid, fewest_of};
+use crate::case::ModalCase;
+use crate::criteria::together;
+use crate::digest::sha256;
+use crate::executor::Serial;
+use crate::measure::Device;
+use crate::modal::{ModalAnswer, seconds};
+use crate::quantity::catalogue::ROOM;
+use crate::quantity::{Dimension, Kind};
+use crate::system::Parameter;
+
+/// What is worked out at every point of a structure of several modes.
+#[derive(Debug, Clone)]
+pub struct ModalPlan {
+    /// Its points.
+    pub grid: Grid,
+    case: ModalCase,
+}
+
+/// The column that says whether all limits hold.
+pub const LIMITS: &str = "limits";
+
+impl ModalPlan {
+    /// That of a case; `None` where it has no table `[sweep]`.
+    pub fn of(case: &ModalCase) -> Option<Self> {
+        let settings = &case.sweep.as_ref()?.settings;
+        let mut named = case.text_hash.clone();
+        named.extend(case.modes_file.iter().map(|file| sha256(file.text.as_bytes())));
+        let plan = Self { grid: Grid::of(settings.clone(), 1, &named), case: case.clone() };
+        let grid = Grid::of(settings.clone(), fewest_of(plan.seconds()), &named);
+        Some(Self { grid, ..plan })
+    }
+
+    /// About how many seconds a point takes.
+    pub fn seconds(&self) -> f64 {
+        let last = self.grid.points() - 1;
+        let some = [0, last / 2, last].map(|number| seconds(&self.case_at(number).1));
+        some.into_iter().sum::<f64>() / some.len() as f64
+    }
+
+    /// A point's place on each axis, and its case.
+    fn case_at(&self, number: u64) -> (Vec<f64>, ModalCase) {
+        let coordinates = self.grid.coordinates(number);
+        let case = self.case.at_point(&coordinates);
+        (coordinates, case)
+    }
+
+    /// Whether each point is at one frequency.
+    fn at_a_frequency(&self) -> bool {
+        self.grid.settings.axes.iter().any(|axis| axis.parameter == Parameter::Frequency)
+    }
+
+    /// The columns, empty.
+    pub fn empty(&self) -> Vec<Column> {
+        let number = |name: &str, dimension: Dimension| {
+            Column::empty(name.to_owned(), dimension.symbol(true), Storage::Number)
+        };
+        let mut columns = vec![Column::empty("point".to_owned(), "1", Storage::Whole)];
+        let axes = self
+            .grid
+            .settings
+            .axes
+            .iter()
+            .map(|axis| number(axis.parameter.key(), self.case.kind(axis.parameter).dimension));
+        columns.extend(axes);
+        columns.push(number("peak", Dimension::Length));
+        columns.push(number("peak_error", Dimension::Length));
+        columns.push(number("bare_amplitude", Dimension::Length));
+        columns.push(number("reduction_db", Dimension::Level));
+        match self.at_a_frequency() {
+            true => columns.push(Column::empty("motions".to_owned(), "1", Storage::Whole)),
+            false => columns.push(number("peak_frequency", Dimension::Frequency)),
+        }
+        if !self.case.criteria.is_empty() {
+            columns.push(Column::empty(LIMITS.to_owned(), "", Storage::Text));
+            columns.push(number(ROOM.id, ROOM.dimension));
+        }
+        for asked in &self.case.criteria {
+            let place = asked.place.map(|place| self.case.places[place].as_str());
+            let name = format!("{}_{}", asked.criterion.key, place.unwrap_or("worst"));
+            let kind = asked.criterion.measure.kind(Device::Absorber);
+            let dimension = kind.map_or(Dimension::Number, |kind: &Kind| kind.dimension);
+            columns.push(number(&name, dimension));
+            columns.push(number(&format!("{name}_error"), dimension));
+        }
+        columns
+    }
+
+    /// The results of some points, in their order.
+    pub fn points(&self, numbers: Range<u64>) -> Vec<Column> {
+        let mut columns = self.empty();
+        for number in numbers {
+            let (coordinates, case) = self.case_at(number);
+            // Values that are each possible may together leave no system; then nothing is known.
+            let cells = ModalAnswer::of(&case, &Serial).map(|answer| self.cells(&answer));
+            push(&mut columns, number, &coordinates, cells.unwrap_or_default());
+        }
+        columns
+    }
+
+    fn cells(&self, answer: &ModalAnswer) -> Vec<Option<Cell>> {
+        let number = |value: f64| Some(Cell::Number(value));
+        let Some(worst) = answer.worst(None) else { return Vec::new() };
+        let bare = answer.bare();
+        let mut cells = vec![
+            number(worst.value),
+            number(worst.error),
+            number(bare),
+            number(20.0 * libm::log10(bare / worst.value)),
+        ];
+        cells.push(match self.at_a_frequency() {
+            true => number(answer.along[0].places[0].motions.len() as f64),
+            false => number(worst.at),
+        });
+        if let Some(outcome) = together(&answer.criteria()) {
+            cells.push(Some(Cell::Text(outcome.name())));
+            let rooms = answer
+                .judged
+                .iter()
+                .map(|one| 1.0 - (one.worst.value + one.worst.error) / one.judged.criterion.limit);
+            cells.push(number(rooms.fold(f64::INFINITY, f64::min)));
+        }
+        for one in &answer.judged {
+            cells.extend([number(one.worst.value), number(one.worst.error)]);
+        }
+        cells
+    }
+}
