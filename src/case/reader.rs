@@ -28,6 +28,8 @@ pub(super) struct Reader<'t> {
     pub inputs: Vec<Input>,
     /// The design, once it is read: it decides the units of the optional tables.
     pub design: Option<Design>,
+    /// Whether quantities are plain numbers, as beside [[reduced.mode]].
+    pub plain: bool,
     /// Of a structure of several modes whether its swept load moves the base: it decides the units of axes.
     pub of_several: Option<bool>,
     /// What drives the design, where that is a record.
@@ -38,7 +40,16 @@ impl<'t> Reader<'t> {
     /// One that has read nothing.
     pub fn of(text: &'t str) -> Self {
         let (problems, inputs) = (Vec::new(), Vec::new());
-        Self { text, problems, more: 0, inputs, design: None, of_several: None, recording: None }
+        Self {
+            text,
+            problems,
+            more: 0,
+            inputs,
+            design: None,
+            plain: false,
+            of_several: None,
+            recording: None,
+        }
     }
 
     /// The bytes of the first line, to point at when there is nothing better.

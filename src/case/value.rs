@@ -86,11 +86,13 @@ impl Reader<'_> {
     /// How a number is written; that of a parameter as in the case's design.
     fn form(&self, schema: &'static Value) -> Option<Form> {
         let parameter = schema["x-parameter"].as_str().or(schema["x-signed"].as_str());
-        let Some(parameter) = parameter else { return Form::of(schema) };
+        let Some(parameter) = parameter else {
+            return Form::of(schema).map(|one| self.written(one));
+        };
         let parameter = Parameter::of_name(parameter)?;
         let mut form = match (&self.design, self.of_several) {
             (Some(design), _) => design.form(parameter)?,
-            (None, moves_base) => axis_form(parameter, moves_base?)?,
+            (None, moves_base) => self.written(axis_form(parameter, moves_base?)?),
         };
         let bound = Bound::of(schema);
         if bound != Bound::default() {
@@ -108,6 +110,16 @@ impl Reader<'_> {
             form.example = toml(own);
         }
         Some(form)
+    }
+
+    /// A form, or that of a plain number in place of a quantity where these are plain.
+    pub fn written(&self, form: Form) -> Form {
+        match form.dimension {
+            Some(dimension) if self.plain && dimension.symbol(true) != "1" => {
+                Form { dimension: None, plain: true, example: "1.5".to_owned(), ..form }
+            }
+            _ => form,
+        }
     }
 
     /// A line that gives a key its example, in the units of the case's design.

@@ -114,7 +114,7 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
                 let there = amplitudes(case, load, *at, &dampers);
                 peak = there.places.iter().copied().fold(peak, f64::max);
                 for (over, one) in over.iter_mut().zip(&case.criteria) {
-                    *over = over.max(asked_of(one, &there, *at) / one.criterion.limit);
+                    *over = over.max(asked_of(case, one, &there, *at) / one.criterion.limit);
                 }
             }
         }

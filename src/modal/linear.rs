@@ -1,6 +1,6 @@
 //! The structure along a load without absorbers, alone or with tuned mass dampers.
 
-use std::f64::consts::{FRAC_1_SQRT_2, TAU};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 use crate::case::{Load, ModalCase, PlaceCriterion};
 use crate::linear::{ModalAmplitudes, ModalDamper};
@@ -60,19 +60,25 @@ pub(super) fn largest_peak(case: &ModalCase, load: &Load, dampers: &[ModalDamper
 }
 
 /// What a criterion is about, in SI units, where places move with these amplitudes at a frequency in Hz.
-pub(super) fn asked_of(asked: &PlaceCriterion, amplitudes: &ModalAmplitudes, at: f64) -> f64 {
+pub(super) fn asked_of(
+    case: &ModalCase,
+    asked: &PlaceCriterion,
+    amplitudes: &ModalAmplitudes,
+    at: f64,
+) -> f64 {
     let places = amplitudes.places.iter().enumerate();
     let places = places.filter(|(p, _)| asked.place.is_none_or(|one| one == *p));
     let amplitude = places.map(|(_, amplitude)| *amplitude).fold(0.0, f64::max);
     let PlaceMeasure { reads, mean } = asked.measure;
     let mean = if mean { FRAC_1_SQRT_2 } else { 1.0 };
-    (0..reads.rates()).fold(mean * amplitude, |value, _| value * TAU * at)
+    (0..reads.rates())
+        .fold(mean * amplitude, |value, _| value * case.omega() * at / case.modes[0].frequency_hz)
 }
 
 /// The most of what a criterion is about under any load, in SI units.
 pub fn linear_most(case: &ModalCase, asked: &PlaceCriterion, dampers: &[ModalDamper]) -> f64 {
     let along = |load: &Load| {
-        let of = |at: f64| asked_of(asked, &amplitudes(case, load, at, dampers), at);
+        let of = |at: f64| asked_of(case, asked, &amplitudes(case, load, at, dampers), at);
         largest(load.range_hz, case, of)[0]
     };
     case.loads.iter().map(along).fold(0.0, f64::max)

@@ -58,7 +58,7 @@ impl ModalPlan {
     /// The columns, empty.
     pub fn empty(&self) -> Vec<Column> {
         let number = |name: &str, dimension: Dimension| {
-            Column::empty(name.to_owned(), dimension.symbol(true), Storage::Number)
+            Column::empty(name.to_owned(), dimension.symbol(!self.case.reduced), Storage::Number)
         };
         let mut columns = vec![Column::empty("point".to_owned(), "1", Storage::Whole)];
         let axes = self

@@ -30,6 +30,7 @@ mod layers;
 mod live;
 mod metadata;
 mod modal;
+mod modal_reduced;
 mod modal_sweep;
 mod optimize;
 mod proposal;

@@ -117,7 +117,8 @@ fn read_limits(
     subject: Subject,
     places: &[String],
 ) -> Vec<PlaceCriterion> {
-    let (key, example) = (subject.key(), example(subject));
+    let key = subject.key();
+    let example = if reader.plain { "<= 1.5" } else { example(subject) };
     let kind = subject.measure().of_place().zip(subject.dimension());
     let Some((value, (measure, dimension))) = table.value(key).zip(kind) else { return Vec::new() };
     let mut found = Vec::new();
@@ -158,7 +159,7 @@ fn read_limits(
             sign,
             alone: false,
         };
-        let form = Form::free(Some(dimension), example, "");
+        let form = reader.written(Form::free(Some(dimension), example, ""));
         let as_written = reader.as_written(value.span());
         let limit = reader.number(&place_of, &form);
         let Some((limit, place)) = limit.zip(place) else { continue };

@@ -6,6 +6,7 @@ mod file;
 mod load;
 mod place;
 mod read;
+mod reduced;
 mod sweep;
 mod table;
 mod universal;
@@ -43,6 +44,9 @@ pub struct ModalCase {
     pub source: String,
     /// SHA-256 of the file's text, in hexadecimal.
     pub text_hash: String,
+    /// Whether it is dimensionless: lengths and masses in a unit of their own, frequencies over that of the first mode, and time
+    /// `omega_1 t` in place of SI.
+    pub reduced: bool,
     /// Names of the places that shapes are given at, in the order of the file.
     pub places: Vec<String>,
     /// The modes; the first is that which frequencies are over.
@@ -109,6 +113,8 @@ pub struct StructuralMode {
     pub shape: Vec<f64>,
     /// Participation in the motion of the base.
     pub participation: f64,
+    /// Part of a load that acts on all modes at once, over modal mass.
+    pub forcing: f64,
 }
 
 /// An absorber at a place.
@@ -145,6 +151,8 @@ pub enum ActsOn {
     Place(usize),
     /// A force in one mode alone.
     Mode(usize),
+    /// Forces in all modes, each over its modal mass.
+    Modes,
     /// The base moves.
     Base,
 }
@@ -154,7 +162,7 @@ pub enum ActsOn {
 pub struct Load {
     /// What it acts on.
     pub on: ActsOn,
-    /// Amplitude in N, or in m of the base.
+    /// Amplitude in N, in m of the base, or of the largest force over modal mass.
     pub amplitude: f64,
     /// Frequencies in Hz, ascending; the same twice where there is one.
     pub range_hz: [f64; 2],
@@ -163,7 +171,11 @@ pub struct Load {
 impl Load {
     /// What its amplitude is.
     pub fn amplitude_kind(&self) -> &'static Kind {
-        if self.on == ActsOn::Base { &of::BASE_AMPLITUDE } else { &of::FORCE_AMPLITUDE }
+        match self.on {
+            ActsOn::Base => &of::BASE_AMPLITUDE,
+            ActsOn::Modes => &of::MODAL_FORCING,
+            ActsOn::Place(_) | ActsOn::Mode(_) => &of::FORCE_AMPLITUDE,
+        }
     }
 
     /// The natural frequency of a mode in its range, of that which it acts on if it acts on one, in Hz; the middle of the range
@@ -210,6 +222,12 @@ pub(super) fn tells_several(document: &DeTable) -> Option<Range<usize>> {
         let (key, value) = document.get_key_value(name)?;
         (value.get_ref().is_array() || !list).then(|| key.span())
     };
+    let reduced = document.get("reduced").and_then(|table| table.get_ref().as_table());
+    let reduced =
+        reduced.filter(|table| ["mode", "absorber"].iter().any(|key| table.contains_key(*key)));
+    if reduced.is_some() {
+        return document.get_key_value("reduced").map(|(key, _)| key.span());
+    }
     let listed_modes = listed("mode", false).or_else(|| listed("modes", false));
     listed_modes.or_else(|| listed("absorber", true))
 }
@@ -292,9 +310,14 @@ impl ModalCase {
         places.map(|p| self.modes.iter().map(|mode| mode.shape[p]).collect()).collect()
     }
 
-    /// Radians per unit of the dimensionless time: the first mode's natural frequency in rad/s.
+    /// Dimensionless times in the case's own unit of time: the first mode's natural frequency in rad/s, 1 of a reduced case.
     pub fn omega(&self) -> f64 {
-        std::f64::consts::TAU * self.modes[0].frequency_hz
+        if self.reduced { 1.0 } else { std::f64::consts::TAU * self.modes[0].frequency_hz }
+    }
+
+    /// The mass that pages are in, in the case's own unit: the first mode's of a reduced case.
+    pub fn mass_unit(&self) -> f64 {
+        if self.reduced { self.modes[0].mass_kg } else { 1.0 }
     }
 
     /// The structure with its absorbers under a load at a frequency in Hz: lengths in m, masses in kg, time `omega_1 t`. Shapes
@@ -313,6 +336,7 @@ impl ModalCase {
             let force = match load.on {
                 ActsOn::Place(place) => mode.shape[place] * load.amplitude,
                 ActsOn::Mode(driven) if driven == k => load.amplitude,
+                ActsOn::Modes => mode.forcing * load.amplitude * mode.mass_kg,
                 ActsOn::Mode(_) | ActsOn::Base => 0.0,
             };
             Mode {

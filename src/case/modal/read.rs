@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -14,6 +14,9 @@ use super::asked::{
 use super::file::{ModesTable, modes_of_file};
 use super::load::{LoadTable, read_load};
 use super::place::find_place;
+use super::reduced::{
+    ModalReducedTable, ReducedAbsorberTable, ReducedModeTable, read_reduced_load, read_reduced_mode,
+};
 use super::sweep::{ModalSweepTable, read_sweep};
 use super::table::{Modes, ModesFile};
 use super::warnings::Spans;
@@ -23,7 +26,6 @@ use crate::case::criteria::UPTO;
 use crate::case::error::CaseError;
 use crate::case::number::Form;
 use crate::case::reader::{Reader, Table, fields, kind};
-use crate::case::schema::one_of;
 use crate::case::settings::SimulationSettings;
 use crate::case::value::ValuePlace;
 use crate::system::{LARGEST_DAMPING_RATIO, MOST_MODES};
@@ -81,7 +83,7 @@ pub(super) struct ModalAbsorberTable {
 #[schemars(
     title = "vinesink case of several modes or absorbers",
     deny_unknown_fields,
-    extend("oneOf" = one_of("mode", "modes"))
+    extend("oneOf" = forms())
 )]
 pub(in crate::case) struct ModalFile {
     #[schemars(flatten)]
@@ -108,12 +110,19 @@ enum OneOrMore<T> {
 struct ModalTables {
     mode: Option<OneOrMore<ModeTable>>,
     modes: Option<ModesTable>,
-    absorber: OneOrMore<ModalAbsorberTable>,
-    excitation: OneOrMore<LoadTable>,
+    reduced: Option<ModalReducedTable>,
+    absorber: Option<OneOrMore<ModalAbsorberTable>>,
+    excitation: Option<OneOrMore<LoadTable>>,
     simulation: Option<SimulationSettings>,
     criteria: Option<ModalCriteriaTable>,
     optimize: Option<ModalOptimizeTable>,
     sweep: Option<ModalSweepTable>,
+}
+
+/// The forms of a structure, by the tables that each needs.
+fn forms() -> Value {
+    let physical = |modes: &str| json!({ "required": [modes, "absorber", "excitation"] });
+    json!([physical("mode"), physical("modes"), { "required": ["reduced"] }])
 }
 
 /// Starts at each frequency unless given.
@@ -138,7 +147,7 @@ pub(super) fn read(
     let root = reader.root_of::<Heading>(document, &[own, &of_one].concat());
     for name in of_one.into_iter().filter(|name| root.has(name)) {
         let help = match name {
-            "oscillator" | "reduced" => {
+            "oscillator" => {
                 "write the structure as [[mode]] with frequency, damping_ratio, mass and shape, or give one [absorber]"
             }
             "band" => "write `from` and `to` in [excitation] instead of `frequency`",
@@ -150,17 +159,41 @@ pub(super) fn read(
     }
     let heading = reader.read::<Heading>(&root);
     let mut spans = Spans::default();
-    let (places, modes) = match root.has("modes") {
-        true => {
+    let reduced = reader.table::<ModalReducedTable>(&root, "reduced");
+    if reduced.is_some() {
+        reader.plain = true;
+        for name in ["mode", "modes", "absorber", "excitation"] {
+            if root.has(name) {
+                let message = format!("[{name}] has no meaning beside [reduced]");
+                let help = format!("write [[reduced.{name}]], or the whole case without [reduced]");
+                let expected = "expected one form of the structure";
+                reader.report(root.span_of(name), message, expected, help);
+                return Ok(None);
+            }
+        }
+    }
+    let (places, mut modes) = match (&reduced, root.has("modes")) {
+        (Some(table), _) => {
+            let tables = tables::<ReducedModeTable>(reader, table, "mode");
+            read_modes(reader, tables, read_reduced_mode, &mut spans.damping)
+        }
+        (None, true) => {
             let read = modes_of_file(reader, &root, file)?;
             spans.damping =
                 damping_of_file(&root).map_or(Vec::new(), |span| vec![span; read.1.len()]);
             read
         }
-        false => read_modes(reader, &root, &mut spans.damping),
+        (None, false) => {
+            let tables = tables::<ModeTable>(reader, &root, "mode");
+            read_modes(reader, tables, read_mode, &mut spans.damping)
+        }
     };
     let (mut absorbers, mut values) = (Vec::new(), Vec::new());
-    for table in tables::<ModalAbsorberTable>(reader, &root, "absorber") {
+    let listed = match &reduced {
+        Some(table) => tables::<ReducedAbsorberTable>(reader, table, "absorber"),
+        None => tables::<ModalAbsorberTable>(reader, &root, "absorber"),
+    };
+    for table in listed {
         let Some(read) = reader.read::<ModalAbsorberTable>(&table) else { continue };
         let place =
             find_place(reader, table.span_of_value("place"), read.place.as_deref(), &places);
@@ -190,7 +223,14 @@ pub(super) fn read(
     };
     let count = tables_of_modes.max(modes.len());
     let mut loads = Vec::new();
-    for table in tables::<LoadTable>(reader, &root, "excitation") {
+    let listed = match &reduced {
+        Some(table) => {
+            loads.extend(read_reduced_load(reader, table, &mut modes));
+            Vec::new()
+        }
+        None => tables::<LoadTable>(reader, &root, "excitation"),
+    };
+    for table in listed {
         let keys = ["frequency", "from", "to"].into_iter().filter(|key| table.has(key));
         let written = keys.map(|key| table.span_of_value(key)).collect();
         if let Some(load) = read_load(reader, &table, &places, &modes, count) {
@@ -215,6 +255,11 @@ pub(super) fn read(
         ),
         None => (Vec::new(), None),
     };
+    if let (Some((span, _)), true) = (&upto, reduced.is_some()) {
+        let message = format!("`{UPTO}` has no meaning beside [reduced]");
+        let help = "write the case with units, where a sensor reads up to so many hertz";
+        reader.report(span.clone(), message, "expected limits alone", help);
+    }
     read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
     let Some(heading) = heading.filter(|_| reader.problems.is_empty()) else { return Ok(None) };
@@ -225,6 +270,7 @@ pub(super) fn read(
         title: heading.title,
         source: heading.source,
         text_hash,
+        reduced: reduced.is_some(),
         places,
         modes,
         absorbers,
@@ -271,15 +317,23 @@ fn damping_of_file(root: &Table) -> Option<Range<usize>> {
     ["damping_ratio", "file"].into_iter().find_map(|key| Some(table.get(key)?.span()))
 }
 
-/// Places and modes of the tables `[[mode]]`, and where each says its damping ratio.
-fn read_modes(reader: &mut Reader, root: &Table, damping: &mut Vec<Range<usize>>) -> Modes {
+/// Places and modes of some tables, each by `read_one`, and where each says its damping ratio.
+fn read_modes(
+    reader: &mut Reader,
+    tables: Vec<Table>,
+    read_one: fn(&mut Reader, &Table) -> Option<(StructuralMode, Shape)>,
+    damping: &mut Vec<Range<usize>>,
+) -> Modes {
     let mut places: Vec<String> = Vec::new();
     let mut modes = Vec::new();
-    for table in tables::<ModeTable>(reader, root, "mode") {
-        if let Some(mode) = read_mode(reader, &table, &mut places) {
-            modes.push(mode);
-            damping.push(table.span_of_value("damping_ratio"));
+    for (table, mode) in tables.iter().filter_map(|one| Some((one, read_one(reader, one)?))) {
+        for (name, _) in &mode.1.1 {
+            if !places.contains(name) {
+                places.push(name.clone());
+            }
         }
+        modes.push(mode);
+        damping.push(table.span_of_value("damping_ratio"));
     }
     let shapes: Vec<_> = modes.iter().map(|(_, shape)| shape.clone()).collect();
     let modes: Vec<StructuralMode> = modes
@@ -303,10 +357,11 @@ fn tables<'d, T: serde::de::DeserializeOwned + JsonSchema>(
     root: &Table<'d>,
     name: &'static str,
 ) -> Vec<Table<'d>> {
+    let path = if root.path.is_empty() { name.to_owned() } else { format!("{}.{name}", root.path) };
     let Some(value) = root.value(name) else {
-        let message = format!("[[{name}]] is missing");
-        let expected = format!("expected at least one table [[{name}]]");
-        let help = format!("write [[{name}]] on a line of its own and its keys below it");
+        let message = format!("[[{path}]] is missing");
+        let expected = format!("expected at least one table [[{path}]]");
+        let help = format!("write [[{path}]] on a line of its own and its keys below it");
         reader.report(0..reader.first_line(), message, expected, help);
         return Vec::new();
     };
@@ -324,17 +379,18 @@ fn tables<'d, T: serde::de::DeserializeOwned + JsonSchema>(
     if found.is_empty() || found.len() > MOST_MODES {
         let message = match found.len() {
             0 => format!("`{name}` is {}, but it must be a table", kind(value.get_ref())),
-            many => format!("there are {many} of [[{name}]]"),
+            many => format!("there are {many} of [[{path}]]"),
         };
-        let expected = format!("expected 1 to {MOST_MODES} tables [[{name}]]");
+        let expected = format!("expected 1 to {MOST_MODES} tables [[{path}]]");
         let help = "keep those that matter most; more are not computed";
         reader.report(root.span_of(name), message, expected, help);
         return Vec::new();
     }
-    found.into_iter().map(|(span, entries)| reader.listed::<T>(name, span, entries)).collect()
+    found.into_iter().map(|(span, entries)| reader.listed::<T>(&path, span, entries)).collect()
 }
 
-type Shape = (Range<usize>, Vec<(String, f64)>);
+/// The values of a shape by their places, and where it stands.
+pub(super) type Shape = (Range<usize>, Vec<(String, f64)>);
 
 fn value_at((_, shape): &Shape, name: &str) -> f64 {
     shape.iter().find(|(key, _)| key == name).map_or(0.0, |(_, value)| *value)
@@ -350,12 +406,23 @@ fn missing(shapes: &[Shape], places: &[String]) -> Vec<(Range<usize>, String)> {
     shapes.iter().filter(|shape| !shape.1.is_empty()).flat_map(of).collect()
 }
 
-fn read_mode(
-    reader: &mut Reader,
-    table: &Table,
-    places: &mut Vec<String>,
-) -> Option<(StructuralMode, Shape)> {
+fn read_mode(reader: &mut Reader, table: &Table) -> Option<(StructuralMode, Shape)> {
     let read = reader.read::<ModeTable>(table);
+    let shape = read_shape(reader, table)?;
+    let read = read?;
+    let mode = StructuralMode {
+        frequency_hz: read.frequency,
+        damping_ratio: read.damping_ratio,
+        mass_kg: read.mass,
+        shape: Vec::new(),
+        participation: read.participation.unwrap_or(f64::NAN),
+        forcing: 0.0,
+    };
+    Some((mode, shape))
+}
+
+/// The key `shape` of a mode.
+pub(super) fn read_shape(reader: &mut Reader, table: &Table) -> Option<Shape> {
     let help = "write shape = { tip = 1.0 }: a name and a number for each place";
     let expected = "expected the displacement at each place, as a table";
     let span = table.span_of("shape");
@@ -378,22 +445,11 @@ fn read_mode(
             alone: false,
         };
         let number = reader.number(&place, &Form::free(None, "1.0", ""))?;
-        if !places.iter().any(|known| known == name) {
-            places.push(name.to_owned());
-        }
         shape.push((name.to_owned(), number));
     }
     if shape.iter().all(|(_, value)| *value == 0.0) {
         reader.report(span, "the shape of a mode is 0 everywhere", expected, help);
         return None;
     }
-    let read = read?;
-    let mode = StructuralMode {
-        frequency_hz: read.frequency,
-        damping_ratio: read.damping_ratio,
-        mass_kg: read.mass,
-        shape: Vec::new(),
-        participation: read.participation.unwrap_or(f64::NAN),
-    };
-    Some((mode, (span, shape)))
+    Some((span, shape))
 }

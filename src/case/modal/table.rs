@@ -131,5 +131,5 @@ fn mode(text: &str, line: &str, columns: &[Column]) -> Result<StructuralMode, Bo
         return Err(problem(text, line, message, expected, "add a place at which it moves"));
     }
     let [frequency_hz, damping_ratio, mass_kg, participation] = values;
-    Ok(StructuralMode { frequency_hz, damping_ratio, mass_kg, shape, participation })
+    Ok(StructuralMode { frequency_hz, damping_ratio, mass_kg, shape, participation, forcing: 0.0 })
 }

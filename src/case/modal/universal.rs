@@ -242,7 +242,14 @@ fn shape(
         return Ok(Shape::Complex);
     }
     let participation = f64::NAN;
-    Ok(Shape::Mode(StructuralMode { frequency_hz, damping_ratio, mass_kg, shape, participation }))
+    Ok(Shape::Mode(StructuralMode {
+        frequency_hz,
+        damping_ratio,
+        mass_kg,
+        shape,
+        participation,
+        forcing: 0.0,
+    }))
 }
 
 fn integers(line: &str) -> Option<Vec<i64>> {

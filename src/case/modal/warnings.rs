@@ -21,8 +21,11 @@ pub(super) struct Spans {
 pub(super) fn of(case: &ModalCase, text: &str, spans: &Spans) -> Vec<Problem> {
     let read = Read { case, text };
     let mut found = read.damping(spans);
-    found.extend(read.masses());
-    found.extend(read.frequencies(spans));
+    // What has no unit has none that is wrong.
+    if !case.reduced {
+        found.extend(read.masses());
+        found.extend(read.frequencies(spans));
+    }
     found.sort_by_key(|warning| warning.span.start);
     found
 }

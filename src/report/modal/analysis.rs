@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{given, load_row, units};
+use super::{frequency_unit, given, load_row, units};
 use crate::case::ModalCase;
 use crate::method::Method;
 use crate::modal::working_range;
@@ -29,7 +29,7 @@ pub fn analysis(case: &ModalCase, found: &[(f64, Vec<ModalOrbit>)]) -> Value {
         told
     };
     let loads = found.iter().map(|(at, orbits)| {
-        json!({ "at": at, "unit": "Hz", "orbits": orbits.iter().map(orbit).collect::<Vec<_>>() })
+        json!({ "at": at, "unit": frequency_unit(case), "orbits": orbits.iter().map(orbit).collect::<Vec<_>>() })
     });
     let absorbers = case.absorbers.iter().map(|one| {
         let [lower, upper] = working_range(one);

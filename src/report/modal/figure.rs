@@ -171,6 +171,7 @@ fn heading(case: &ModalCase, number: usize, load: &Load) -> String {
     let on = match load.on {
         ActsOn::Place(place) => format!("force at {}", case.places[place]),
         ActsOn::Mode(mode) => format!("force in mode {}", mode + 1),
+        ActsOn::Modes => "forces in all modes".to_owned(),
         ActsOn::Base => "moving base".to_owned(),
     };
     if case.loads.len() > 1 { format!("load {}: {on}", number + 1) } else { on }

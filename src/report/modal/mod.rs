@@ -24,7 +24,7 @@ use crate::modal::{
 };
 use crate::motions::{ModalMotion, SensorExtent};
 use crate::quantity::catalogue as of;
-use crate::quantity::{Kind, Quantity, Units};
+use crate::quantity::{Dimension, Kind, Quantity, Units};
 use crate::simulation::Reading;
 use crate::system::Scales;
 
@@ -71,12 +71,22 @@ impl Beside {
 pub(super) fn units(case: &ModalCase) -> Units {
     let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
     let units = Units::from(Scales {
-        physical: true,
+        physical: !case.reduced,
         clearance: least,
         natural_frequency: case.omega(),
         oscillator_mass: case.modes[0].mass_kg,
     });
     if case.criteria.iter().any(|one| one.criterion.is_in_g()) { units.in_g() } else { units }
+}
+
+/// The unit of frequencies in a document: "1" where they are over that of the first mode.
+fn frequency_unit(case: &ModalCase) -> &'static str {
+    Dimension::Frequency.symbol(!case.reduced)
+}
+
+/// A mass in kg, or over the first mode's of a reduced case.
+fn mass(case: &ModalCase, kind: &'static Kind, value: f64) -> Quantity {
+    given(kind, value / case.mass_unit())
 }
 
 fn given(kind: &'static Kind, value: f64) -> Quantity {
@@ -144,7 +154,7 @@ fn load_row(case: &ModalCase, load: &Load) -> Value {
     let (place, mode) = match load.on {
         ActsOn::Place(place) => (Some(&case.places[place]), None),
         ActsOn::Mode(mode) => (None, Some(mode + 1)),
-        ActsOn::Base => (None, None),
+        ActsOn::Base | ActsOn::Modes => (None, None),
     };
     let [from, to] = load.range_hz.map(|at| given(&of::EXCITATION_FREQUENCY, at));
     json!({ "amplitude": given(kind, load.amplitude), "place": place, "mode": mode, "from": from, "to": to })
@@ -242,7 +252,7 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
             "dampers": beside.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, one.worst[k])).collect::<Vec<_>>(),
             "forces": beside.forces.get(k).and_then(|one| one.as_ref()).map(|one| forces_row(case, &along.load, one)),
             "places": along.places.iter().map(|one| json!({
-                "at": one.at, "unit": "Hz", "motions": one.motions.iter().map(motion_row).collect::<Vec<_>>(),
+                "at": one.at, "unit": frequency_unit(case), "motions": one.motions.iter().map(motion_row).collect::<Vec<_>>(),
             })).collect::<Vec<_>>(),
         })
     });
@@ -257,7 +267,7 @@ fn absorbers(case: &ModalCase) -> Vec<Value> {
         json!({
             "number": j + 1,
             "place": case.places[one.place],
-            "mass": given(&of::ABSORBER_MASS, one.mass_kg),
+            "mass": mass(case, &of::ABSORBER_MASS, one.mass_kg),
             "clearance": given(&of::CLEARANCE, one.clearance_m),
             "restitution": given(&of::RESTITUTION, one.restitution),
             "contact_time": one.contact_time_s.map(|time| given(&of::CONTACT_TIME, time)),
@@ -296,7 +306,7 @@ pub fn document(
         json!({
             "frequency": given(&of::NATURAL_FREQUENCY, mode.frequency_hz),
             "damping_ratio": given(&of::DAMPING_RATIO, mode.damping_ratio),
-            "mass": given(&of::OSCILLATOR_MASS, mode.mass_kg),
+            "mass": mass(case, &of::OSCILLATOR_MASS, mode.mass_kg),
             "shape": mode.shape,
         })
     });
@@ -305,7 +315,7 @@ pub fn document(
         let each = each.map(|((damper, stroke), place)| {
             json!({
                 "place": case.places[*place],
-                "mass": given(&of::ABSORBER_MASS, damper.mass),
+                "mass": mass(case, &of::ABSORBER_MASS, damper.mass),
                 "frequency": closed(&of::DAMPER_FREQUENCY, damper.frequency * case.modes[0].frequency_hz),
                 "damping_ratio": closed(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio),
                 "stroke": closed(&of::DAMPER_STROKE, *stroke),

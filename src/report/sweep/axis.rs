@@ -45,12 +45,13 @@ impl AxisShown {
     pub fn of_several(case: &ModalCase, axis: &SweepAxis) -> Self {
         let SweepAxis { parameter, ref values, logarithmic } = *axis;
         let (kind, own) = (case.kind(parameter), case.own_value(parameter));
+        let unit = if parameter == Parameter::AbsorberMass { case.mass_unit() } else { 1.0 };
         Self {
             parameter,
             kind,
-            values: values.clone(),
+            values: values.iter().map(|value| value / unit).collect(),
             logarithmic,
-            own,
+            own: own.map(|own| own / unit),
             units: modal::units(case),
         }
     }
