@@ -14,7 +14,7 @@ use crate::case::criteria::{Criterion, Subject, possible, sensor_sees};
 use crate::case::number::{Form, sign_of};
 use crate::case::physical::MOST_CONTACT;
 use crate::case::reader::{Reader, Table};
-use crate::case::schema::add_key;
+use crate::case::schema::{add_key, in_design};
 use crate::case::value::ValuePlace;
 use crate::measure::Measure;
 use crate::quantity::Dimension;
@@ -65,7 +65,7 @@ fn with_subjects(schema: &mut Schema) {
 pub(super) struct ModalOptimizeTable {
     /// Bounds of each absorber's clearance; a third to three times its own unless given.
     #[schemars(with = "Option<[Value; 2]>", extend("x-ascending" = true))]
-    #[schemars(extend("items" = { "type": "number", "x-measurand": "a length", "exclusiveMinimum": 0 }))]
+    #[schemars(extend("items" = in_design("clearance")))]
     #[schemars(example = vec!["1 mm", "8 mm"])]
     clearance: Option<[f64; 2]>,
     /// Bounds of the restitution of all absorbers, from 0 to 1; each its own unless given.

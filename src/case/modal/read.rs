@@ -157,6 +157,8 @@ pub(super) fn read(
         let expected = format!("expected the tables {}", own.join(", "));
         reader.report(root.span_of(name), message, expected, help);
     }
+    // Bounds are written as the numbers of a force's case; a sweep decides for itself.
+    reader.of_several = Some(false);
     let heading = reader.read::<Heading>(&root);
     let mut spans = Spans::default();
     let reduced = reader.table::<ModalReducedTable>(&root, "reduced");

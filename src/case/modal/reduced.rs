@@ -58,7 +58,7 @@ pub(super) struct ReducedModeTable {
     shape: (),
 }
 
-/// An absorber; its values are those of [`ModalAbsorberTable`](super::read::ModalAbsorberTable) as plain numbers.
+/// An absorber, in plain numbers.
 #[derive(Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[expect(dead_code, reason = "read into the table with units")]
