@@ -23,7 +23,7 @@ fn sources() -> Result<(), Box<dyn Error>> {
 }
 
 /// Pages that a browser does not make, as they are of folders, files and long work: beginnings of their names.
-const NOT_IN_A_BROWSER: [&str; 28] = [
+const NOT_IN_A_BROWSER: [&str; 31] = [
     "analyze",
     "check.github",
     "check.txt",
@@ -37,7 +37,10 @@ const NOT_IN_A_BROWSER: [&str; 28] = [
     "index",
     "jobs",
     "live",
-    "modal",
+    "modal-analysis",
+    "modal-optimum",
+    "modal.md",
+    "modal.txt",
     "optimize",
     "page",
     "paper",
@@ -54,8 +57,18 @@ const NOT_IN_A_BROWSER: [&str; 28] = [
     "validation",
 ];
 /// Captions of the figures that it draws, in `templates/captions/`.
-const CAPTIONS_OF_A_BROWSER: [&str; 9] =
-    ["amplitude", "map", "map-plain", "motion", "plane", "ranges", "response", "return-map", "sim"];
+const CAPTIONS_OF_A_BROWSER: [&str; 10] = [
+    "amplitude",
+    "loads",
+    "map",
+    "map-plain",
+    "motion",
+    "plane",
+    "ranges",
+    "response",
+    "return-map",
+    "sim",
+];
 
 /// Writes a list of every file of `templates/`: its path there without `.tera`, and its text. Those of the crate
 /// `evidence` are among them: they are filled in with the filters and components of the others.

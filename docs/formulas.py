@@ -13,7 +13,7 @@ from pathlib import Path
 FORMULA = re.compile(r"(`+)(?:.+?)\1|\$\$(?P<block>.+?)\$\$|\$(?P<inline>[^$\n]+?)\$")
 # The title of such a link says how high the frame is, and what the page shows.
 LIVE = re.compile(r'\[!\[(?P<name>[^]]*)\]\([^)]*\)\]\(live\.md "live (?P<height>\d+)px ?(?P<shown>[^"]*)"\)')
-FILE = re.compile(r'\]\(live\.md "live"\)')
+FILE = re.compile(r'\]\((?:live|several)\.md "(live(?:-several)?)"\)')
 FENCE = re.compile(r"^\s*(```+|~~~+)")
 
 
@@ -45,7 +45,7 @@ def convert(text: str, known: dict[str, str], page: str) -> str:
         elif mark and mark[1].startswith(fence):
             fence = None
         elif fence is None:
-            line = FILE.sub("](live.html)", LIVE.sub(frame, FORMULA.sub(replace, line)))
+            line = FILE.sub(r"](\1.html)", LIVE.sub(frame, FORMULA.sub(replace, line)))
         lines.append(line)
     return "\n".join(lines)
 

@@ -1,4 +1,4 @@
-"""The live page as one file: page.py FOLDER makes FOLDER/live.html from FOLDER/vinesink.wasm."""
+"""A live page as one file: page.py FOLDER NAME makes FOLDER/NAME.html from FOLDER/NAME.wasm and the parts in page/."""
 
 import base64
 import hashlib
@@ -37,20 +37,20 @@ def lean(text):
     return "\n".join(line for line in lines if line and not re.match(r"//|/\*\*? .*\*/$", line)) + "\n"
 
 
-folder = pathlib.Path(sys.argv[1])
-module, out = folder / "bare.wasm", folder / "live.html"
-module.write_bytes(bare((folder / "vinesink.wasm").read_bytes()))
+folder, name = pathlib.Path(sys.argv[1]), sys.argv[2]
+module, out = folder / "bare.wasm", folder / f"{name}.html"
+module.write_bytes(bare((folder / f"{name}.wasm").read_bytes()))
 packed = subprocess.run(["zopfli", "--i5", "-c", module], check=True, capture_output=True).stdout
 here = pathlib.Path(__file__).parent
 parts = {
     "REPORT_CSS": lean((here / "../templates/report.css").read_text()),
     "LIVE_CSS": lean((here / "page/live.css").read_text()),
     "LIVE_MODULE": base64.b64encode(packed).decode(),
-    "LIVE_JS": lean((here / "page/live.js").read_text()),
+    "LIVE_JS": "".join(lean((here / f"page/{part}.js").read_text()) for part in ["shared", name]),
 }
-page = (here / "page/live.html").read_text()
-for name, text in parts.items():
-    page = page.replace(name, text, 1)
+page = (here / f"page/{name}.html").read_text()
+for part, text in parts.items():
+    page = page.replace(part, text, 1)
 
 
 def hashes(tag):

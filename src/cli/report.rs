@@ -44,7 +44,8 @@ pub struct Arguments {
     /// report.html is not looked at: it is the same report once more
     #[arg(long)]
     check: bool,
-    /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program
+    /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program,
+    /// `vinesink-live-several.html` of several modes
     #[arg(long, value_name = "PAGE", require_equals = true, conflicts_with = "check")]
     live: Option<Option<PathBuf>>,
     /// Without tuned mass dampers beside the absorber, and without the ranges over which criteria hold
@@ -117,7 +118,11 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
     let case = match case {
         AnyCase::One(case) => *case,
         AnyCase::Several(case) => {
-            let files = arguments.of_several(path, name, &case)?;
+            let live = arguments.live.as_ref();
+            let live = live.map(|page| live_page_of_several(page.as_deref(), path, &case));
+            let live = live.transpose()?;
+            let mut files = arguments.of_several(path, name, &case)?;
+            with_live(&mut files, live, &text)?;
             Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
             output::print_path(&folder.join("report.md"))?;
             return Ok(true);
@@ -126,11 +131,7 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
     let live =
         arguments.live.as_ref().map(|page| live_page(page.as_deref(), path, &case)).transpose()?;
     let (mut files, holds) = rendered(path, name, &case, arguments)?;
-    if let Some((page, live)) = live {
-        let file = files.entry("report.html".into()).or_default();
-        let whole = live::embed(&String::from_utf8_lossy(file), &live, &text).into_diagnostic();
-        *file = whole.wrap_err(page)?.into_bytes();
-    }
+    with_live(&mut files, live, &text)?;
     Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
     output::print_path(&folder.join("report.md"))?;
     Ok(holds)
@@ -139,10 +140,18 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
 impl Arguments {
     /// The files of the report of a structure of several modes, without options about one.
     fn of_several(&self, path: &Path, name: &str, case: &ModalCase) -> Result<Files> {
-        let given = [("--fidelity", self.fidelity.is_some()), ("--live", self.live.is_some())];
-        several::without(path, &given)?;
+        several::without(path, &[("--fidelity", self.fidelity.is_some())])?;
         several::report(path, name, case, self.long)
     }
+}
+
+/// Puts the live page with a case of this text at the end of the report's page.
+fn with_live(files: &mut Files, live: Option<(String, String)>, text: &str) -> Result<()> {
+    let Some((page, live)) = live else { return Ok(()) };
+    let file = files.entry("report.html".into()).or_default();
+    let whole = live::embed(&String::from_utf8_lossy(file), &live, text).into_diagnostic();
+    *file = whole.wrap_err(page)?.into_bytes();
+    Ok(())
 }
 
 /// The live page for the report of a case, with its name.
@@ -154,8 +163,29 @@ fn live_page(page: Option<&Path>, path: &Path, case: &Case) -> Result<(String, S
             path.display()
         ));
     }
+    page_text(page, "vinesink-live.html")
+}
+
+/// The same of a structure of several modes.
+fn live_page_of_several(
+    page: Option<&Path>,
+    path: &Path,
+    case: &ModalCase,
+) -> Result<(String, String)> {
+    if case.modes_file.is_some() {
+        return Err(miette!(
+            help = "leave out --live, or write the modes as [[mode]]",
+            "the live page cannot read the file of the modes of {}",
+            path.display()
+        ));
+    }
+    page_text(page, "vinesink-live-several.html")
+}
+
+/// A live page with its name: that which is given, or the one of this name beside the program.
+fn page_text(page: Option<&Path>, name: &str) -> Result<(String, String)> {
     let page = match page {
-        None => std::env::current_exe().into_diagnostic()?.with_file_name("vinesink-live.html"),
+        None => std::env::current_exe().into_diagnostic()?.with_file_name(name),
         Some(page) => page.to_owned(),
     };
     let live = store::read_text(&page)

@@ -26,13 +26,18 @@ const PRESETS: [&str; 5] = [
     "li2016-8p5hz-fig4e",
 ];
 
-const LIVE: &str = "document.querySelector('[data-live]').live";
+pub const LIVE: &str = "document.querySelector('[data-live]').live";
 
-/// The page's file, or nothing where these tests are to be skipped.
 fn file() -> Option<PathBuf> {
+    file_of(None)
+}
+
+/// The live page's file, or that of a page beside it; nothing where these tests are to be skipped.
+pub fn file_of(name: Option<&str>) -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let given = env::var_os("VINESINK_LIVE").map(PathBuf::from);
-    let file = given.unwrap_or_else(|| root.join("target/web/live.html"));
+    let live = given.unwrap_or_else(|| root.join("target/web/live.html"));
+    let file = name.map_or(live.clone(), |name| live.with_file_name(name));
     if !file.is_file() {
         skipped("there is no live page: run web/build");
         return None;
@@ -41,14 +46,14 @@ fn file() -> Option<PathBuf> {
 }
 
 /// The page in a browser, with everything on it computed.
-fn opened<'a>(browser: &'a mut Browser, file: &Path, view: View) -> Page<'a> {
+pub fn opened<'a>(browser: &'a mut Browser, file: &Path, view: View) -> Page<'a> {
     let mut page = browser.page(view);
     page.open(file);
     settle(&mut page);
     page
 }
 
-fn settle(page: &mut Page) {
+pub fn settle(page: &mut Page) {
     let ready = format!(
         "(async () => {{
             while (!{LIVE} || !document.querySelector('[data-live] figure svg'))
@@ -73,7 +78,7 @@ fn choose_the_paper(page: &mut Page) {
 }
 
 /// Sets a slider as a person would leave it, with events.
-fn slide(page: &mut Page, key: &str, position: u32) {
+pub fn slide(page: &mut Page, key: &str, position: u32) {
     page.evaluate(&format!(
         "(() => {{
             const slider = document.querySelector('#live-{key}');

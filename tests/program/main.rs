@@ -28,6 +28,7 @@ mod figures;
 mod index;
 mod layers;
 mod live;
+mod live_several;
 mod metadata;
 mod modal;
 mod modal_reduced;

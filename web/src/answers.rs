@@ -24,9 +24,10 @@ use vinesink::study::CaseStudy;
 use vinesink::study::plots::{BoundaryMap, Plot};
 use vinesink::system::Parameter;
 
+use crate::From;
 use crate::controls;
 use crate::plain;
-use crate::running::{self, From};
+use crate::running;
 
 /// A request. Every one but [`Request::Presets`] is about the case that `text` describes.
 #[derive(Deserialize)]

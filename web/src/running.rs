@@ -2,9 +2,10 @@
 
 use std::cell::RefCell;
 
-use serde::Deserialize;
 use vinesink::answer::trajectory::{Simulation, Trace};
 use vinesink::system::{State, System};
+
+use crate::From;
 
 thread_local! {
     static RUNNING: RefCell<Option<Running>> = const { RefCell::new(None) };
@@ -14,18 +15,6 @@ thread_local! {
 struct Running {
     simulation: Simulation,
     clearance: f64,
-}
-
-/// How a simulation begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum From {
-    /// With the displacements and velocities of the one before.
-    Here,
-    /// At rest, the absorber in the middle of its cavity.
-    Rest,
-    /// Half the way to a wall, with a velocity of the absorber of one clearance per `1/omega0`.
-    Push,
 }
 
 /// How near to a wall an absorber may be that a smaller cavity pushes inwards, over the clearance.

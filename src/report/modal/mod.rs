@@ -4,6 +4,7 @@
 mod analysis;
 mod criteria;
 mod figure;
+mod live;
 mod optimum;
 
 use serde_json::{Value, json};
@@ -30,6 +31,7 @@ use crate::system::Scales;
 
 pub use analysis::{analysis, analysis_text};
 pub use criteria::checked;
+pub use live::{at_frequency, over_frequency};
 pub use optimum::{optimum, optimum_text};
 
 use criteria::{compared, criteria, holds};
@@ -68,7 +70,7 @@ impl Beside {
 }
 
 /// Units of the pages of a case: lengths in that of the smallest clearance.
-pub(super) fn units(case: &ModalCase) -> Units {
+pub fn units(case: &ModalCase) -> Units {
     let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
     let units = Units::from(Scales {
         physical: !case.reduced,
@@ -147,6 +149,20 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
         "working": working.collect::<Vec<_>>(),
         "steps": of_load.steps.iter().map(step).collect::<Vec<_>>(),
     })
+}
+
+/// What a load acts on, with its amplitude and its range, in words.
+pub fn load_words(case: &ModalCase, load: &Load) -> String {
+    let units = units(case);
+    let on = match load.on {
+        ActsOn::Place(place) => format!(" at {}", case.places[place]),
+        ActsOn::Mode(mode) => format!(" in mode {}", mode + 1),
+        ActsOn::Modes => " in all modes".to_owned(),
+        ActsOn::Base => " of the base".to_owned(),
+    };
+    let [from, to] = load.range_hz.map(|at| units.text(&of::EXCITATION_FREQUENCY, at));
+    let range = if from == to { from } else { format!("{from} to {to}") };
+    format!("{}{on}, {range}", units.text(load.amplitude_kind(), load.amplitude))
 }
 
 fn load_row(case: &ModalCase, load: &Load) -> Value {

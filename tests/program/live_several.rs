@@ -1,0 +1,172 @@
+//! The live page of structures of several modes in Chromium: `web/build` makes it, into `target/web/live-several.html`.
+//! Where page or browser are missing the tests say so and pass, unless `VINESINK_BROWSER=required`.
+
+use std::env;
+use std::f64::consts::TAU;
+use std::fs;
+
+use serde_json::{Value, json};
+use vinesink::case::ModalCase;
+use vinesink::executor::Serial;
+use vinesink::modal::ModalAnswer;
+use vinesink::report::html::unbroken;
+use vinesink::report::modal::at_frequency;
+use vinesink::simulation::{ModalObserver, ModalSegment, ModalSimulation};
+use vinesink::system::{ModalState, ModalSystem};
+
+use super::live::{LIVE, file_of, opened, settle, slide};
+use crate::browser::browser;
+use crate::browser_support::checks::{self, DESKTOP, PHONE};
+use crate::browser_support::chromium::{Page, View};
+
+const PAGE: &str = "live-several.html";
+
+fn shipped(name: &str) -> String {
+    fs::read_to_string(format!("cases/several/{name}.toml")).expect("a shipped case")
+}
+
+fn asked(page: &mut Page, request: &Value) -> Value {
+    page.evaluate(&format!("{LIVE}.ask({request})"))
+}
+
+/// The case under one load at one frequency.
+fn at(text: &str, load: usize, frequency: f64, amplitude: f64) -> ModalCase {
+    let mut case = ModalCase::parse("case.toml", text).expect("a case");
+    let mut one = case.loads[load];
+    (one.amplitude, one.range_hz) = (amplitude, [frequency; 2]);
+    case.loads = vec![one];
+    case
+}
+
+/// Sentence and motions are those of the program.
+#[test]
+fn the_page_says_what_the_program_says() {
+    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    for (name, load, frequency, amplitude) in
+        [("mast", 1, 6.9, 14.07), ("floor", 0, 5.1, 800.0), ("graded", 0, 2.0, 30.0)]
+    {
+        let text = shipped(name);
+        let place = json!({ "load": load, "frequency": frequency, "amplitude": amplitude });
+        let found = asked(&mut page, &json!({ "ask": "study", "text": text, "at": place }));
+        let case = at(&text, load, frequency, amplitude);
+        let answer = ModalAnswer::of(&case, &Serial).expect("an answer");
+        let told = at_frequency(&case, &answer).expect("words");
+        assert_eq!(found["tone"], told["tone"], "{name}");
+        let markdown = unbroken(told["markdown"].as_str().expect("text"));
+        assert_eq!(found["markdown"], markdown, "{name}");
+    }
+    // What the page shows is what it was told.
+    let shown = page.evaluate("document.querySelector('.live-headline').textContent");
+    assert!(shown.as_str().is_some_and(|text| text.starts_with("Vibration up to")), "{shown}");
+}
+
+/// A slider changes the text of the case, what is said of it, and what runs; a load has its own sliders.
+#[test]
+fn sliders_move_everything() {
+    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let said = "document.querySelector('.live-headline').textContent";
+    let before = page.evaluate(said);
+    let periods = page.evaluate(&format!("{LIVE}.running().clock"));
+    slide(&mut page, "clearance_1", 800);
+    settle(&mut page);
+    let text = page.evaluate(&format!("{LIVE}.text"));
+    let text = text.as_str().expect("text");
+    let case = ModalCase::parse("case.toml", text).expect("a case");
+    // 2.7 mm, a factor of eight to either side.
+    let wanted = 2.7e-3 / 8.0 * 64_f64.powf(0.8);
+    assert!((case.absorbers[0].clearance_m / wanted - 1.0).abs() < 1e-3, "{text}");
+    assert_ne!(page.evaluate(said), before);
+    let later = page.evaluate(&format!("{LIVE}.running().clock"));
+    assert!(later.as_f64() >= periods.as_f64(), "{periods} {later}");
+    // The figure over the range belongs to the new case too.
+    let figure = page.evaluate("document.querySelectorAll('.live-figures figure svg').length");
+    assert_eq!(figure, 1);
+    page.evaluate(
+        "(() => { const of = document.querySelectorAll('.live-bar select')[1]; of.value = '2'; of.dispatchEvent(new Event('change')); })()",
+    );
+    settle(&mut page);
+    let place = page.evaluate(&format!("{LIVE}.at()"));
+    assert_eq!(
+        [&place["load"], &place["frequency"], &place["amplitude"]],
+        [&json!(2), &json!(19.31), &json!(110.3)]
+    );
+    // What is wrong with a case file is said with its line, and the case of before stays.
+    let wrong = text.replacen("restitution = 0.3", "restitution = 1.3", 1);
+    page.evaluate(&format!(
+        "(() => {{ const of = document.querySelector('textarea'); of.value = {}; of.parentElement.querySelector('button').click(); }})()",
+        json!(wrong)
+    ));
+    let problem = page.evaluate("document.querySelector('.live-problem').textContent");
+    assert!(
+        problem.as_str().is_some_and(|text| text.contains("Line ") && text.contains("from 0 to 1")),
+        "{problem}"
+    );
+}
+
+/// Displacement and gap of the first absorber once a period.
+struct Once<'a> {
+    system: &'a ModalSystem,
+    seen: Vec<[f64; 2]>,
+}
+
+impl ModalObserver for Once<'_> {
+    fn segment(&mut self, _: &ModalSegment<'_>) {}
+
+    fn period(&mut self, _: u64, state: &ModalState) {
+        let modes = self.system.modes().iter().zip(&state.modes);
+        let x: f64 = modes.map(|(mode, [q, _])| mode.shape[0] * q).sum();
+        let absorber = &self.system.absorbers()[0];
+        self.seen.push([x, (x - state.absorbers[0][0]) / absorber.clearance]);
+    }
+}
+
+/// The simulation that runs is the program's: the same flights, as long as rounding allows.
+#[test]
+fn the_running_simulation_is_the_programs() {
+    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let mut page = opened(&mut browser, &file, DESKTOP);
+    let text = shipped("floor");
+    let request = json!({ "ask": "run", "text": text, "from": "rest", "at": { "load": 0, "frequency": 5.1, "amplitude": 883.0 } });
+    let script = format!(
+        "(() => {{ const engine = {LIVE}.engine(); engine.ask({request}); return [...engine.goOn(12, 1, 5).points]; }})()"
+    );
+    let found: Vec<f64> = serde_json::from_value(page.evaluate(&script)).expect("numbers");
+    let case = at(&text, 0, 5.1, 883.0);
+    let system = case.system(&case.loads[0], 5.1).expect("a system");
+    let mut simulation = ModalSimulation::new(&system, &ModalState::AT_REST, 0.0).expect("a start");
+    let mut once = Once { system: &system, seen: Vec::new() };
+    simulation.run(12, u64::MAX, &mut once);
+    assert_eq!(found.len(), 5 * 12, "{found:?}");
+    // The page's first point is the start.
+    for (point, [x, gap]) in found.chunks(5).skip(1).zip(&once.seen) {
+        let scale = case.absorbers[0].clearance_m;
+        assert!((point[1] - x).abs() < 1e-7 * scale, "{point:?} {x}");
+        assert!((point[2] - gap).abs() < 1e-7, "{point:?} {gap}");
+    }
+    assert!(simulation.impacts() > 0 && (simulation.phase() / TAU).fract() < 1e-9);
+}
+
+#[test]
+fn the_page_is_quiet_accessible_and_fits() {
+    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let folder = file.parent().expect("a folder").canonicalize().expect("a path");
+    let script = checks::axe().map(|script| fs::read_to_string(script).expect("readable"));
+    for view in [DESKTOP, PHONE] {
+        for dark in [false, true] {
+            let mut page = opened(&mut browser, &file, View { dark, ..view });
+            let noise = checks::noise(&mut page, &folder);
+            assert!(noise.is_empty(), "{noise:#?}");
+            let layout = checks::layout(&mut page);
+            assert!(layout.is_empty(), "{} px, dark {dark}: {layout:#?}", view.width);
+            if let Some(script) = &script {
+                let found = checks::accessibility(&mut page, script);
+                assert!(found.is_empty(), "{} px, dark {dark}: {found:#?}", view.width);
+            }
+        }
+    }
+    assert!(script.is_some() || env::var("VINESINK_BROWSER").is_err(), "there is no axe-core");
+    let size = fs::metadata(&file).expect("a file").len();
+    assert!(size <= 1_800_000, "{size} bytes");
+}

@@ -1,0 +1,127 @@
+// What all live pages share. The same text runs in a page and in its workers.
+"use strict";
+
+/** The module with its memory. */
+class Engine {
+  constructor(module) {
+    // Nothing of the browser is used; what a library would ask for (the time) is never called.
+    const imports = {};
+    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+      (imports[from] ??= {})[name] = () => 0;
+    }
+    this.exports = new WebAssembly.Instance(module, imports).exports;
+  }
+
+  /** The answer to a request, both as JSON. */
+  ask(request) {
+    const { memory, room, ask, answer_at, answer_length } = this.exports;
+    const text = new TextEncoder().encode(JSON.stringify(request));
+    const at = room(text.length);
+    new Uint8Array(memory.buffer, at, text.length).set(text);
+    ask();
+    return JSON.parse(new TextDecoder().decode(new Uint8Array(memory.buffer, answer_at(), answer_length())));
+  }
+
+  /** What the running simulation does in the next periods: points of so many numbers, and impacts. */
+  goOn(periods, samples, width = 3) {
+    const { memory, go_on, numbers_at } = this.exports;
+    const length = go_on(periods, samples);
+    const numbers = new Float64Array(memory.buffer, numbers_at(), length);
+    const points = numbers.slice(1, 1 + width * numbers[0]);
+    return { points, impacts: numbers.slice(1 + width * numbers[0]) };
+  }
+}
+
+if (typeof document === "undefined") {
+  let engine;
+  self.onmessage = ({ data }) => {
+    if (data.module) engine = new Engine(data.module);
+    else self.postMessage({ id: data.id, answer: engine.ask(data.request) });
+  };
+} else {
+  document.querySelectorAll("[data-live]").forEach((place) => {
+    const live = new Live(place);
+    // In a report it may never come into sight.
+    new IntersectionObserver(([one], eye) => {
+      if (!one.isIntersecting) return;
+      eye.disconnect();
+      live.begin();
+    }, { rootMargin: "300px" }).observe(place);
+    if (location.hash.startsWith("#case=")) place.scrollIntoView();
+  });
+}
+
+/** A worker that always has the newest request next, and never more than one. */
+function Desk(module, source) {
+  const worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
+  let busy = null, next = null, count = 0;
+  const send = (one) => { busy = one; worker.postMessage({ id: (one.id = ++count), request: one.request }); };
+  worker.onmessage = ({ data }) => {
+    const { done } = busy;
+    busy = null;
+    if (next) send(next);
+    next = null;
+    done(data.answer);
+  };
+  worker.postMessage({ module });
+  this.end = () => worker.terminate();
+  this.ask = (request) => new Promise((done) => {
+    const one = { request, done };
+    if (busy) next = one; else send(one);
+  });
+}
+
+/** A tag with attributes and children. */
+function make(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (value !== false) element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children);
+  return element;
+}
+
+/** Whether drawings are for a phone. */
+const narrow = () => innerWidth < 640;
+const DAMAGED = "The link is damaged; this is another case.";
+
+/** The module, which the page holds packed. */
+async function packedModule() {
+  const packed = Uint8Array.from(atob(document.getElementById("live-module").textContent.trim()), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+
+// The Markdown of the program: a line, a sentence of it, and a row of a table.
+const plain = (line) => line.replaceAll("`", "").replace(/\[(.+?)\]\(.*?\)/g, "$1").replace(/&#(\d+);/g, (_, code) => String.fromCharCode(code));
+const sentence = (line) => make("p", {}, ...plain(line).split("**").map((part, k) => k % 2 ? make("strong", {}, part) : part));
+const cells = (line) => line.split("|").slice(1, -1).map((cell) => plain(cell.trim()));
+/** Sentences, and a table. */
+function blocks(markdown, label = "Criteria") {
+  const lines = markdown.split("\n").filter((line) => line), isRow = (line) => line.startsWith("|");
+  const [heads, , ...rows] = lines.filter(isRow).map(cells);
+  const row = (tag, cells) => make("tr", {}, ...cells.map((cell) => make(tag, {}, cell)));
+  const table = heads && make("div", { class: "table", tabindex: 0, role: "region", "aria-label": label },
+    make("table", {}, make("thead", {}, row("th", heads)), make("tbody", {}, ...rows.map((cells) => row("td", cells)))));
+  const [first, ...others] = lines.filter((line) => !isRow(line)).map(sentence);
+  return [first, table, ...others].filter(Boolean);
+}
+
+// The state as a part of the address: the text of the case, deflated.
+async function through(stream, bytes) {
+  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+}
+async function linkTo(text) {
+  const packed = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(text));
+  const code = btoa(String.fromCharCode(...packed)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+  return `${location.href.split("#")[0]}#case=${code}`;
+}
+async function linked(hash = location.hash) {
+  const code = new URLSearchParams(hash.slice(1)).get("case");
+  if (code === null) return null;
+  try {
+    const bytes = Uint8Array.from(atob(code.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
+    return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));
+  } catch { return ""; }
+}
