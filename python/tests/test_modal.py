@@ -64,6 +64,23 @@ def test_optimize(path, printed):
         assert isinstance(found.case, vinesink.ModalCase) and found.case.check()
 
 
+def test_sweep(tmp_path, program):
+    with pytest.raises(vinesink.RefusedError, match="no table"):
+        vinesink.ModalCase.from_toml(SHORT).sweep()
+    path = tmp_path / "floor.toml"
+    path.write_text(SHORT + '[sweep]\nclearance = { from = "2 mm", to = "6 mm", count = 3 }\n')
+    found = vinesink.ModalCase.from_toml(path).sweep()
+    assert program("sweep", path, "--csv", "--out", tmp_path / "out").returncode == 0
+    head, *rows = (tmp_path / "out/floor/sweep.csv").read_text().splitlines()
+    names = [name.split(" [")[0] for name in head.split(",")][1:]
+    for column, name in enumerate(names, 1):
+        written = [row.split(",")[column] for row in rows]
+        if name == "limits":
+            assert list(found[name]) == written
+        else:
+            assert list(found[name]) == [float(one) for one in written]
+
+
 def test_report(path, tmp_path, program):
     vinesink.ModalCase.from_toml(path).report(tmp_path / "python")
     assert program("report", path, "--out", tmp_path / "program").returncode == 0

@@ -364,9 +364,9 @@ pub(super) fn possible(limit: f64, written: &str, of: Dimension) -> Result<(), S
             "a share lies between 0 and 100 %".to_owned()
         }
         Dimension::Length | Dimension::Velocity | Dimension::Acceleration | Dimension::Time
-            if limit < 0.0 =>
+            if limit <= 0.0 =>
         {
-            "it is never below 0".to_owned()
+            "it is always above 0".to_owned()
         }
         _ => return Ok(()),
     };

@@ -244,9 +244,10 @@ fn criteria_that_say_nothing_are_refused_with_what_to_write() {
         ("impacts_per_period = -1", "is -1"),
         ("stable_share = \">= 75\"", "if 75 % is meant"),
         ("stable_share = \">= 180 %\"", "between 0 and 100 %"),
-        ("impact_velocity = \"<= -1.5 m/s\"", "never below 0"),
+        ("peak_displacement = \"<= 0 mm\"", "always above 0"),
+        ("impact_velocity = \"<= -1.5 m/s\"", "always above 0"),
         ("acceleration = \"<= 0.5 kg\"", "is the unit of a mass"),
-        ("acceleration = \"<= -0.5 g\"", "never below 0"),
+        ("acceleration = \"<= -0.5 g\"", "always above 0"),
         ("rms_velocity = \"<= 18\"", "has no unit"),
     ] {
         let error = Case::parse("x", &format!("{DESIGN}[criteria]\n{line}\n")).expect_err(line);

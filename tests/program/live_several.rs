@@ -5,6 +5,7 @@ use std::env;
 use std::f64::consts::TAU;
 use std::fs;
 
+use assert_cmd::Command;
 use serde_json::{Value, json};
 use vinesink::case::ModalCase;
 use vinesink::executor::Serial;
@@ -169,4 +170,30 @@ fn the_page_is_quiet_accessible_and_fits() {
     assert!(script.is_some() || env::var("VINESINK_BROWSER").is_err(), "there is no axe-core");
     let size = fs::metadata(&file).expect("a file").len();
     assert!(size <= 1_800_000, "{size} bytes");
+}
+
+/// A report with the page is still one file and begins with its own case; modes in a file are refused.
+#[test]
+fn a_report_holds_the_page() {
+    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path().canonicalize().expect("a path");
+    let run = |case: &str| {
+        let mut report = Command::cargo_bin("vinesink").expect("built");
+        report.args(["report", case, "--out"]).arg(&folder);
+        report.arg(format!("--live={}", file.display())).output().expect("it runs")
+    };
+    let output = run("cases/several/graded.toml");
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let mut page = browser.page(DESKTOP);
+    page.open(&folder.join("graded/report.html"));
+    page.evaluate("document.querySelector('#live').scrollIntoView({ behavior: 'instant' })");
+    settle(&mut page);
+    assert_eq!(page.evaluate(&format!("{LIVE}.text")), json!(shipped("graded")));
+    let noise = checks::noise(&mut page, &folder);
+    assert!(noise.is_empty(), "{noise:#?}");
+    let refused = run("cases/several/mast-two.toml");
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(said.contains("cannot read the file of the modes"), "{said}");
+    assert!(!folder.join("mast-two").exists(), "nothing is half written");
 }

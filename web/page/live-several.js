@@ -98,7 +98,7 @@ function Live(place) {
   function slider(of) {
     const id = `live-${of.key}`, { size, symbol } = of.unit;
     const range = make("input", { id, type: "range", min: 0, max: 1000, step: 1, oninput: () => move(of, value(of, range.value / 1000)), onchange: () => over() });
-    const field = make("input", { type: "number", step: "any", "aria-label": `${of.name} in ${symbol || "1"}`, onchange: () => { typed(of, field.value * size); over(); } });
+    const field = make("input", { type: "number", step: "any", "aria-label": `${of.name} ${of.symbol} in ${symbol || "1"}`, onchange: () => { typed(of, field.value * size); over(); } });
     fields.set(of.key, { range, field });
     shown(of);
     return make("div", { class: "live-slider" }, make("label", { for: id }, `${of.name} ${of.symbol}`), make("span", { class: "live-field" }, field, make("span", {}, symbol)), range);
@@ -338,7 +338,10 @@ function Running(engine, say) {
       g.beginPath(); g.arc(at(x) - gap * cavity, y + half - ball - 1, ball, 0, 7); g.fill();
       const peak = Math.hypot(...of.bare[j]), idle = clock > WINDOW && !impacts.some((value, k) => k % 3 === 1 && value === j);
       g.fillStyle = soft;
-      g.fillText(`${of.places[j]}: ±${number(lately(j))} ${of.unit} ${idle ? "now: no impacts" : "in these ten periods"}; without absorbers ±${number(peak)} ${of.unit}${peak > reach ? ", off this scale" : ""}`, 16, ROW * j + 20);
+      const small = width < 560, far = peak > reach ? ", off this scale" : "";
+      const acts = `±${number(lately(j))} ${of.unit}`, without = `±${number(peak)} ${of.unit}`;
+      const words = small ? `${acts}${idle ? ", no impacts" : ""}; without ${without}${far}` : `${of.places[j]}: ${acts} ${idle ? "now: no impacts" : "in these ten periods"}; without absorbers ${without}${far}`;
+      g.fillText(words, 16, ROW * j + 20);
     }
   }
 

@@ -147,35 +147,18 @@ fn opened(case: &ModalCase, text: &str, load: usize) -> Result<Value, Value> {
     let range = if from < to { [from, to] } else { [from * (1.0 - BESIDE), from * (1.0 + BESIDE)] };
     let own = of.centre(case);
     let wide = |value: f64| ([value / RANGE, value * RANGE], true);
-    let one =
-        |key: String, name: String, kind: &'static Kind, value: f64, range: ([f64; 2], bool)| {
-            control(&units, key, name, kind, value, range)
-        };
-    let kind = of.amplitude_kind();
+    let one = |kind: &'static Kind, value: f64, range| control(&units, kind, None, value, range);
     let mut controls = vec![
-        one(
-            "frequency".into(),
-            EXCITATION_FREQUENCY.name.into(),
-            &EXCITATION_FREQUENCY,
-            own,
-            (range, false),
-        ),
-        one("amplitude".into(), kind.name.into(), kind, of.amplitude, wide(of.amplitude)),
+        one(&EXCITATION_FREQUENCY, own, (range, false)),
+        one(of.amplitude_kind(), of.amplitude, wide(of.amplitude)),
     ];
+    controls[0]["key"] = "frequency".into();
+    controls[1]["key"] = "amplitude".into();
     for (j, absorber) in case.absorbers.iter().enumerate().take(DRAWN) {
-        let (number, many) = (j + 1, case.absorbers.len() > 1);
-        let name =
-            |kind: &Kind| if many { format!("{} {number}", kind.name) } else { kind.name.into() };
-        let b = absorber.clearance_m;
-        controls.push(one(format!("clearance_{number}"), name(&CLEARANCE), &CLEARANCE, b, wide(b)));
-        let r = absorber.restitution;
-        controls.push(one(
-            format!("restitution_{number}"),
-            name(&RESTITUTION),
-            &RESTITUTION,
-            r,
-            ([0.0, 1.0], false),
-        ));
+        let one =
+            |kind: &'static Kind, value: f64, range| control(&units, kind, Some(j), value, range);
+        controls.push(one(&CLEARANCE, absorber.clearance_m, wide(absorber.clearance_m)));
+        controls.push(one(&RESTITUTION, absorber.restitution, ([0.0, 1.0], false)));
     }
     let loads = case.loads.iter().map(|load| modal::load_words(case, load));
     let more = case.absorbers.len().saturating_sub(DRAWN);
@@ -187,17 +170,20 @@ fn opened(case: &ModalCase, text: &str, load: usize) -> Result<Value, Value> {
     }))
 }
 
+/// A slider: of an absorber, or of the excitation.
 fn control(
     units: &Units,
-    key: String,
-    name: String,
     kind: &Kind,
+    absorber: Option<usize>,
     value: f64,
     (range, log): ([f64; 2], bool),
 ) -> Value {
+    const NUMBERS: [&str; DRAWN] = ["₁", "₂", "₃"];
     let unit = units.unit(kind.dimension, value);
+    let number = absorber.map_or("", |j| NUMBERS[j]);
     json!({
-        "key": key, "name": name, "symbol": kind.symbol, "value": value, "words": units.text(kind, value),
+        "key": absorber.map(|j| format!("{}_{}", kind.id, j + 1)), "name": kind.name,
+        "symbol": format!("{}{number}", kind.symbol), "value": value,
         "unit": { "symbol": unit.symbol, "size": unit.size }, "range": range, "log": log,
     })
 }
