@@ -35,9 +35,10 @@ function Live(place) {
     const presets = here.ask({ ask: "presets" });
     place.replaceChildren(bar(presets), status, make("div", { class: "live-columns" },
       make("div", { class: "live-left" }, problem, panel), make("div", {}, headline, running.figure, table, board)));
-    const link = await linked();
-    open(link || presets[0][1]);
-    if (!link) choose.value = "0";
+    // In a report the case is its own.
+    const link = await linked(), own = document.getElementById("live-case")?.textContent;
+    open(link || (own ?? presets[0][1]));
+    if (!link && own === undefined) choose.value = "0";
     if (link === "") complain([{ message: DAMAGED }]);
     addEventListener("hashchange", async ({ newURL }) => {
       const other = await linked(new URL(newURL).hash);
