@@ -55,6 +55,22 @@ impl ModalPlan {
         self.grid.settings.axes.iter().any(|axis| axis.parameter == Parameter::Frequency)
     }
 
+    /// Criteria with the names of their columns: by what they are about and their place; what is asked twice has one.
+    fn asked(&self) -> Vec<(usize, String)> {
+        let mut named: Vec<(usize, String)> = Vec::new();
+        for (k, asked) in self.case.criteria.iter().enumerate() {
+            let key = asked.criterion.key;
+            let name = match asked.place {
+                Some(place) => format!("{key}_{}", self.case.places[place]),
+                None => key.to_owned(),
+            };
+            if !named.iter().any(|(_, known)| *known == name) {
+                named.push((k, name));
+            }
+        }
+        named
+    }
+
     /// The columns, empty.
     pub fn empty(&self) -> Vec<Column> {
         let number = |name: &str, dimension: Dimension| {
@@ -69,7 +85,7 @@ impl ModalPlan {
             .map(|axis| number(axis.parameter.key(), self.case.kind(axis.parameter).dimension));
         columns.extend(axes);
         columns.push(number("peak", Dimension::Length));
-        columns.push(number("peak_error", Dimension::Length));
+        columns.push(number("error_of_peak", Dimension::Length));
         columns.push(number("bare_amplitude", Dimension::Length));
         columns.push(number("reduction_db", Dimension::Level));
         match self.at_a_frequency() {
@@ -80,13 +96,12 @@ impl ModalPlan {
             columns.push(Column::empty(LIMITS.to_owned(), "", Storage::Text));
             columns.push(number(ROOM.id, ROOM.dimension));
         }
-        for asked in &self.case.criteria {
-            let place = asked.place.map(|place| self.case.places[place].as_str());
-            let name = format!("{}_{}", asked.criterion.key, place.unwrap_or("worst"));
+        for (k, name) in self.asked() {
+            let asked = &self.case.criteria[k];
             let kind = asked.criterion.measure.kind(Device::Absorber);
             let dimension = kind.map_or(Dimension::Number, |kind: &Kind| kind.dimension);
             columns.push(number(&name, dimension));
-            columns.push(number(&format!("{name}_error"), dimension));
+            columns.push(number(&format!("error_of_{name}"), dimension));
         }
         columns
     }
@@ -125,7 +140,7 @@ impl ModalPlan {
                 .map(|one| 1.0 - (one.worst.value + one.worst.error) / one.judged.criterion.limit);
             cells.push(number(rooms.fold(f64::INFINITY, f64::min)));
         }
-        for one in &answer.judged {
+        for one in self.asked().into_iter().filter_map(|(k, _)| answer.judged.get(k)) {
             cells.extend([number(one.worst.value), number(one.worst.error)]);
         }
         cells

@@ -599,12 +599,18 @@ fn the_running_simulation_is_the_programs() {
 #[test]
 fn the_page_is_quiet_accessible_and_fits() {
     let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    is_quiet_accessible_and_fits(&mut browser, &file, |page| slide(page, "clearance", 300));
+}
+
+/// On a desktop and a phone, light and dark, after something was done to it: no noise, nothing overlaps, and it is no larger than it
+/// may be.
+pub fn is_quiet_accessible_and_fits(browser: &mut Browser, file: &Path, act: fn(&mut Page)) {
     let folder = file.parent().expect("a folder").canonicalize().expect("a path");
     let script = checks::axe().map(|script| fs::read_to_string(script).expect("readable"));
     for view in [DESKTOP, PHONE] {
         for dark in [false, true] {
-            let mut page = opened(&mut browser, &file, View { dark, ..view });
-            slide(&mut page, "clearance", 300);
+            let mut page = opened(browser, file, View { dark, ..view });
+            act(&mut page);
             settle(&mut page);
             let noise = checks::noise(&mut page, &folder);
             assert!(noise.is_empty(), "{noise:#?}");
@@ -617,7 +623,7 @@ fn the_page_is_quiet_accessible_and_fits() {
         }
     }
     assert!(script.is_some() || env::var("VINESINK_BROWSER").is_err(), "there is no axe-core");
-    let size = fs::metadata(&file).expect("a file").len();
+    let size = fs::metadata(file).expect("a file").len();
     assert!(size <= 1_800_000, "{size} bytes");
 }
 

@@ -1,7 +1,6 @@
 //! The live page of structures of several modes in Chromium: `web/build` makes it, into `target/web/live-several.html`.
 //! Where page or browser are missing the tests say so and pass, unless `VINESINK_BROWSER=required`.
 
-use std::env;
 use std::f64::consts::TAU;
 use std::fs;
 
@@ -15,10 +14,10 @@ use vinesink::report::modal::at_frequency;
 use vinesink::simulation::{ModalObserver, ModalSegment, ModalSimulation};
 use vinesink::system::{ModalState, ModalSystem};
 
-use super::live::{LIVE, file_of, opened, settle, slide};
+use super::live::{LIVE, file_of, is_quiet_accessible_and_fits, opened, settle, slide};
 use crate::browser::browser;
-use crate::browser_support::checks::{self, DESKTOP, PHONE};
-use crate::browser_support::chromium::{Page, View};
+use crate::browser_support::checks::{self, DESKTOP};
+use crate::browser_support::chromium::Page;
 
 const PAGE: &str = "live-several.html";
 
@@ -76,7 +75,7 @@ fn sliders_move_everything() {
     let text = text.as_str().expect("text");
     let case = ModalCase::parse("case.toml", text).expect("a case");
     // 2.7 mm, a factor of eight to either side.
-    let wanted = 2.7e-3 / 8.0 * 64_f64.powf(0.8);
+    let wanted = 2.7e-3 / 8.0 * libm::pow(64.0, 0.8);
     assert!((case.absorbers[0].clearance_m / wanted - 1.0).abs() < 1e-3, "{text}");
     assert_ne!(page.evaluate(said), before);
     let later = page.evaluate(&format!("{LIVE}.running().clock"));
@@ -152,24 +151,7 @@ fn the_running_simulation_is_the_programs() {
 #[test]
 fn the_page_is_quiet_accessible_and_fits() {
     let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
-    let folder = file.parent().expect("a folder").canonicalize().expect("a path");
-    let script = checks::axe().map(|script| fs::read_to_string(script).expect("readable"));
-    for view in [DESKTOP, PHONE] {
-        for dark in [false, true] {
-            let mut page = opened(&mut browser, &file, View { dark, ..view });
-            let noise = checks::noise(&mut page, &folder);
-            assert!(noise.is_empty(), "{noise:#?}");
-            let layout = checks::layout(&mut page);
-            assert!(layout.is_empty(), "{} px, dark {dark}: {layout:#?}", view.width);
-            if let Some(script) = &script {
-                let found = checks::accessibility(&mut page, script);
-                assert!(found.is_empty(), "{} px, dark {dark}: {found:#?}", view.width);
-            }
-        }
-    }
-    assert!(script.is_some() || env::var("VINESINK_BROWSER").is_err(), "there is no axe-core");
-    let size = fs::metadata(&file).expect("a file").len();
-    assert!(size <= 1_800_000, "{size} bytes");
+    is_quiet_accessible_and_fits(&mut browser, &file, |page| slide(page, "restitution_1", 700));
 }
 
 /// A report with the page is still one file and begins with its own case; modes in a file are refused.

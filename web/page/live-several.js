@@ -105,10 +105,10 @@ function Live(place) {
     return make("div", { class: "live-slider" }, make("label", { for: id }, `${of.name} ${of.symbol}`), make("span", { class: "live-field" }, field, make("span", {}, symbol)), range);
   }
   function shown(of) {
-    const { range, field } = fields.get(of.key), number = Number((of.value / of.unit.size).toPrecision(4));
+    const { range, field } = fields.get(of.key), words = Number((of.value / of.unit.size).toPrecision(4));
     range.value = 1000 * part(of, of.value);
-    range.setAttribute("aria-valuetext", `${number} ${of.unit.symbol}`.trim());
-    if (document.activeElement !== field) field.value = number;
+    range.setAttribute("aria-valuetext", `${words} ${of.unit.symbol}`.trim());
+    if (document.activeElement !== field) field.value = words;
   }
   function typed(of, wanted) {
     const [low, high] = of.range;
@@ -250,11 +250,6 @@ function Running(engine, say) {
     const bare = Math.max(...of.bare.map((one) => Math.hypot(...one))), most = Math.max(largest, Math.min(bare, 4 * (largest + of.clearances[0])));
     if (most > reach) reach = round(1.05 * most);
   }
-  function round(value) {
-    const power = 10 ** Math.floor(Math.log10(value));
-    return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9)) * power;
-  }
-  const number = (value) => Number(value.toPrecision(3));
   const alone = (j, t) => of.bare[j][0] * Math.cos(2 * Math.PI * t) + of.bare[j][1] * Math.sin(2 * Math.PI * t);
 
   function frame(time) {
@@ -264,19 +259,6 @@ function Running(engine, say) {
     requestAnimationFrame(frame);
   }
 
-  /** A canvas as large as on the screen, empty, and its size in pixels of the page. */
-  function sheet(canvas, height) {
-    const dots = devicePixelRatio || 1, width = canvas.clientWidth;
-    if (canvas.width !== Math.round(width * dots) || canvas.height !== Math.round(height * dots)) {
-      canvas.style.height = `${height}px`;
-      [canvas.width, canvas.height] = [width, height].map((side) => Math.round(side * dots));
-    }
-    const g = canvas.getContext("2d");
-    g.setTransform(dots, 0, 0, dots, 0, 0);
-    g.clearRect(0, 0, width, height);
-    g.font = "13px system-ui, sans-serif";
-    return { g, width, height };
-  }
   /** Room of a box with its words, and of a ball between its walls. */
   const ROW = 92, TRACK = 74;
 

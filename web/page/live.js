@@ -508,11 +508,6 @@ function Running(engine, say) {
     const bare = of.bare ? Math.hypot(...of.bare) : 0, most = Math.max(largest, Math.min(bare, 4 * (largest + 1))) * of.clearance;
     if (most > reach * of.clearance) reach = round(1.05 * most) / of.clearance;
   }
-  function round(value) {
-    const power = 10 ** Math.floor(Math.log10(value));
-    return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9)) * power;
-  }
-  const number = (value) => Number(value.toPrecision(3));
   const alone = (t) => of.bare && of.bare[0] * Math.cos(2 * Math.PI * t) + of.bare[1] * Math.sin(2 * Math.PI * t);
 
   function frame(time) {
@@ -522,19 +517,6 @@ function Running(engine, say) {
     requestAnimationFrame(frame);
   }
 
-  /** A canvas as large as on the screen, empty, and its size in pixels of the page. */
-  function sheet(canvas, height) {
-    const dots = devicePixelRatio || 1, width = canvas.clientWidth;
-    if (canvas.width !== Math.round(width * dots) || canvas.height !== Math.round(height * dots)) {
-      canvas.style.height = `${height}px`;
-      [canvas.width, canvas.height] = [width, height].map((side) => Math.round(side * dots));
-    }
-    const g = canvas.getContext("2d");
-    g.setTransform(dots, 0, 0, dots, 0, 0);
-    g.clearRect(0, 0, width, height);
-    g.font = "13px system-ui, sans-serif";
-    return { g, width, height };
-  }
   const HEIGHT = 250, SCENE = 186;
 
   function drawn() {

@@ -125,3 +125,25 @@ async function linked(hash = location.hash) {
     return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));
   } catch { return ""; }
 }
+
+/** The next round number. */
+function round(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9)) * power;
+}
+
+const number = (value) => Number(value.toPrecision(3));
+
+/** A canvas as large as on the screen, empty, and its size in pixels of the page. */
+function sheet(canvas, height) {
+  const dots = devicePixelRatio || 1, width = canvas.clientWidth;
+  if (canvas.width !== Math.round(width * dots) || canvas.height !== Math.round(height * dots)) {
+    canvas.style.height = `${height}px`;
+    [canvas.width, canvas.height] = [width, height].map((side) => Math.round(side * dots));
+  }
+  const g = canvas.getContext("2d");
+  g.setTransform(dots, 0, 0, dots, 0, 0);
+  g.clearRect(0, 0, width, height);
+  g.font = "13px system-ui, sans-serif";
+  return { g, width, height };
+}

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use vinesink::answer::{Answer, Asked};
 use vinesink::band::Worst;
-use vinesink::case::{Case, CaseError, Objective, Problem, RewriteError, Rounding};
+use vinesink::case::{Case, Objective, RewriteError, Rounding};
 use vinesink::excitation::Scene;
 use vinesink::executor::Serial;
 use vinesink::linear::bare_amplitude;
@@ -28,6 +28,7 @@ use crate::From;
 use crate::controls;
 use crate::plain;
 use crate::running;
+use crate::told::{answered, problems, words};
 
 /// A request. Every one but [`Request::Presets`] is about the case that `text` describes.
 #[derive(Deserialize)]
@@ -92,16 +93,9 @@ const PRESETS: [(&str, &str); 9] = [
     ("the paper: few impacts", include_str!("../../cases/li2016-8p5hz-fig4e.toml")),
 ];
 
-/// The answer to a request; `{"problems": [...]}` where there is none.
+/// The answer to a request.
 pub fn to(request: &[u8]) -> Vec<u8> {
-    let answer = serde_json::from_slice(request).map_err(words).and_then(answer);
-    let answer = answer.unwrap_or_else(|problems| json!({ "problems": problems }));
-    answer.to_string().into_bytes()
-}
-
-/// What is wrong in other words than a case file's.
-fn words(error: impl std::fmt::Display) -> Value {
-    json!([{ "message": error.to_string() }])
+    answered(request, answer)
 }
 
 fn answer(request: Request) -> Result<Value, Value> {
@@ -212,17 +206,6 @@ fn best(case: &Case, text: &str) -> Result<Value, Value> {
         _ => format!("The best clearance is {clearance}."),
     };
     Ok(json!({ "text": better.text, "said": said }))
-}
-
-/// What is wrong with a case file, and where.
-fn problems(error: &CaseError) -> Value {
-    let one = |problem: &Problem| {
-        json!({
-            "message": problem.message, "expected": problem.expected, "help": problem.help,
-            "line": problem.line, "column": problem.column,
-        })
-    };
-    error.problems().map(one).collect()
 }
 
 /// A case that the page can show.

@@ -14,6 +14,7 @@ mod plain;
 mod running;
 #[cfg(feature = "several")]
 mod several;
+mod told;
 
 #[cfg(not(feature = "several"))]
 use {answers::to, running::go_on as run_on};

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use vinesink::case::{CaseError, Load, ModalCase, PlacedAbsorber};
+use vinesink::case::{Load, ModalCase, PlacedAbsorber};
 use vinesink::executor::Serial;
 use vinesink::modal::ModalAnswer;
 use vinesink::quantity::catalogue::{CLEARANCE, EXCITATION_FREQUENCY, RESTITUTION};
@@ -18,6 +18,7 @@ use vinesink::simulation::{ModalImpact, ModalObserver, ModalSegment, ModalSimula
 use vinesink::system::{ModalState, ModalSystem};
 
 use crate::From;
+use crate::told::{answered, problems, words};
 
 /// A request; every one but [`Request::Presets`] is about the case that `text` describes.
 #[derive(Deserialize)]
@@ -54,15 +55,9 @@ const PRESETS: [(&str, &str); 3] = [
 /// Absorbers that are drawn and have sliders.
 const DRAWN: usize = 3;
 
-/// The answer to a request; `{"problems": [...]}` where there is none.
+/// The answer to a request.
 pub fn to(request: &[u8]) -> Vec<u8> {
-    let answer = serde_json::from_slice(request).map_err(words).and_then(answer);
-    let answer = answer.unwrap_or_else(|problems| json!({ "problems": problems }));
-    answer.to_string().into_bytes()
-}
-
-fn words(error: impl std::fmt::Display) -> Value {
-    json!([{ "message": error.to_string() }])
+    answered(request, answer)
 }
 
 fn answer(request: Request) -> Result<Value, Value> {
@@ -113,15 +108,7 @@ fn shown(figure: &Figure) -> Result<Value, Value> {
 }
 
 fn parsed(text: &str) -> Result<ModalCase, Value> {
-    ModalCase::parse("case.toml", text).map_err(|error: CaseError| {
-        let told = error.problems().map(|one| {
-            json!({
-                "message": one.message, "expected": one.expected, "help": one.help,
-                "line": one.line, "column": one.column,
-            })
-        });
-        told.collect()
-    })
+    ModalCase::parse("case.toml", text).map_err(|error| problems(&error))
 }
 
 fn load_of(case: &ModalCase, number: usize) -> Result<Load, Value> {
