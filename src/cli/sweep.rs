@@ -207,6 +207,7 @@ impl Sweep {
         // Whole chunks where a motion is followed, else a part of them.
         let chunk = plan.points_per_chunk();
         let stretch = if plan.settings.follow { chunk } else { SAMPLE.min(chunk) };
+        let stretch = stretch.min(self.of.sample());
         let stretches = if plan.settings.follow { 1 } else { STRETCHES };
         if self.of.roughly() * stretch as f64 > LONGEST_SAMPLE {
             return Ok(self.of.roughly());

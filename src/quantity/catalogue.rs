@@ -179,7 +179,7 @@ catalogue! {
     OFFSET = "offset", "", "distance of the excitation from resonance", Share, Significant(2), Interval;
     MARGIN = "margin", "", "change until the boundary", Change, Significant(2), Interval;
     ROOM = "room", "", "room below the tightest limit", Change, Significant(2), Interval;
-    MODAL_FORCING = "modal_forcing", "f", "largest force over modal mass", Acceleration, Significant(4), Interval;
+    MODAL_FORCING = "modal_forcing", "", "largest force over modal mass", Acceleration, Significant(4), Interval;
     GAP = "gap", "", "distance of the clearance from the next boundary", Share, Significant(2), Interval;
     Z3_SHARE = "z3_share", "", "share in area Z3", Share, Significant(3), Interval;
     A1_SHARE = "a1_share", "", "share in strip A1", Share, Significant(3), Interval;

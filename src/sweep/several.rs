@@ -126,7 +126,8 @@ impl ModalPlan {
             number(worst.value),
             number(worst.error),
             number(bare),
-            number(20.0 * libm::log10(bare / worst.value)),
+            // What is certain of it.
+            number(20.0 * libm::log10(bare / (worst.value + worst.error))),
         ];
         cells.push(match self.at_a_frequency() {
             true => number(answer.along[0].places[0].motions.len() as f64),

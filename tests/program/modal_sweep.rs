@@ -179,7 +179,7 @@ fn the_command_writes_a_table_and_a_page() {
     }
     assert_eq!(table.lines().count(), 16);
     let page = read("sweep.md");
-    assert!(page.contains("limits hold"), "{page}");
+    assert!(page.contains("limits hold") && page.contains("Excitation 1 alone acts."), "{page}");
     let document: Value = serde_json::from_str(&read("sweep.json")).expect("JSON");
     let hold = table.lines().filter(|line| line.contains(",holds,")).count();
     assert_eq!(document["limits"]["points"], hold);
@@ -212,6 +212,10 @@ fn slips_are_told() {
             "`excitation` is 3, and there are 2",
         ),
         ("absorber = 3\nclearance = { values = [\"5 mm\"] }", "`absorber` is 3, and there are 2"),
+        (
+            "excitation = 1\nabsorber = 2\nfrequency = { values = [\"5 Hz\"] }",
+            "`absorber` has no meaning where no number of an absorber varies",
+        ),
         ("clearance = { values = [\"5 kg\"] }", "expected a length such as"),
         ("clearance = { values = [5] }", "expected a length such as"),
         ("restitution = { values = [0.5, 1.5] }", "from 0 to 1"),

@@ -310,9 +310,11 @@ impl ModalCase {
         places.map(|p| self.modes.iter().map(|mode| mode.shape[p]).collect()).collect()
     }
 
-    /// Dimensionless times in the case's own unit of time: the first mode's natural frequency in rad/s, 1 of a reduced case.
+    /// Dimensionless times in the case's own unit of time: the first mode's natural frequency in rad/s; of a reduced case over
+    /// that of its unit, 1 unless its modes are others than those of the file.
     pub fn omega(&self) -> f64 {
-        if self.reduced { 1.0 } else { std::f64::consts::TAU * self.modes[0].frequency_hz }
+        let first = self.modes[0].frequency_hz;
+        if self.reduced { first } else { std::f64::consts::TAU * first }
     }
 
     /// The mass that pages are in, in the case's own unit: the first mode's of a reduced case.

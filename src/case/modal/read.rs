@@ -167,7 +167,13 @@ pub(super) fn read(
         for name in ["mode", "modes", "absorber", "excitation"] {
             if root.has(name) {
                 let message = format!("[{name}] has no meaning beside [reduced]");
-                let help = format!("write [[reduced.{name}]], or the whole case without [reduced]");
+                let help = match name {
+                    "excitation" => {
+                        "write `forcing` in each [[reduced.mode]], and `frequency_ratio` in [reduced]"
+                    }
+                    "absorber" => "write [[reduced.absorber]], or the whole case without [reduced]",
+                    _ => "write [[reduced.mode]], or the whole case without [reduced]",
+                };
                 let expected = "expected one form of the structure";
                 reader.report(root.span_of(name), message, expected, help);
                 return Ok(None);
@@ -436,7 +442,14 @@ pub(super) fn read_shape(reader: &mut Reader, table: &Table) -> Option<Shape> {
     };
     let mut shape = Vec::new();
     for (name, value) in entries {
+        let at = name.span();
         let name = name.get_ref().as_ref();
+        if name.chars().any(|one| one == '|' || one.is_control()) {
+            let message = format!("a place is called {name:?}");
+            let expected = "expected a name without `|` and without line breaks";
+            reader.report(at, message, expected, "give the place a name such as tip");
+            return None;
+        }
         let place = ValuePlace {
             table: "mode",
             key: "shape",

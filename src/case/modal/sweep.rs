@@ -102,6 +102,13 @@ pub(super) fn read_sweep(
         reader.report(table.span_of(axis.key()), message, "expected `excitation` beside it", help);
         return None;
     }
+    let of_absorber = AXES.into_iter().any(|one| !is_of_load(one) && table.has(one.key()));
+    if absorber.is_some() && !of_absorber {
+        let message = "`absorber` has no meaning where no number of an absorber varies";
+        let expected = "expected `clearance`, `restitution` or `absorber_mass` beside it";
+        reader.report(table.span_of("absorber"), message, expected, "remove the line `absorber`");
+        return None;
+    }
     let moves_base = |one: &Load| one.on == ActsOn::Base;
     reader.of_several = case.loads.get(load.unwrap_or(0)).map(moves_base);
     let axes = axes_among(reader, &table, &AXES)?;

@@ -69,6 +69,15 @@ impl Subject {
         }
     }
 
+    /// Points at most that are worked out in a row to tell how long all take.
+    pub fn sample(&self) -> u64 {
+        match self {
+            Self::One(_) => u64::MAX,
+            // About a second.
+            Self::Several(of) => ((1.0 / of.1.seconds()) as u64).max(1),
+        }
+    }
+
     /// Whether each point takes as long as is ordinary, or more is asked for.
     pub fn is_ordinary(&self, path: &Path, long: Long) -> Result<()> {
         match self {

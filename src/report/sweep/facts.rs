@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use serde_json::{Value, json};
 
-use super::Swept;
 use super::grid::Numbers;
 use super::kinds::AREAS;
+use super::{Swept, SweptCase};
 use crate::analysis::Area;
 use crate::case::Recorded;
 use crate::criteria::Outcome;
@@ -57,6 +57,12 @@ pub(super) fn document(swept: &Swept) -> Value {
         "case_sha256": text_hash,
         "results_sha256": swept.results_sha256,
     });
+    if let SweptCase::Several(case) = swept.case {
+        let of = case.sweep.as_ref();
+        // From 1; none where each excitation acts, or all absorbers are varied.
+        document["excitation"] = json!(of.and_then(|sweep| sweep.load).map(|load| load + 1));
+        document["absorber"] = json!(of.and_then(|sweep| sweep.absorber).map(|one| one + 1));
+    }
     if let Some(limits) = limits(swept) {
         document["limits"] = limits;
     }
@@ -99,14 +105,20 @@ fn limits(swept: &Swept) -> Option<Value> {
     let of_all = |points| share(points, outcomes.iter().flatten().count());
     let rooms = swept.named(ROOM.id, Direction::Single).unwrap_or_default();
     let rooms = rooms.into_iter().enumerate().filter_map(|(point, room)| Some((point, room?)));
-    let best = rooms.reduce(|best, one| if one.1 > best.1 { one } else { best });
+    // Of what is not worse by its outcome that with the most room.
+    let order = |(point, room): &(usize, f64)| (outcomes[*point], -room);
+    let best = rooms.min_by(|a, b| {
+        let (a, b) = (order(a), order(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
     let best = best.map(|(point, room)| {
         json!({ "of": Quantity::new(&ROOM, room, Method::Simulation), "at": swept.place(point) })
     });
     let (hold, fail) = (count(Outcome::Holds), count(Outcome::Fails));
+    let all = outcomes.iter().flatten().count();
     Some(json!({
-        "hold": of_all(hold), "fail": of_all(fail), "points": hold, "best": best,
-        "all": outcomes.iter().flatten().count() == hold, "open": outcomes.iter().flatten().count() > hold + fail,
+        "hold": of_all(hold), "fail": of_all(fail), "open": of_all(all - hold - fail),
+        "points": hold, "all": all == hold, "best": best,
     }))
 }
 
