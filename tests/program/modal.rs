@@ -57,7 +57,7 @@ fn slips_are_told_where_they_are() {
         &["26: ", "\"tpi\"", "did you mean \"tip\"?"],
     );
     refused("shape = { tip = 1.0, middle = 0.340 }", "", &["a mode has no `shape`"]);
-    refused("middle = 0.340 }", "\"a | b\" = 0.340 }", &["expected a name without `|`"]);
+    refused("middle = 0.340 }", "\"a | b\" = 0.340 }", &["expected names without `|`"]);
     refused("{ tip = 1.0, middle = 0.340 }", "{ tip = 0.0, middle = 0 }", &["is 0 everywhere"]);
     refused("{ tip = 1.0, middle = -0.714 }", "{ tip = 1.0 }", &["no value at \"middle\""]);
     refused(

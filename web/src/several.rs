@@ -148,12 +148,13 @@ fn opened(case: &ModalCase, text: &str, load: usize) -> Result<Value, Value> {
         controls.push(one(&RESTITUTION, absorber.restitution, ([0.0, 1.0], false)));
     }
     let loads = case.loads.iter().map(|load| modal::load_words(case, load));
+    let loads = loads.collect::<Result<Vec<_>, _>>().map_err(words)?;
     let more = case.absorbers.len().saturating_sub(DRAWN);
     let notes =
         (more > 0).then(|| format!("{more} more of the absorbers fly along and are not drawn."));
     Ok(json!({
         "text": text, "title": case.title, "controls": controls, "load": load,
-        "loads": loads.collect::<Vec<_>>(), "notes": notes.into_iter().collect::<Vec<_>>(),
+        "loads": loads, "notes": notes.into_iter().collect::<Vec<_>>(),
     }))
 }
 

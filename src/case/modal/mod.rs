@@ -4,6 +4,7 @@
 mod asked;
 mod file;
 mod load;
+mod mode;
 mod place;
 mod read;
 mod reduced;

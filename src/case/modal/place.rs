@@ -2,8 +2,19 @@
 
 use std::ops::Range;
 
-use crate::case::reader::Reader;
+use crate::case::reader::{Reader, Table};
 use crate::case::value::{nearest, or};
+
+/// Reports names that would break a table.
+pub(super) fn check_names(reader: &mut Reader, root: &Table, places: &[String]) {
+    let breaks = |name: &&String| name.chars().any(|one| one == '|' || one.is_control());
+    let Some(name) = places.iter().find(breaks) else { return };
+    let told = ["mode", "modes", "reduced"].into_iter().find(|table| root.has(table));
+    let message = format!("a place is called {name:?}");
+    let expected = "expected names without `|` and without line breaks";
+    let at = root.span_of(told.unwrap_or_default());
+    reader.report(at, message, expected, "give the place a name such as tip");
+}
 
 /// The place of a name, which stands there in the text; the only one where none is given.
 pub(super) fn find_place(

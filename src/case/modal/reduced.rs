@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::read::{Shape, read_shape};
+use super::mode::{Shape, read_shape};
 use super::{ActsOn, Load, StructuralMode};
 use crate::case::reader::{Reader, Table};
 use crate::case::schema::one_of;

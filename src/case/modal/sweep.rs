@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::load::{LoadKind, LoadTable};
 use super::read::ModalAbsorberTable;
-use super::{ActsOn, Load, ModalCase};
+use super::{ActsOn, Load, ModalCase, PlacedAbsorber};
 use crate::case::number::Form;
 use crate::case::reader::{Reader, Table};
 use crate::case::schema::of_table;
@@ -123,6 +123,18 @@ fn is_of_load(parameter: Parameter) -> bool {
     matches!(parameter, Parameter::Frequency | Parameter::Amplitude)
 }
 
+impl PlacedAbsorber {
+    /// Its number that a parameter is; none of one that is not an absorber's.
+    fn number(&mut self, parameter: Parameter) -> Option<&mut f64> {
+        match parameter {
+            Parameter::Clearance => Some(&mut self.clearance_m),
+            Parameter::Restitution => Some(&mut self.restitution),
+            Parameter::AbsorberMass => Some(&mut self.mass_kg),
+            _ => None,
+        }
+    }
+}
+
 impl ModalCase {
     /// What an axis of its sweep is.
     pub fn kind(&self, parameter: Parameter) -> &'static Kind {
@@ -149,7 +161,7 @@ impl ModalCase {
         if let Some(load) = sweep.load {
             case.loads = vec![self.loads[load]];
         }
-        let varied = |k: &usize| sweep.absorber.is_none_or(|one| one == *k);
+        let varied = |k: usize| sweep.absorber.is_none_or(|one| one == k);
         for (axis, value) in axes.iter().zip(coordinates) {
             for load in &mut case.loads {
                 match axis.parameter {
@@ -158,13 +170,9 @@ impl ModalCase {
                     _ => {}
                 }
             }
-            for (_, one) in case.absorbers.iter_mut().enumerate().filter(|(k, _)| varied(k)) {
-                match axis.parameter {
-                    Parameter::Clearance => one.clearance_m = *value,
-                    Parameter::Restitution => one.restitution = *value,
-                    Parameter::AbsorberMass => one.mass_kg = *value,
-                    _ => {}
-                }
+            let all = case.absorbers.iter_mut().enumerate().filter(|(k, _)| varied(*k));
+            for number in all.filter_map(|(_, one)| one.number(axis.parameter)) {
+                *number = *value;
             }
         }
         case
@@ -182,12 +190,8 @@ impl ModalCase {
             Parameter::Amplitude => Some(load.amplitude),
             _ => None,
         });
-        let of_absorbers = absorbers.iter().filter_map(|one| match parameter {
-            Parameter::Clearance => Some(one.clearance_m),
-            Parameter::Restitution => Some(one.restitution),
-            Parameter::AbsorberMass => Some(one.mass_kg),
-            _ => None,
-        });
+        let of_absorbers =
+            absorbers.iter().filter_map(|one| one.clone().number(parameter).copied());
         let mut all = of_loads.chain(of_absorbers);
         let first = all.next()?;
         all.all(|one| one == first).then_some(first)

@@ -17,10 +17,7 @@ use crate::report::template::{render, worded};
 pub fn at_frequency(case: &ModalCase, answer: &ModalAnswer) -> Result<Value, RenderError> {
     let facts = document("live", case, answer, &Beside::default(), Content::Simulation);
     let markdown = render("modal-live.md", &units(case), &facts)?;
-    // What is worse than without absorbers is not told as good.
-    let worse = answer.worst(None).is_some_and(|worst| worst.value > answer.bare());
-    let tone = facts["verdict"]["tone"].as_str().filter(|tone| !(worse && *tone == "good"));
-    Ok(json!({ "markdown": markdown, "tone": tone.unwrap_or("mixed") }))
+    Ok(json!({ "markdown": markdown, "tone": facts["verdict"]["tone"] }))
 }
 
 /// The largest displacement over the frequency of its loads, with absorbers and without.

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::document::criteria::badge;
 use super::document::place::FilePlace;
-use super::document::{Content, Word, headed};
+use super::document::{Content, Tone, Word, headed};
 use super::error::RenderError;
 use super::render::{Files, in_lines, page_files};
 use super::template::{render, worded};
@@ -108,6 +108,14 @@ fn word(answer: &ModalAnswer) -> Word {
     badge(&answer.criteria()).unwrap_or_else(|| against_alone(answer))
 }
 
+/// Whether that is good news: limits that hold where the structure moves farther than without absorbers are not.
+fn tone(answer: &ModalAnswer) -> Tone {
+    match word(answer).tone() {
+        Tone::Good if against_alone(answer) == Word::MakesItWorse => Tone::Mixed,
+        tone => tone,
+    }
+}
+
 /// Whether it moves less than without absorbers.
 fn against_alone(answer: &ModalAnswer) -> Word {
     match answer.worst(None) {
@@ -151,18 +159,13 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
     })
 }
 
-/// What a load acts on, with its amplitude and its range, in words.
-pub fn load_words(case: &ModalCase, load: &Load) -> String {
-    let units = units(case);
-    let on = match load.on {
-        ActsOn::Place(place) => format!(" at {}", case.places[place]),
-        ActsOn::Mode(mode) => format!(" in mode {}", mode + 1),
-        ActsOn::Modes => " in all modes".to_owned(),
-        ActsOn::Base => " of the base".to_owned(),
-    };
-    let [from, to] = load.range_hz.map(|at| units.text(&of::EXCITATION_FREQUENCY, at));
-    let range = if from == to { from } else { format!("{from} to {to}") };
-    format!("{}{on}, {range}", units.text(load.amplitude_kind(), load.amplitude))
+/// A load with its range in words.
+///
+/// # Errors
+/// [`RenderError::Template`] if the template does not fit.
+pub fn load_words(case: &ModalCase, load: &Load) -> Result<String, RenderError> {
+    let text = render("modal-load.txt", &units(case), &json!({ "of": load_row(case, load) }))?;
+    Ok(text.trim_end().to_owned())
 }
 
 fn load_row(case: &ModalCase, load: &Load) -> Value {
@@ -352,7 +355,7 @@ pub fn document(
     });
     let fields = json!({
         "name": name,
-        "verdict": { "tone": word.tone(), "word": word, "headline": headline(answer) },
+        "verdict": { "tone": tone(answer), "word": word, "headline": headline(answer) },
         "quantities": quantities,
         "criteria": criteria(case, answer),
         "compared": compared(case, answer, beside),

@@ -1,0 +1,139 @@
+//! The tables `[[mode]]`, and shapes by the names of places.
+
+use std::ops::Range;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::StructuralMode;
+use super::table::Modes;
+use crate::case::number::Form;
+use crate::case::reader::{Reader, Table};
+use crate::case::value::ValuePlace;
+use crate::system::LARGEST_DAMPING_RATIO;
+
+/// A mode of the structure.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(extend("additionalProperties" = false))]
+pub(super) struct ModeTable {
+    /// f_k, its natural frequency, above 0.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0), example = "1.1 Hz")]
+    frequency: f64,
+    /// zeta_k, its damping ratio, from 0 to 0.85.
+    #[schemars(extend("x-measurand" = "a share", "minimum" = 0, "maximum" = LARGEST_DAMPING_RATIO), example = 0.005, example = "0.5 %")]
+    damping_ratio: f64,
+    /// M_k, its modal mass by the scale of the shape, above 0.
+    #[schemars(extend("x-measurand" = "a mass", "exclusiveMinimum" = 0), example = "30 kg")]
+    mass: f64,
+    /// phi_k, its shape: the displacement at each place where the modal coordinate is 1.
+    #[schemars(with = "Value", extend("type" = "object", "additionalProperties" = { "type": "number" }))]
+    #[expect(dead_code, reason = "read by its own names")]
+    #[serde(default)]
+    shape: (),
+    /// Gamma_k, its participation in the motion of the base; needed where the base moves.
+    #[schemars(example = 1.3)]
+    participation: Option<f64>,
+}
+
+/// Places and modes of some tables, each by `read_one`, and where each says its damping ratio.
+pub(super) fn read_modes(
+    reader: &mut Reader,
+    tables: Vec<Table>,
+    read_one: fn(&mut Reader, &Table) -> Option<(StructuralMode, Shape)>,
+    damping: &mut Vec<Range<usize>>,
+) -> Modes {
+    let mut places: Vec<String> = Vec::new();
+    let mut modes = Vec::new();
+    for (table, mode) in tables.iter().filter_map(|one| Some((one, read_one(reader, one)?))) {
+        for (name, _) in &mode.1.1 {
+            if !places.contains(name) {
+                places.push(name.clone());
+            }
+        }
+        modes.push(mode);
+        damping.push(table.span_of_value("damping_ratio"));
+    }
+    let shapes: Vec<_> = modes.iter().map(|(_, shape)| shape.clone()).collect();
+    let modes: Vec<StructuralMode> = modes
+        .into_iter()
+        .map(|(mode, shape)| StructuralMode {
+            shape: places.iter().map(|name| value_at(&shape, name)).collect(),
+            ..mode
+        })
+        .collect();
+    for (span, name) in missing(&shapes, &places) {
+        let message = format!("the shape has no value at \"{name}\", where another mode has one");
+        let help = format!("write shape = {{ {name} = 1.0, ... }}; 0 where the mode has a node");
+        reader.report(span, message, "expected every place in the shape of every mode", help);
+    }
+    (places, modes)
+}
+
+/// The values of a shape by their places, and where it stands.
+pub(super) type Shape = (Range<usize>, Vec<(String, f64)>);
+
+fn value_at((_, shape): &Shape, name: &str) -> f64 {
+    shape.iter().find(|(key, _)| key == name).map_or(0.0, |(_, value)| *value)
+}
+
+/// Places that a mode says nothing of.
+fn missing(shapes: &[Shape], places: &[String]) -> Vec<(Range<usize>, String)> {
+    let of = |shape: &Shape| {
+        let span = shape.0.clone();
+        let absent = places.iter().filter(|name| !shape.1.iter().any(|(key, _)| key == *name));
+        absent.map(|name| (span.clone(), name.clone())).collect::<Vec<_>>()
+    };
+    shapes.iter().filter(|shape| !shape.1.is_empty()).flat_map(of).collect()
+}
+
+/// A mode and its shape.
+pub(super) fn read_mode(reader: &mut Reader, table: &Table) -> Option<(StructuralMode, Shape)> {
+    let read = reader.read::<ModeTable>(table);
+    let shape = read_shape(reader, table)?;
+    let read = read?;
+    let mode = StructuralMode {
+        frequency_hz: read.frequency,
+        damping_ratio: read.damping_ratio,
+        mass_kg: read.mass,
+        shape: Vec::new(),
+        participation: read.participation.unwrap_or(f64::NAN),
+        forcing: 0.0,
+    };
+    Some((mode, shape))
+}
+
+/// The key `shape` of a mode.
+pub(super) fn read_shape(reader: &mut Reader, table: &Table) -> Option<Shape> {
+    let help = "write shape = { tip = 1.0 }: a name and a number for each place";
+    let expected = "expected the displacement at each place, as a table";
+    let span = table.span_of("shape");
+    let Some(DeValue::Table(entries)) = table.value("shape").map(Spanned::get_ref) else {
+        if !table.misspelled.contains(&"shape") {
+            reader.report(span, "a mode has no `shape`", expected, help);
+        }
+        return None;
+    };
+    let mut shape = Vec::new();
+    for (name, value) in entries {
+        let name = name.get_ref().as_ref();
+        let place = ValuePlace {
+            table: "mode",
+            key: "shape",
+            subject: format!("`{name}` of `shape`"),
+            line: "shape = { tip = 1.0 }".to_owned(),
+            value,
+            sign: 0,
+            alone: false,
+        };
+        let number = reader.number(&place, &Form::free(None, "1.0", ""))?;
+        shape.push((name.to_owned(), number));
+    }
+    if shape.iter().all(|(_, value)| *value == 0.0) {
+        reader.report(span, "the shape of a mode is 0 everywhere", expected, help);
+        return None;
+    }
+    Some((span, shape))
+}
