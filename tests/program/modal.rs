@@ -13,6 +13,7 @@ use vinesink::modal::{
     sensors,
 };
 use vinesink::motions::{longest_flight, modal_motions};
+use vinesink::report::modal::simulation;
 use vinesink::store::Reach;
 
 const MAST: &str = "cases/several/mast.toml";
@@ -953,4 +954,22 @@ fn each_mode_in_a_wide_range_is_looked_at() {
     assert!(second > 2.40e-3 * 0.9, "{second}");
     let worst = answer.worst(None).expect("a motion");
     assert!(worst.value + worst.error > 2.40e-3, "{worst:?}");
+}
+
+/// Limits that hold where the structure moves farther than without absorbers are no good news.
+#[test]
+fn what_is_worse_than_without_absorbers_is_not_told_as_good() {
+    let mut case = ModalCase::parse("mast.toml", &text(MAST)).expect("a case");
+    case.loads = vec![case.loads[1]];
+    let mut tone = |frequency: f64| {
+        case.loads[0].range_hz = [frequency; 2];
+        case.criteria[0].criterion.limit = 0.02;
+        let answer = ModalAnswer::of(&case, &Serial).expect("an answer");
+        assert!(answer.all_hold());
+        let worse = answer.worst(None).is_some_and(|worst| worst.value > answer.bare());
+        (worse, simulation("mast", &case, &answer)["verdict"]["tone"].clone())
+    };
+    // Far from resonance the ball wakes the structure, at resonance it calms it.
+    assert_eq!(tone(5.9), (true, "mixed".into()));
+    assert_eq!(tone(6.894), (false, "good".into()));
 }

@@ -183,6 +183,25 @@ fn the_command_writes_a_table_and_a_page() {
     let document: Value = serde_json::from_str(&read("sweep.json")).expect("JSON");
     let hold = table.lines().filter(|line| line.contains(",holds,")).count();
     assert_eq!(document["limits"]["points"], hold);
+    // The nearest has the best outcome, and of those the most room; a reduction is what an error leaves of it.
+    let cells: Vec<Vec<&str>> =
+        table.lines().map(|line| line.split(',').collect::<Vec<_>>()).collect();
+    let at = |name: &str| {
+        let named = |one: &str| one.split(" [").next() == Some(name);
+        cells[0].iter().position(|one| named(one)).expect("a column")
+    };
+    let number = |row: &[&str], name: &str| row[at(name)].parse::<f64>().expect("a number");
+    let order = ["holds", "too-close-to-call", "not-decided", "not-measured", "fails"];
+    let outcome = |row: &[&str]| order.iter().position(|word| *word == row[at("limits")]);
+    let best = cells[1..].iter().map(|row| outcome(row)).min().expect("points");
+    let rooms = cells[1..].iter().filter(|row| outcome(row) == best);
+    let most = rooms.map(|row| number(row, "room")).fold(f64::NEG_INFINITY, f64::max);
+    assert_eq!(document["limits"]["best"]["of"]["value"], most);
+    for row in &cells[1..] {
+        let most = number(row, "peak") + number(row, "error_of_peak");
+        let left = 20.0 * libm::log10(number(row, "bare_amplitude") / most);
+        assert!((number(row, "reduction_db") - left).abs() < 1e-9, "{row:?}");
+    }
     // The same bytes when chunks are lost and worked out again.
     let before = fs::read(folder.path().join("sweeps/rack/sweep.parquet")).expect("written");
     fs::remove_file(folder.path().join("sweeps/rack/sweep.parquet")).expect("removed");
