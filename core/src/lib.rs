@@ -54,7 +54,7 @@
 //! | [`excitation`], [`linear`], [`flights`] | what is not steady: a release, a sweep, a record; alone, with a tuned mass damper, with the absorber | [`flights::follow`], [`linear::swept`] |
 //! | [`cavity`] | the theory where the cavity is tilted, rubs, or has unequal ends | [`CavityTheory::new`](cavity::CavityTheory::new) |
 //! | [`dissipation`] | what the absorber takes in every regime, and the slow flow with it | [`DissipationCurve::of`](dissipation::DissipationCurve::of) |
-//! | several modes and absorbers: in [`system`], [`analysis`], [`orbits`] and [`simulation`] | the same of a structure of up to eight modes with up to eight absorbers | [`ModalSystem::new`](system::ModalSystem::new), [`AbsorberGroup::of`](analysis::AbsorberGroup::of), [`antiperiodic_orbits`](orbits::antiperiodic_orbits), [`ModalSimulation::new`](simulation::ModalSimulation::new) |
+//! | several modes and absorbers: in [`system`], [`analysis`], [`orbits`] and [`simulation`] | the same of a structure of up to eight modes with up to eight absorbers | [`ModalSystem::new`](system::ModalSystem::new), [`AbsorberGroup::of`](analysis::AbsorberGroup::of), [`antiperiodic_orbits`](orbits::antiperiodic_orbits), [`stable_stretches`](orbits::stable_stretches), [`ModalSimulation::new`](simulation::ModalSimulation::new) |
 //!
 //! `analysis`, `orbits` and `simulation` do not use one another: that they agree is evidence.
 //!

@@ -16,8 +16,8 @@ use serde::{Deserialize, Serialize};
 
 pub use band::{Band, BandOver, Stretch};
 pub use modal::{
-    InvalidModalSystem, LARGEST_DAMPING_RATIO, MOST_MODES, ModalAbsorber, ModalParameters,
-    ModalState, ModalSystem, Mode,
+    InvalidModalSystem, LARGEST_DAMPING_RATIO, MOST_MODES, ModalAbsorber, ModalParameter,
+    ModalParameters, ModalState, ModalSystem, Mode,
 };
 pub use parameter::Parameter;
 pub use physical::{

@@ -7,7 +7,8 @@
 use serde::Serialize;
 
 use super::OrbitError;
-use super::branch::{BranchEnd, Settings, trace};
+use super::branch::{BranchEnd, Settings};
+use super::continuation::trace;
 use super::limits::{Limit, SymmetricFamily};
 use super::orbit::Origin;
 use super::special_point::SpecialPoint;

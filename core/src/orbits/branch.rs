@@ -7,7 +7,7 @@ use nalgebra::Vector5;
 use serde::Serialize;
 
 use super::OrbitError;
-use super::locate::located;
+use super::continuation::{BranchTrace, Family, trace};
 use super::newton::PARAMETER;
 use super::orbit::{Orbit, Origin};
 use super::special_point::SpecialPoint;
@@ -108,29 +108,11 @@ pub struct Branch {
 /// Points after which a branch that neither ends nor closes is given up: with the largest step an
 /// arclength of a hundred clearances.
 const MOST_POINTS: usize = 2000;
-/// Radians of all points' flights, in the phase of the faster of structure and excitation, after which a
-/// branch is given up, as a point costs in their proportion: more than [`MOST_POINTS`] points of one
-/// excitation period near resonance, and a second or two where a period has a thousand oscillations.
-const MOST_RADIANS: f64 = 1e5;
 /// A fifth of the largest step: a branch may begin next to a bifurcation.
 const FIRST_STEP: f64 = 0.01;
 /// A twentieth of a clearance or radian: what a figure still shows as smooth, and short enough for
 /// two bifurcations of one kind seldom to share a step.
 const LARGEST_STEP: f64 = 0.05;
-/// Corrector steps with which the branch is as good as straight: the next step may be longer.
-const EASY: u32 = 3;
-/// Growth of the step after an easy point, and its shrinking after another: slow enough for one
-/// curved stretch not to be overrun, fast enough for a straight one to cost little.
-const LONGER: f64 = 1.5;
-/// See [`LONGER`].
-const SHORTER: f64 = 0.8;
-/// Points before a branch can have come back to where it began: fewer enclose nothing.
-const FEWEST_AROUND: usize = 3;
-/// Distance from the first point, over the stretch that may pass it, beyond which it is another part
-/// of the branch: either end of a stretch that passes a point is within one stretch of it, and a
-/// curved one a little farther.
-const BESIDE: f64 = 2.0;
-
 /// Follows the branch through `start`, an orbit of `base`, in one direction.
 ///
 /// From 7.5 mm, the clearance of the crate page, upwards and downwards to the two bifurcations that bound the
@@ -204,88 +186,4 @@ pub(super) fn collected(
         Ok(())
     });
     Ok(Branch { parameter, points, specials, end })
-}
-
-/// What lies along a branch, without its points.
-pub(super) struct BranchTrace {
-    /// The bifurcations, in order.
-    pub specials: Vec<SpecialPoint>,
-    /// Why it ends.
-    pub end: BranchEnd,
-}
-
-/// Follows a branch from a point on it, along its tangent; `visit` gets each point after the first, with
-/// the number of bifurcations before it.
-pub(super) fn trace(
-    tracer: &Tracer,
-    first: TracedPoint,
-    settings: &Settings,
-    mut visit: impl FnMut(&TracedPoint, usize) -> Result<(), OrbitError>,
-) -> BranchTrace {
-    let begin = tracer.value(&first);
-    let mut specials = Vec::new();
-    let mut here = first.clone();
-    let mut step = settings.first_step;
-    let (mut radians, mut count) = (0.0, 1);
-    while count < settings.most_points && radians < MOST_RADIANS {
-        radians += tracer.radians(&here);
-        let (there, taken, last) = match tracer.at_edge(&here, step, settings.range) {
-            Some((there, edge)) => (there, step, Some(BranchEnd::Range { value: edge })),
-            None => match tracer.next(&here, step) {
-                Ok((there, taken)) => (there, taken, None),
-                Err(reason) => {
-                    return BranchTrace { specials, end: failed(tracer, &here, &reason) };
-                }
-            },
-        };
-        let met = returns(&first, &here, &there, count);
-        let last = last.or(met.then_some(BranchEnd::Closed { value: begin }));
-        if let Some(end) = pass(tracer, &here, &there, taken, settings, &mut specials) {
-            return BranchTrace { specials, end };
-        }
-        if let Err(reason) = visit(&there, specials.len()) {
-            return BranchTrace { specials, end: failed(tracer, &here, &reason) };
-        }
-        if let Some(end) = last {
-            return BranchTrace { specials, end };
-        }
-        count += 1;
-        let factor = if there.iterations() <= EASY { LONGER } else { SHORTER };
-        step = (taken * factor).min(settings.largest_step);
-        here = there;
-    }
-    BranchTrace { specials, end: BranchEnd::PointLimit { value: tracer.value(&here) } }
-}
-
-fn failed(tracer: &Tracer, last: &TracedPoint, reason: &OrbitError) -> BranchEnd {
-    BranchEnd::NotConverged { value: tracer.value(last), reason: reason.to_string() }
-}
-
-/// Whether the stretch from `here` to `there` passes the branch's first point, along its tangent.
-fn returns(first: &TracedPoint, here: &TracedPoint, there: &TracedPoint, passed: usize) -> bool {
-    let along = |point: &TracedPoint| point.place() - first.place();
-    // Phases count whole turns; a closed branch may come back a turn later.
-    let stretch = (there.place() - here.place()).norm();
-    let near = along(here).norm() <= BESIDE * stretch && along(there).norm() <= BESIDE * stretch;
-    let side = |point: &TracedPoint| first.tangent.dot(&along(point));
-    passed > FEWEST_AROUND && near && side(here) < 0.0 && side(there) >= 0.0
-}
-
-/// Takes the bifurcations before a new point into the branch; says whether it ends at one of them.
-fn pass(
-    tracer: &Tracer,
-    here: &TracedPoint,
-    there: &TracedPoint,
-    step: f64,
-    settings: &Settings,
-    specials: &mut Vec<SpecialPoint>,
-) -> Option<BranchEnd> {
-    let mut found = located(tracer, here, there, step);
-    let [low, high] = settings.range;
-    found.retain(|special| (low..=high).contains(&special.value));
-    let end = found.iter().position(|special| special.kind.ends_motion());
-    found.truncate(end.map_or(found.len(), |index| index + 1));
-    let stops = end.map(|index| BranchEnd::Grazing { value: found[index].value });
-    specials.extend(found);
-    stops
 }

@@ -1,6 +1,7 @@
 //! Where on a branch a bifurcation lies: test functions that vanish there, and the root of each
 //! between two neighbouring points.
 
+use super::continuation::{COINCIDES, SignChange, Traced as _, sign_change};
 use super::cycle::Closure;
 use super::grazing;
 use super::mirror;
@@ -9,17 +10,6 @@ use super::orbit::Origin;
 use super::special_point::SpecialPoint;
 use super::tracer::{TracedPoint, Tracer};
 use crate::bifurcation::Bifurcation;
-use crate::numerics::bracket::brent;
-
-/// Width over the step to which a bifurcation is located: with steps of some hundredths the rounding
-/// of the points themselves.
-const LOCATED: f64 = 1e-12;
-/// Value of a test function at its root, over its values on either side, above which it jumps there
-/// instead of vanishing. Roots leave 1e-12, the pole of a determinant where an impact vanishes 1e11.
-const VANISHES: f64 = 1e-6;
-/// Distance over the step within which a zero of `det(J - I)` is a saddle-node's own: two roots for
-/// one point differ by 1e-13, and a thousandth of a step is no distance between two bifurcations.
-const COINCIDES: f64 = 1e-3;
 
 /// A test function: the bifurcation that it shows, and its value at a point.
 struct Test {
@@ -62,12 +52,8 @@ pub(super) fn located(
 ) -> Vec<SpecialPoint> {
     let mut found: Vec<(f64, SpecialPoint)> = Vec::new();
     for test in tests(here.cycle().closure) {
-        let (before, after) = ((test.value)(here), (test.value)(there));
-        let changes = before.is_finite() && after.is_finite() && before * after < 0.0;
-        if !changes {
-            continue;
-        }
-        found.extend(locate(tracer, here, step, &test, [before, after]));
+        let change = sign_change(tracer, [here, there], step, test.value);
+        found.extend(change.and_then(|change| special(tracer, test.kind, change)));
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Where the branch turns back det(J - I) vanishes as well; that is the saddle-node's own. Where
@@ -102,44 +88,22 @@ pub(super) fn located(
     found.into_iter().map(|(_, special)| special).collect()
 }
 
-fn locate(
+fn special(
     tracer: &Tracer,
-    here: &TracedPoint,
-    step: f64,
-    test: &Test,
-    [before, after]: [f64; 2],
+    kind: Bifurcation,
+    change: SignChange<TracedPoint>,
 ) -> Option<(f64, SpecialPoint)> {
-    let at = |s: f64| {
-        if s == 0.0 { Ok(here.clone()) } else { tracer.advance(here, s) }
-    };
-    let value = |s: f64| at(s).map_or(f64::NAN, |point| (test.value)(&point));
-    let root = brent(0.0, step, LOCATED * step, value)?;
-    let point = at(root.at).ok()?;
-    let value = tracer.value(&point);
+    let SignChange { at, point, value, bracket, test, converged } = change;
     let orbit = point.orbit(Origin::Continuation).ok()?;
     // Two real reciprocal multipliers are no bifurcation.
-    let kind = test.kind;
     if kind == Bifurcation::NeimarkSacker && !orbit.multipliers.has_pair_on_circle() {
         return None;
     }
-    let width = LOCATED * step;
-    let near = |s: f64| at(s).map_or(f64::NAN, |point| tracer.value(&point));
-    let (left, right) = (near((root.at - width).max(0.0)), near((root.at + width).min(step)));
     let grazes = kind == Bifurcation::Grazing && orbit.admissibility.narrowest.is_some();
     let sequence_beyond =
         if grazes { grazing::beyond_grazing(tracer, point.parameter(), &orbit) } else { None };
-    let bracket = [left.min(right).min(value), left.max(right).max(value)];
-    Some((
-        root.at,
-        SpecialPoint {
-            kind,
-            value,
-            bracket,
-            precision: (bracket[1] - bracket[0]) / value.abs().max(f64::MIN_POSITIVE),
-            test: [before, root.residual, after],
-            converged: root.residual.abs() <= VANISHES * before.abs().max(after.abs()),
-            sequence_beyond,
-            orbit,
-        },
-    ))
+    let precision = (bracket[1] - bracket[0]) / value.abs().max(f64::MIN_POSITIVE);
+    let found =
+        SpecialPoint { kind, value, bracket, precision, test, converged, sequence_beyond, orbit };
+    Some((at, found))
 }

@@ -4,6 +4,7 @@
 //! orbits alone are not: the crossing is where their half-period map has the multiplier -1, a simple
 //! root in the parameter, looked for near the place where the asymmetry changes its sign.
 
+use super::continuation::{Traced as _, distance};
 use super::cycle::{Closure, Cycle};
 use super::impact_map::AfterImpact;
 use super::multipliers::minus_one;
@@ -37,7 +38,7 @@ pub(super) fn met(
         let found = tracer.at(&half, scaled);
         found.and_then(|orbit| minus_one_of(tracer, scaled, &orbit)).unwrap_or(f64::NAN)
     };
-    let step = (there.place() - here.place()).norm();
+    let step = distance(there, here);
     let (low, high) = (0..DOUBLINGS).find_map(|k| {
         let reach = 1e-3 * step * f64::from(1 << k);
         let (low, high) = (guess - reach, guess + reach);

@@ -6,12 +6,13 @@
 //! cavity of any kind are roots of one function ([`two_impact_orbits`]); all others
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
 //! bifurcations. Where the symmetric ones begin and end is [`SymmetricFamily`]; with the asymmetric ones that
-//! follow them, [`boundaries`]. Those of several modes with several absorbers are [`antiperiodic_orbits`]. Nothing here knows of the
-//! asymptotic theory, or of simulation.
+//! follow them, [`boundaries`]. Those of several modes with several absorbers are [`antiperiodic_orbits`], their branches
+//! [`ModalBranch`], and where one attracts [`stable_stretches`]. Nothing here knows of the asymptotic theory, or of simulation.
 
 mod admissibility;
 pub mod boundaries;
 pub mod branch;
+mod continuation;
 mod cycle;
 pub mod equations;
 pub mod flight;
@@ -41,7 +42,10 @@ pub use full_system::{BestClearance, FullSystem};
 pub use impact_map::{AfterImpact, ImpactMap, Leg, Step, Wall};
 pub use limits::{Limit, StableStretch, SymmetricFamily};
 pub use measures::{EnergyPerPeriod, Measures, Peaks};
-pub use modal::{ModalOrbit, antiperiodic_orbits, orbit_state};
+pub use modal::{
+    ModalBranch, ModalBranchPoint, ModalOrbit, ModalSpecialPoint, ReachEnd, antiperiodic_orbits,
+    orbit_state, stable_reach, stable_stretches, values_looked_at,
+};
 pub use multipliers::{Leading, Multipliers};
 pub use orbit::{Orbit, Origin};
 pub use special_point::SpecialPoint;

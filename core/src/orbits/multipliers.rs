@@ -1,9 +1,10 @@
 //! Multipliers of an orbit: the eigenvalues of its map's Jacobian, with the checks that make them
 //! evidence, and what they say of stability.
 
+use nalgebra::allocator::Allocator;
 use nalgebra::linalg::Schur;
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
-use nalgebra::{Complex, Matrix4, SMatrix};
+use nalgebra::{DefaultAllocator, Dim, DimDiff, DimSub, Matrix4, OMatrix, SMatrix, U1};
 use serde::Serialize;
 
 use crate::operation_count;
@@ -37,17 +38,8 @@ impl Multipliers {
     /// Eigenvalues of `jacobian`; `None` where it is not finite or the iteration does not converge.
     pub fn of(jacobian: &Matrix4<f64>) -> Option<Self> {
         operation_count::note(SCHUR);
-        let size = jacobian.amax();
-        if !size.is_finite() {
-            return None;
-        }
-        let mut values = SHIFTS.iter().find_map(|shift| eigenvalues(jacobian, shift * size))?;
-        values.sort_by(|a, b| {
-            let key = |c: &Complex<f64>| libm::hypot(c.re, c.im);
-            // Conjugates have equal moduli to the last bit; the positive imaginary part comes first.
-            key(b).total_cmp(&key(a)).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im))
-        });
-        Some(Self { values: values.map(|value| [value.re, value.im]) })
+        let values = eigenvalues(jacobian)?;
+        Some(Self { values: [0, 1, 2, 3].map(|k| values[k]) })
     }
 
     /// Largest modulus.
@@ -64,9 +56,7 @@ impl Multipliers {
     /// Whether a complex pair lies on the unit circle: a root of [`unit_product`] that is a
     /// Neimark-Sacker bifurcation.
     pub(super) fn has_pair_on_circle(&self) -> bool {
-        let on_circle =
-            |[re, im]: &[f64; 2]| *im != 0.0 && (libm::hypot(*re, *im) - 1.0).abs() < ON_CIRCLE;
-        self.values.iter().any(on_circle)
+        has_pair_on_circle(&self.values)
     }
 
     /// What kind of multiplier is the largest.
@@ -92,16 +82,52 @@ pub enum Leading {
     ComplexPair,
 }
 
-fn eigenvalues(jacobian: &Matrix4<f64>, shift: f64) -> Option<[Complex<f64>; 4]> {
-    let mut shifted = jacobian + Matrix4::identity() * shift;
+/// Eigenvalues `[re, im]` of a matrix of any size, largest modulus first, conjugates next to one another; `None` where it is not
+/// finite or the iteration does not converge.
+pub(super) fn eigenvalues<D>(matrix: &OMatrix<f64, D, D>) -> Option<Vec<[f64; 2]>>
+where
+    D: Dim + DimSub<U1>,
+    DefaultAllocator:
+        Allocator<D, D> + Allocator<D> + Allocator<DimDiff<D, U1>> + Allocator<D, DimDiff<D, U1>>,
+{
+    let size = matrix.amax();
+    if !size.is_finite() {
+        return None;
+    }
+    let mut values = SHIFTS.iter().find_map(|shift| shifted_eigenvalues(matrix, shift * size))?;
+    values.sort_by(|a, b| {
+        let key = |[re, im]: &[f64; 2]| libm::hypot(*re, *im);
+        // Conjugates have equal moduli to the last bit; the positive imaginary part comes first.
+        key(b).total_cmp(&key(a)).then(b[0].total_cmp(&a[0])).then(b[1].total_cmp(&a[1]))
+    });
+    Some(values)
+}
+
+fn shifted_eigenvalues<D>(matrix: &OMatrix<f64, D, D>, shift: f64) -> Option<Vec<[f64; 2]>>
+where
+    D: Dim + DimSub<U1>,
+    DefaultAllocator:
+        Allocator<D, D> + Allocator<D> + Allocator<DimDiff<D, U1>> + Allocator<D, DimDiff<D, U1>>,
+{
+    let mut shifted = matrix.clone_owned();
+    shifted +=
+        OMatrix::<f64, D, D>::identity_generic(matrix.shape_generic().0, matrix.shape_generic().1)
+            * shift;
     // A phase beside displacements of many clearances: without this the small entries are lost in the rounding of the large.
-    if jacobian.amax() > UNBALANCED {
+    if matrix.amax() > UNBALANCED {
         balance_parlett_reinsch(&mut shifted);
     }
     let schur = Schur::try_new(shifted, f64::EPSILON, LARGEST_SWEEPS)?;
     let found = schur.complex_eigenvalues();
-    let values = [0, 1, 2, 3].map(|k| found[k] - shift);
-    values.iter().all(|value| value.re.is_finite() && value.im.is_finite()).then_some(values)
+    let values: Vec<[f64; 2]> = found.iter().map(|value| [value.re - shift, value.im]).collect();
+    values.iter().flatten().all(|part| part.is_finite()).then_some(values)
+}
+
+/// Whether one of a complex pair lies on the unit circle.
+pub(super) fn has_pair_on_circle(multipliers: &[[f64; 2]]) -> bool {
+    let on_circle =
+        |[re, im]: &[f64; 2]| *im != 0.0 && (libm::hypot(*re, *im) - 1.0).abs() < ON_CIRCLE;
+    multipliers.iter().any(on_circle)
 }
 
 /// `det(J - I)`: 0 where a multiplier is +1.

@@ -1,5 +1,4 @@
-//! From one orbit of a branch to the next: pseudo-arclength continuation in one parameter (Keller
-//! 1977). A predictor along the tangent, Newton's method on the plane across it.
+//! Orbits of one mode with one absorber over one parameter, as [`super::continuation`] follows them.
 
 use std::cell::OnceCell;
 
@@ -7,25 +6,19 @@ use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
 use super::admissibility::Distances;
+use super::continuation::{Family, Traced};
 use super::cycle::Cycle;
 use super::impact_map::ImpactMap;
+use super::locate::located;
 use super::newton::{Converged, PARAMETER, converge, corrected};
 use super::orbit::{Orbit, Origin};
+use super::special_point::SpecialPoint;
+use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
-/// Smallest step before a branch is given up: the root of the precision of a point, over less the tangent
-/// is rounding.
-const SMALLEST_STEP: f64 = 1e-7;
 /// Scale of a parameter whose first value is smaller: a restitution of 0 is no measure of its own
 /// changes.
-const SMALLEST_SCALE: f64 = 0.1;
-/// Cosine of the angle by which a branch may turn in one step: 26 degrees, well short of taking the
-/// far side of a fold for its near one.
-const LARGEST_TURN: f64 = 0.9;
-/// Distance to the orbit at the edge of a range, over the step, beyond which it is on another branch:
-/// along this one it is a step away, and a little more where the branch is curved.
-const SAME_BRANCH: f64 = 2.0;
-
+pub(super) const SMALLEST_SCALE: f64 = 0.1;
 /// A point while a branch is followed: a cycle that closes. What it is as an orbit is measured only
 /// where somebody asks, as most points serve to locate a bifurcation.
 #[derive(Debug, Clone)]
@@ -42,19 +35,9 @@ impl TracedPoint {
         &self.found.cycle
     }
 
-    /// The parameter over its scale.
-    pub fn parameter(&self) -> f64 {
-        self.found.parameter
-    }
-
     /// Jacobian of the map around the cycle.
     pub fn jacobian(&self) -> &Matrix4<f64> {
         &self.found.linear.jacobian
-    }
-
-    /// Newton steps that led to it.
-    pub fn iterations(&self) -> u32 {
-        self.found.convergence.iterations
     }
 
     /// How close it comes to the walls and how slowly to impacts; whether it is a motion is not proven.
@@ -70,11 +53,6 @@ impl TracedPoint {
         let Converged { cycle, map, linear, convergence, .. } = &self.found;
         let admissibility = self.distances().proven(map, cycle);
         Orbit::measured(cycle.clone(), &linear.jacobian, *convergence, admissibility, origin)
-    }
-
-    /// First state and scaled parameter, as the arclength measures them.
-    pub fn place(&self) -> Vector5<f64> {
-        self.cycle().impacts[0].vector().push(self.parameter())
     }
 }
 
@@ -97,17 +75,6 @@ impl<'a> Tracer<'a> {
             _ => own.max(SMALLEST_SCALE),
         };
         Self { base, parameter, scale }
-    }
-
-    /// The parameter at a point.
-    pub fn value(&self, point: &TracedPoint) -> f64 {
-        point.parameter() * self.scale
-    }
-
-    /// How long a point's flights take, in radians of the faster of structure and excitation.
-    pub fn radians(&self, point: &TracedPoint) -> f64 {
-        let frequency = self.base.frequency_ratio().max(1.0);
-        frequency * point.cycle().durations.iter().sum::<f64>()
     }
 
     /// The impact map at a scaled parameter, and [`Parameter::derivatives`] over its scale.
@@ -150,73 +117,51 @@ impl<'a> Tracer<'a> {
     fn predicted(point: &TracedPoint, step: f64) -> Cycle {
         point.found.linear.moved(point.cycle(), &(point.tangent * step))
     }
+}
 
-    /// The point an arclength `step` along the branch from `point`.
-    ///
-    /// # Errors
-    /// As [`Tracer::correct`].
-    pub fn advance(&self, point: &TracedPoint, step: f64) -> Result<TracedPoint, OrbitError> {
-        let ahead = step * point.tangent[4];
-        self.correct(
-            Self::predicted(point, step),
-            point.parameter() + ahead,
-            &point.tangent,
-            &point.tangent,
-        )
+impl Traced for TracedPoint {
+    type Place = [f64; 5];
+    fn place(&self) -> [f64; 5] {
+        self.cycle().impacts[0].vector().push(self.found.parameter).into()
     }
-
-    /// The next point, with the step that reached it: halved until the corrector converges and the
-    /// branch turns little.
-    ///
-    /// # Errors
-    /// Why no step down to [`SMALLEST_STEP`] reached one.
-    pub fn next(
-        &self,
-        here: &TracedPoint,
-        mut step: f64,
-    ) -> Result<(TracedPoint, f64), OrbitError> {
-        loop {
-            let failure = match self.advance(here, step) {
-                Ok(there) if there.tangent.dot(&here.tangent) >= LARGEST_TURN => {
-                    return Ok((there, step));
-                }
-                Ok(_) => OrbitError::Singular,
-                Err(failure) => failure,
-            };
-            step *= 0.5;
-            if step < SMALLEST_STEP {
-                return Err(failure);
-            }
-        }
+    fn tangent(&self) -> &[f64] {
+        self.tangent.as_slice()
     }
+    fn iterations(&self) -> u32 {
+        self.found.convergence.iterations
+    }
+    fn parameter(&self) -> f64 {
+        self.found.parameter
+    }
+}
 
-    /// The orbit at the edge of `range` (values of the parameter) and the value there, if the next
-    /// step would leave it: parameters need not exist beyond (a restitution above 1).
-    pub fn at_edge(
+impl Family for Tracer<'_> {
+    type Point = TracedPoint;
+    type Special = SpecialPoint;
+    fn scale(&self) -> f64 {
+        self.scale
+    }
+    fn radians(&self, point: &TracedPoint) -> f64 {
+        let frequency = self.base.frequency_ratio().max(1.0);
+        frequency * point.cycle().durations.iter().sum::<f64>()
+    }
+    fn advance(&self, from: &TracedPoint, step: f64) -> Result<TracedPoint, OrbitError> {
+        let ahead = from.parameter() + step * from.rise();
+        self.correct(Self::predicted(from, step), ahead, &from.tangent, &from.tangent)
+    }
+    fn at_parameter(
         &self,
-        here: &TracedPoint,
+        from: &TracedPoint,
         step: f64,
-        range: [f64; 2],
-    ) -> Option<(TracedPoint, f64)> {
-        let [low, high] = range.map(|edge| edge / self.scale);
-        let ahead = here.parameter() + step * here.tangent[4];
-        let edge = if ahead > high {
-            high
-        } else if ahead < low {
-            low
-        } else {
-            return None;
-        };
-        let change = edge - here.parameter();
-        let share = change / here.tangent[4];
-        let there = self
-            .correct(Self::predicted(here, share), edge, &PARAMETER.into(), &here.tangent)
-            .ok()?;
-        // A branch that turns back before the edge must not be left for another one.
-        let distance = (there.place() - here.place()).norm();
-        let same = distance <= SAME_BRANCH * step.max(share.abs())
-            && there.tangent.dot(&here.tangent) >= LARGEST_TURN;
-        same.then_some((there, edge * self.scale))
+        scaled: f64,
+    ) -> Result<TracedPoint, OrbitError> {
+        self.correct(Self::predicted(from, step), scaled, &PARAMETER.into(), &from.tangent)
+    }
+    fn between(&self, here: &TracedPoint, there: &TracedPoint, step: f64) -> Vec<SpecialPoint> {
+        located(self, here, there, step)
+    }
+    fn bifurcation(special: &SpecialPoint) -> (Bifurcation, f64) {
+        (special.kind, special.value)
     }
 }
 

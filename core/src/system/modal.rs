@@ -249,6 +249,59 @@ impl ModalSystem {
     }
 }
 
+/// A number of a [`ModalSystem`] that varies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum ModalParameter {
+    /// All forces and the motion of the base, over what they are.
+    Excitation,
+    /// `Omega`.
+    FrequencyRatio,
+    /// `b_j` of an absorber, from 0.
+    Clearance(usize),
+    /// `r_j` of an absorber, from 0.
+    Restitution(usize),
+}
+
+impl ModalParameter {
+    /// Its value; not a number where there is no such absorber.
+    pub fn of(self, system: &ModalSystem) -> f64 {
+        let absorber = |j: usize| system.absorbers().get(j);
+        match self {
+            Self::Excitation => 1.0,
+            Self::FrequencyRatio => system.frequency_ratio(),
+            Self::Clearance(j) => absorber(j).map_or(f64::NAN, |one| one.clearance),
+            Self::Restitution(j) => absorber(j).map_or(f64::NAN, |one| one.restitution),
+        }
+    }
+
+    /// The system with another value; with none of an absorber that there is not.
+    ///
+    /// # Errors
+    /// [`InvalidModalSystem`] where a system cannot have it.
+    pub fn applied(
+        self,
+        system: &ModalSystem,
+        value: f64,
+    ) -> Result<ModalSystem, InvalidModalSystem> {
+        let mut numbers = system.0.clone();
+        let absorber = |of: &mut ModalParameters, j: usize, set: fn(&mut ModalAbsorber, f64)| {
+            of.absorbers.get_mut(j).into_iter().for_each(|one| set(one, value));
+        };
+        match self {
+            Self::Excitation => {
+                numbers.modes.iter_mut().for_each(|mode| mode.forcing *= value);
+                numbers.base_amplitude *= value;
+            }
+            Self::FrequencyRatio => numbers.frequency_ratio = value,
+            Self::Clearance(j) => absorber(&mut numbers, j, |one, b| one.clearance = b),
+            Self::Restitution(j) => absorber(&mut numbers, j, |one, r| one.restitution = r),
+        }
+        ModalSystem::new(numbers)
+    }
+}
+
 /// Displacements and velocities of modes and absorbers; those that a system does not have are 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct ModalState {

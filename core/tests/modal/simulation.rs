@@ -23,7 +23,7 @@ impl Noise {
 }
 
 /// A structure of modes and absorbers that meet their walls often.
-fn random(noise: &mut Noise, modes: usize, absorbers: usize) -> ModalSystem {
+pub fn random(noise: &mut Noise, modes: usize, absorbers: usize) -> ModalSystem {
     let mut frequency = 1.0;
     let spread = if modes > 3 { 1.6 } else { 4.0 };
     let modes = (0..modes).map(|k| {
