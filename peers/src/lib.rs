@@ -6,6 +6,7 @@ pub mod engine;
 pub mod judge;
 pub mod runge_kutta;
 pub mod script;
+pub mod several;
 
 #[path = "../../tests/reference/mod.rs"]
 mod reference;

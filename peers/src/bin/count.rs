@@ -4,16 +4,22 @@
 use std::process::ExitCode;
 
 use vinesink_peers::engine::Engine;
-use vinesink_peers::{Failure, system};
+use vinesink_peers::{Failure, several, system};
 
 fn answer() -> Result<String, Failure> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let words = Engine::ALL.map(Engine::word).join(" ");
+    let words = Engine::ALL.map(|engine| engine.word().to_owned()).into_iter();
+    let words: Vec<String> = words.chain(several::SIZES.map(several::word)).collect();
+    let words = words.join(" ");
     match &arguments[..] {
         [engine, clearance, periods] => {
-            let engine = Engine::named(engine)
-                .ok_or_else(|| format!("no engine {engine}: there is {words}"))?;
-            let impacts = engine.impacts(&system(clearance.parse()?), periods.parse()?)?;
+            let (clearance, periods) = (clearance.parse()?, periods.parse()?);
+            let size = several::SIZES.into_iter().find(|size| several::word(*size) == *engine);
+            let impacts = match (size, Engine::named(engine)) {
+                (Some(size), _) => several::impacts(size, clearance, periods)?,
+                (None, Some(engine)) => engine.impacts(&system(clearance), periods)?,
+                (None, None) => return Err(format!("no engine {engine}: there is {words}").into()),
+            };
             Ok(impacts.to_string())
         }
         [option] if option == "--engines" => Ok(words),

@@ -1,6 +1,6 @@
 //! Flights of all absorbers from event to event: each one's first root is proven by itself, and the least is the event.
 
-use super::motion::{Constants, Gap, Phasors};
+use super::motion::{Constants, Gap, Phasors, longer, longest};
 use super::{Limits, STILL, Told};
 use crate::numerics::crossing::{
     Crossing, CrossingBand, Curve, Edge, Sample, Search, first_crossing,
@@ -17,8 +17,6 @@ use crate::simulation::{Detail, Side, Stop};
 const SHORTEST: f64 = 1e-3;
 /// Of the time in which an absorber that leaves a wall comes back, what is looked at first.
 const BEYOND_RETURN: f64 = 1.4;
-/// Least share of an excursion that an impact is taken to lose: nearly elastic impacts would else all be looked at.
-const LEAST_LOSS: f64 = 1e-6;
 /// Rounding that hides the walls, over the clearance.
 pub(super) const LARGEST_TOUCH: f64 = 0.1;
 
@@ -113,7 +111,7 @@ impl<const N: usize, const M: usize> Constants<N, M> {
             }
             // Opened by what it leaves the wall with: the rest is looked at where it is rare.
             let [excursion, bend] = may_stick[j];
-            let largest = bend + self.kicks[j].bend * opening / self.kicks[j].restitution.max(1e-3);
+            let largest = bend + self.kicks[j].bend * opening;
             if opening * opening <= 2.0 * excursion * largest {
                 return Ok(FlightEnd::MayStick);
             }
@@ -183,16 +181,45 @@ impl<const N: usize, const M: usize> Constants<N, M> {
                 }
             }
             gaps[j] = gap;
-            let r = self.kicks[j].restitution;
             let tolerated = ContactTolerance::default().excursion;
-            may_stick[j] = [tolerated.max(touch / ((1.0 - r) * (1.0 + r)).max(LEAST_LOSS)), bend];
+            may_stick[j] = [tolerated.max(touch * self.kicks[j].inverse_loss), bend];
         }
         if at_once.is_some() {
             return Ok((Landing { time: 0.0, wall: at_once, at: here }, may_stick));
         }
         let (mut time, mut lines) = (0.0, at.lines);
+        let slack = watched.iter().map(|one| one.slack.coefficient);
+        let most = if slow { 0 } else { longest(slack) };
+        let mut length = most;
         loop {
-            let there = self.next(&here);
+            if length > 0 {
+                // As far as nothing is near a wall.
+                let (times, there) = (longer(length), self.next(&here, length));
+                let (free, step) = (self.free(&there), self.step * times);
+                let (reach, mut ends, mut clear) = (time + step, gaps, true);
+                at.evaluations += 1;
+                for j in 0..M {
+                    let line = at.lines[j].from(reach);
+                    ends[j] = Gap::of(self.seen(&self.views[j], &free, there.rotor), line);
+                    let slack = watched[j].slack.part(times);
+                    clear &= Hull::of(&gaps[j], &ends[j], step, &slack).clear();
+                }
+                if !clear {
+                    length -= 1;
+                    continue;
+                }
+                if left <= reach {
+                    at.evaluations += 1;
+                    let at = self.far_after(&here, left - time);
+                    return Ok((Landing { time: left, wall: None, at }, may_stick));
+                }
+                (here, time, gaps) = (there, reach, ends);
+                continue;
+            }
+            for (line, from) in lines.iter_mut().zip(&at.lines) {
+                *line = from.from(time);
+            }
+            let there = self.next(&here, 0);
             let free = self.free(&there);
             at.evaluations += 1;
             let reach = time + self.step;
@@ -227,6 +254,7 @@ impl<const N: usize, const M: usize> Constants<N, M> {
                     let landing = Landing { time: time + found.time, ..found };
                     return Ok((landing, may_stick));
                 }
+                length = most;
             }
             if left <= reach {
                 at.evaluations += 1;
@@ -234,9 +262,6 @@ impl<const N: usize, const M: usize> Constants<N, M> {
                 return Ok((Landing { time: left, wall: None, at }, may_stick));
             }
             (here, time, gaps) = (there, reach, ends);
-            for (line, from) in lines.iter_mut().zip(&at.lines) {
-                *line = from.from(time);
-            }
         }
     }
 

@@ -7,7 +7,7 @@
 //! Gauss and Legendre with [`NODES`] nodes, whose error in panels of 0.5 rad is below `1e-15` of the squared amplitude.
 
 use super::contact::HeldPanel;
-use super::motion::{Constants, Gap, Phasors, View};
+use super::motion::{Constants, Gap, Phasors, View, longer, longest};
 use super::{All, Course, MOST, ModalImpact, ModalObserver, ModalSegment, STILL};
 use crate::numerics::gauss;
 use crate::simulation::certificate::{Hull, Quintic};
@@ -219,25 +219,48 @@ impl ModalMeter {
             })
             .collect();
         let first = Phasors { z: std::array::from_fn(|k| begin.z[k]), rotor: begin.rotor };
-        let (mut here, mut left) = (first, whole);
+        let of = |view: &View<N>, at: &Phasors<N>| {
+            Gap::of(constants.seen(view, &constants.free(at), at.rotor), STILL)
+        };
+        // Of what is known, as the certificate of flights is of a clearance.
+        let slack = |(_, (slack, _), peak): &(View<N>, (Slack<f64>, f64), &mut f64)| {
+            slack.coefficient / **peak
+        };
+        let most = longest(watched.iter().map(slack));
+        let (mut here, mut left, mut times) = (first, whole, most);
         while left > 0.0 {
-            let length = constants.step.min(left);
+            let length = constants.step * longer(times);
+            if times > 0 {
+                let there = constants.next(&here, times);
+                let clear = length <= left
+                    && watched.iter().all(|(view, (slack, _), peak)| {
+                        let slack = slack.part(longer(times));
+                        let (here, there) = (of(view, &here), of(view, &there));
+                        Hull::of(&here, &there, length, &slack).highest() <= **peak
+                    });
+                if clear {
+                    (here, left) = (there, left - length);
+                } else {
+                    times -= 1;
+                }
+                continue;
+            }
+            let length = length.min(left);
             let there = if length < constants.step {
                 constants.after(&here, length)
             } else {
-                constants.next(&here)
+                constants.next(&here, 0)
             };
             for (view, (slack, bend), peak) in &mut watched {
                 let ends = view.at(&here).abs().max(view.at(&there).abs());
                 if ends + 0.125 * *bend * length * length <= **peak {
                     continue;
                 }
-                let of = |at: &Phasors<N>| {
-                    Gap::of(constants.seen(view, &constants.free(at), at.rotor), STILL)
-                };
-                let moment = |s: f64| of(&constants.after(&here, s));
+                let moment = |s: f64| of(view, &constants.after(&here, s));
                 let slack = slack.part(length / constants.step);
-                **peak = highest(moment, [of(&here), of(&there)], length, slack, **peak);
+                let ends = [of(view, &here), of(view, &there)];
+                **peak = highest(moment, ends, length, slack, **peak);
+                times = most;
             }
             (here, left) = (there, left - length);
         }

@@ -12,8 +12,32 @@ use crate::simulation::phasor::{Slack, multiply};
 use crate::simulation::small::{LARGEST_ANGLE, small_angle, small_exponential};
 use crate::system::{LinearResponse, MOST_MODES, ModalSystem};
 
+/// Least share of an excursion that an impact is taken to lose: nearly elastic impacts would else all be looked at.
+const LEAST_LOSS: f64 = 1e-6;
+/// Least restitution by which what is left of an impact's speed is divided.
+const SMALLEST_RESTITUTION: f64 = 1e-3;
 /// Rounding of a place over the sum of the sizes that it is made of.
 const TOUCH: f64 = 16.0 * f64::EPSILON;
+
+/// Lengths of panels, each twice the one before: as far as the certificate allows, slow motions are not flown in steps of the
+/// fastest mode.
+const LENGTHS: usize = 6;
+/// What a panel's quintic may be off, `S/7200` over the clearance: so much is lost of the way to a wall.
+const MOST_SLACK: f64 = 0.02;
+
+/// By how much a panel is longer than the shortest.
+pub(super) fn longer(length: usize) -> f64 {
+    (1_u32 << length) as f64
+}
+
+/// The longest panels whose quintics say enough, from what those of the shortest may be off.
+pub(super) fn longest(slack: impl Iterator<Item = f64>) -> usize {
+    let (mut length, mut slack) = (0, 64.0 * slack.fold(0.0, f64::max));
+    while length + 1 < LENGTHS && slack <= MOST_SLACK {
+        (length, slack) = (length + 1, 64.0 * slack);
+    }
+    length
+}
 
 /// A mode's own rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,8 +46,8 @@ pub(super) struct ModeRates {
     pub ringing: f64,
     pub inverse_ringing: f64,
     pub stiffness: f64,
-    /// `e^{p h}` of a panel.
-    turn: [f64; 2],
+    /// `e^{p h}` of a panel of each length.
+    turns: [[f64; 2]; LENGTHS],
 }
 
 /// What moves at one place, over a length.
@@ -51,9 +75,11 @@ pub(super) struct Kick<const N: usize> {
     push: f64,
     /// Energy lost, by the square.
     loss: f64,
-    /// What the jump adds to the bound of the acceleration.
+    /// What the jump adds to the bound of the acceleration, by the speed at which the gap opens.
     pub bend: f64,
     pub restitution: f64,
+    /// `1/(1 - r^2)`: an impact takes the share `1 - r^2` of an excursion's energy.
+    pub inverse_loss: f64,
 }
 
 /// The constants of `N` modes and `M` absorbers.
@@ -61,12 +87,12 @@ pub(super) struct Kick<const N: usize> {
 pub(super) struct Constants<const N: usize, const M: usize> {
     /// The fastest of modes and excitation.
     pub fastest: f64,
-    /// Length of a panel.
+    /// Length of the shortest panel.
     pub step: f64,
     pub frequency: f64,
     inverse_frequency: f64,
-    /// `sin` and `cos` of `Omega h`.
-    swing: [f64; 2],
+    /// `sin` and `cos` of `Omega h` of a panel of each length.
+    swings: [[f64; 2]; LENGTHS],
     pub modes: [ModeRates; N],
     pub views: [View<N>; M],
     pub kicks: [Kick<N>; M],
@@ -122,14 +148,14 @@ impl Constants<MOST_MODES, MOST_MODES> {
             ringing: 1.0,
             inverse_ringing: 0.0,
             stiffness: 0.0,
-            turn: [1.0, 0.0],
+            turns: [[1.0, 0.0]; LENGTHS],
         };
         let mut constants = Self {
             fastest,
             step,
             frequency,
             inverse_frequency: 1.0 / frequency,
-            swing: sine_and_cosine(frequency * step),
+            swings: std::array::from_fn(|n| sine_and_cosine(frequency * step * longer(n))),
             modes: [still; MOST_MODES],
             views: [View::NONE; MOST_MODES],
             kicks: [Kick::NONE; MOST_MODES],
@@ -138,14 +164,18 @@ impl Constants<MOST_MODES, MOST_MODES> {
             let decay = mode.damping_ratio * mode.frequency;
             let squared = (1.0 - mode.damping_ratio) * (1.0 + mode.damping_ratio);
             let ringing = mode.frequency * squared.sqrt();
-            let ([sin, cos], envelope) =
-                (sine_and_cosine(ringing * step), libm::exp(-decay * step));
+            let turns = std::array::from_fn(|n| {
+                let length = step * longer(n);
+                let ([sin, cos], envelope) =
+                    (sine_and_cosine(ringing * length), libm::exp(-decay * length));
+                [envelope * cos, envelope * sin]
+            });
             *rates = ModeRates {
                 decay,
                 ringing,
                 inverse_ringing: 1.0 / ringing,
                 stiffness: mode.frequency * mode.frequency,
-                turn: [envelope * cos, envelope * sin],
+                turns,
             };
         }
         for (j, absorber) in system.absorbers().iter().enumerate() {
@@ -158,6 +188,7 @@ impl Constants<MOST_MODES, MOST_MODES> {
                 push: (1.0 + r) * seen / absorber.mass,
                 loss: 0.5 * seen * (1.0 - r) * (1.0 + r) * b * b,
                 restitution: r,
+                inverse_loss: 1.0 / ((1.0 - r) * (1.0 + r)).max(LEAST_LOSS),
                 ..Kick::NONE
             };
             for (k, mode) in modes.iter().enumerate() {
@@ -165,6 +196,7 @@ impl Constants<MOST_MODES, MOST_MODES> {
                 kick.turn[k] = impulse * constants.modes[k].inverse_ringing;
                 kick.bend += view.second[k] * kick.turn[k].abs();
             }
+            kick.bend /= r.max(SMALLEST_RESTITUTION);
             (constants.views[j], constants.kicks[j]) = (view, kick);
         }
         constants
@@ -205,7 +237,7 @@ impl Constants<MOST_MODES, MOST_MODES> {
             step: self.step,
             frequency: self.frequency,
             inverse_frequency: self.inverse_frequency,
-            swing: self.swing,
+            swings: self.swings,
             modes: std::array::from_fn(|k| self.modes[k]),
             views: std::array::from_fn(|j| self.views[j].first()),
             kicks: std::array::from_fn(|j| Kick {
@@ -214,6 +246,7 @@ impl Constants<MOST_MODES, MOST_MODES> {
                 loss: self.kicks[j].loss,
                 bend: self.kicks[j].bend,
                 restitution: self.kicks[j].restitution,
+                inverse_loss: self.kicks[j].inverse_loss,
             }),
         }
     }
@@ -259,8 +292,14 @@ impl<const N: usize> View<N> {
 }
 
 impl Kick<MOST_MODES> {
-    const NONE: Self =
-        Self { turn: [0.0; MOST_MODES], push: 0.0, loss: 0.0, bend: 0.0, restitution: 1.0 };
+    const NONE: Self = Self {
+        turn: [0.0; MOST_MODES],
+        push: 0.0,
+        loss: 0.0,
+        bend: 0.0,
+        restitution: 1.0,
+        inverse_loss: 1.0,
+    };
 }
 
 impl<const N: usize> Phasors<N> {
@@ -269,40 +308,51 @@ impl<const N: usize> Phasors<N> {
     fn turned(&self, modes: &[ModeRates; N], frequency: f64, e: f64) -> Self {
         let mut turned = *self;
         for (z, mode) in turned.z.iter_mut().zip(modes) {
-            *z = multiply(*z, near([-mode.decay * e, mode.ringing * e]));
+            *z = multiply(*z, near(-mode.decay * e, mode.ringing * e));
         }
         let [sin, cos] = self.rotor;
-        let [c, s] = near([0.0, frequency * e]);
+        let [c, s] = near(0.0, frequency * e);
         turned.rotor = [sin * c + cos * s, cos * c - sin * s];
         turned
     }
 }
 
-/// `e^z` of a small number.
+/// `e^{x + i angle}` of numbers of at most `1e-4`, to the fourth order.
 #[inline(always)]
-fn near(z: [f64; 2]) -> [f64; 2] {
-    let mut sum = [1.0, 0.0];
-    for n in [4.0, 3.0, 2.0, 1.0] {
-        let [re, im] = multiply(sum, z);
-        sum = [1.0 + re / n, im / n];
-    }
-    sum
+fn near(x: f64, angle: f64) -> [f64; 2] {
+    let envelope = 1.0 + x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0))));
+    let squared = angle * angle;
+    let cos = 1.0 - squared * (0.5 - squared * (1.0 / 24.0));
+    let sin = angle * (1.0 - squared * (1.0 / 6.0));
+    [envelope * cos, envelope * sin]
 }
 
 impl<const N: usize, const M: usize> Constants<N, M> {
-    /// A whole panel on.
+    /// A whole panel of a length on.
     #[inline(always)]
-    pub fn next(&self, here: &Phasors<N>) -> Phasors<N> {
+    pub fn next(&self, here: &Phasors<N>, length: usize) -> Phasors<N> {
         let mut next = *here;
         for (z, mode) in next.z.iter_mut().zip(&self.modes) {
-            *z = multiply(*z, mode.turn);
+            *z = multiply(*z, mode.turns[length]);
         }
-        let ([sin, cos], [s, c]) = (here.rotor, self.swing);
+        let ([sin, cos], [s, c]) = (here.rotor, self.swings[length]);
         next.rotor = [sin * c + cos * s, cos * c - sin * s];
         next
     }
 
-    /// A time `s` on, at most a panel.
+    /// A time `s` on, at most the longest panel.
+    pub fn far_after(&self, here: &Phasors<N>, mut s: f64) -> Phasors<N> {
+        let mut there = *here;
+        for length in (0..LENGTHS).rev() {
+            let whole = self.step * longer(length);
+            if whole <= s {
+                (there, s) = (self.next(&there, length), s - whole);
+            }
+        }
+        self.after(&there, s)
+    }
+
+    /// A time `s` on, at most the shortest panel.
     #[inline(always)]
     pub fn after(&self, here: &Phasors<N>, s: f64) -> Phasors<N> {
         let mut there = *here;
