@@ -137,8 +137,8 @@ pub fn riding(kind: &Kind, flights: [f64; 2], [top, error]: [f64; 2]) -> [f64; 2
     let least = flights[0].max(top - rides);
     let most = top + error + rides;
     match kind.error {
-        ErrorKind::Bound => [least, most - least],
-        ErrorKind::Interval => [0.5 * (least + most), 0.5 * (most - least)],
+        ErrorKind::Most => [least, most - least],
+        ErrorKind::Interval | ErrorKind::Least => [0.5 * (least + most), 0.5 * (most - least)],
     }
 }
 
@@ -210,7 +210,7 @@ impl Measure {
 
     /// Whether it is then the worst of what was seen, which may be worse and not better.
     pub fn is_worst(self, records: usize) -> bool {
-        self.kind_under(records).is_some_and(|kind| kind.error == ErrorKind::Bound)
+        self.kind_under(records).is_some_and(|kind| kind.error != ErrorKind::Interval)
     }
 
     /// Whether it makes sense of a structure that is subjected to this.

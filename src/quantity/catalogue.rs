@@ -80,8 +80,10 @@ pub enum Digits {
 pub enum ErrorKind {
     /// The value of an average: it may be off either way.
     Interval,
-    /// The worst value seen: the true one may be worse by the error, a reduction smaller, anything else larger.
-    Bound,
+    /// The largest value seen: the true one may be larger by the error.
+    Most,
+    /// The smallest value seen, of a reduction: the true one may be smaller by the error.
+    Least,
 }
 
 macro_rules! catalogue {
@@ -132,7 +134,7 @@ catalogue! {
     REDUCED_DAMPING = "reduced_damping", "λ", "reduced damping", Number, Significant(4), Interval;
     REDUCED_FORCING = "reduced_forcing", "G", "reduced forcing", Length, Significant(4), Interval;
     FORCING_PER_CLEARANCE = "forcing_per_clearance", "γ", "reduced forcing over the clearance", Number, Significant(4), Interval;
-    PEAK = "peak_displacement", "x̂", "peak displacement", Length, Significant(3), Bound;
+    PEAK = "peak_displacement", "x̂", "peak displacement", Length, Significant(3), Most;
     RMS = "rms_displacement", "", "rms displacement", Length, Significant(3), Interval;
     BARE_PEAK = "bare_peak", "", "peak displacement without absorber", Length, Significant(3), Interval;
     INACTIVE_PEAK = "inactive_peak", "", "peak displacement with an inactive absorber", Length, Significant(3), Interval;
@@ -142,11 +144,11 @@ catalogue! {
     DAMPER_FREQUENCY = "damper_frequency", "", "frequency of the tuned mass damper", Frequency, Significant(4), Interval;
     DAMPER_FREQUENCY_RATIO = "damper_frequency_ratio", "", "frequency of the tuned mass damper over the structure's", Number, Significant(4), Interval;
     DAMPER_DAMPING_RATIO = "damper_damping_ratio", "", "damping ratio of the tuned mass damper", Share, Significant(3), Interval;
-    CHANGE_DB = "change_db", "", "change against the structure without absorber", Level, Decimals(1), Interval;
+    CHANGE_DB = "change_db", "", "change against the structure without absorber", Level, Decimals(1), Most;
     RMS_CHANGE_DB = "rms_change_db", "", "change of the rms against the structure without absorber", Level, Decimals(1), Interval;
     IMPACTS_PER_PERIOD = "impacts_per_period", "z", "impacts per period", Number, Significant(4), Interval;
     CONTACT_TIME = "contact_time", "", "duration of an impact", Time, Significant(3), Interval;
-    IMPACT_SPEED = "impact_speed", "", "impact speed", Velocity, Significant(3), Bound;
+    IMPACT_SPEED = "impact_speed", "", "impact speed", Velocity, Significant(3), Most;
     START_SHARE = "start_share", "", "share of the starts", Share, Significant(2), Interval;
     MODULATION = "modulation_depth", "", "modulation", Share, Significant(2), Interval;
     CAPTURE_SHARE = "capture_share", "", "share of the time in 1:1 resonance", Share, Significant(2), Interval;
@@ -186,7 +188,7 @@ catalogue! {
     A2_SHARE = "a2_share", "", "share in strip A2", Share, Significant(3), Interval;
     PROBABILITY = "probability", "", "probability that all criteria hold", Share, Significant(3), Interval;
     STABLE_SHARE = "stable_share", "", "share with a stable 1:1 orbit", Share, Significant(3), Interval;
-    REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Bound;
+    REDUCTION_DB = "reduction_db", "", "reduction against the structure without absorber", Level, Decimals(1), Least;
     OSCILLATOR_AMPLITUDE_RATIO = "oscillator_amplitude_over_clearance", "C/b", "oscillator amplitude", Number, Significant(3), Interval;
     HARMONIC_AMPLITUDE = "harmonic_amplitude", "E", "first harmonic of the absorber", Length, Significant(3), Interval;
     HARMONIC_AMPLITUDE_RATIO = "harmonic_amplitude_over_clearance", "E/b", "first harmonic of the absorber", Number, Significant(3), Interval;
@@ -197,21 +199,21 @@ catalogue! {
     RELATIVE_DISPLACEMENT = "relative_displacement", "w", "relative displacement", Length, Significant(3), Interval;
     VELOCITY = "velocity", "ẋ", "velocity", Velocity, Significant(3), Interval;
     ACCELERATION = "acceleration", "ẍ", "acceleration", Acceleration, Significant(3), Interval;
-    PEAK_VELOCITY = "peak_velocity", "", "peak velocity", Velocity, Significant(3), Bound;
+    PEAK_VELOCITY = "peak_velocity", "", "peak velocity", Velocity, Significant(3), Most;
     RMS_VELOCITY = "rms_velocity", "", "rms velocity", Velocity, Significant(3), Interval;
-    PEAK_ACCELERATION = "peak_acceleration", "", "peak acceleration", Acceleration, Significant(3), Bound;
+    PEAK_ACCELERATION = "peak_acceleration", "", "peak acceleration", Acceleration, Significant(3), Most;
     RMS_ACCELERATION = "rms_acceleration", "", "rms acceleration between impacts", Acceleration, Significant(3), Interval;
     IMPULSE = "impulse", "", "impulse", Impulse, Significant(3), Interval;
     IMPACT_INTERVAL = "impact_interval", "Δt/T", "time between impacts", Number, Significant(3), Interval;
     NEXT_INTERVAL = "next_impact_interval", "Δtₖ₊₁/T", "the next one", Number, Significant(3), Interval;
     WINDOW = "window", "", "window in excitation periods", Number, Significant(3), Interval;
     SMALLEST_MARGIN = "smallest_margin", "", "smallest margin in clearance", Share, Significant(3), Interval;
-    REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Bound;
+    REDUCTION_DB_TMD = "reduction_db_tmd", "", "reduction against a tuned mass damper", Level, Decimals(1), Least;
     POINT_SHARE = "point_share", "", "share of the points", Share, Significant(3), Interval;
     THEORY_PEAK = "theory_peak", "", "smallest amplitude of a stable fixed point", Length, Significant(3), Interval;
     BOUNDARY_DISTANCE = "boundary_distance", "", "change of the excitation that leads to the nearest boundary of the theory", Change, Significant(2), Interval;
     ORBIT_PEAK = "orbit_peak", "", "peak displacement of the exact 1:1 orbit", Length, Significant(3), Interval;
-    LARGEST_PEAK = "largest_peak", "", "largest peak displacement of any motion", Length, Significant(3), Bound;
+    LARGEST_PEAK = "largest_peak", "", "largest peak displacement of any motion", Length, Significant(3), Most;
     MOTIONS = "motions", "", "number of motions", Count, Significant(3), Interval;
     REPEATS_AFTER = "repeats_after", "", "number of periods after which the motion repeats", Count, Significant(3), Interval;
     SECTION = "section", "", "displacement once a period", Length, Significant(3), Interval;
@@ -219,20 +221,20 @@ catalogue! {
     INITIAL_VELOCITY = "initial_velocity", "ẋ", "initial velocity", Velocity, Significant(3), Interval;
     INITIAL_ABSORBER_DISPLACEMENT = "initial_absorber_displacement", "y", "initial displacement of the absorber", Length, Significant(3), Interval;
     INITIAL_ABSORBER_VELOCITY = "initial_absorber_velocity", "ẏ", "initial velocity of the absorber", Velocity, Significant(3), Interval;
-    DECAY_TIME = "decay_time", "", "time to come to rest", Time, Significant(3), Bound;
+    DECAY_TIME = "decay_time", "", "time to come to rest", Time, Significant(3), Most;
     BARE_DECAY_TIME = "bare_decay_time", "", "time to come to rest without absorber", Time, Significant(3), Interval;
     DAMPER_DECAY_TIME = "damper_decay_time", "", "time to come to rest with a tuned mass damper", Time, Significant(3), Interval;
     THEORY_DECAY_TIME = "theory_decay_time", "", "time to come to rest by theory", Time, Significant(3), Interval;
-    ACTIVE_DECAY_TIME = "active_decay_time", "", "time to come to rest where the absorber wakes", Time, Significant(3), Bound;
+    ACTIVE_DECAY_TIME = "active_decay_time", "", "time to come to rest where the absorber wakes", Time, Significant(3), Most;
     FASTEST_DECAY_TIME = "fastest_decay_time", "", "shortest time to come to rest from any place of the absorber", Time, Significant(3), Interval;
     DECAY_LEVEL = "decay_level", "", "amplitude that counts as rest", Length, Significant(3), Interval;
     RESIDUAL_AMPLITUDE = "residual_amplitude", "", "amplitude at which capture ends", Length, Significant(3), Interval;
     INITIAL_AMPLITUDE = "initial_amplitude", "", "amplitude at the start", Length, Significant(3), Interval;
     IMPACT_ENERGY_SHARE = "impact_energy_share", "", "share of the energy that impacts take", Share, Significant(2), Interval;
     IMPACT_COUNT = "impact_count", "", "number of impacts", Count, Decimals(0), Interval;
-    LARGEST_RMS = "largest_rms", "", "largest rms displacement", Length, Significant(3), Bound;
-    LARGEST_RMS_VELOCITY = "largest_rms_velocity", "", "largest rms velocity", Velocity, Significant(3), Bound;
-    LARGEST_RMS_ACCELERATION = "largest_rms_acceleration", "", "largest rms acceleration between impacts", Acceleration, Significant(3), Bound;
+    LARGEST_RMS = "largest_rms", "", "largest rms displacement", Length, Significant(3), Most;
+    LARGEST_RMS_VELOCITY = "largest_rms_velocity", "", "largest rms velocity", Velocity, Significant(3), Most;
+    LARGEST_RMS_ACCELERATION = "largest_rms_acceleration", "", "largest rms acceleration between impacts", Acceleration, Significant(3), Most;
     MEAN_PEAK_VELOCITY = "mean_peak_velocity", "", "mean peak velocity", Velocity, Significant(3), Interval;
     MEAN_PEAK_ACCELERATION = "mean_peak_acceleration", "", "mean peak acceleration", Acceleration, Significant(3), Interval;
     MEAN_PEAK = "mean_peak", "", "mean peak displacement", Length, Significant(3), Interval;
@@ -250,7 +252,7 @@ catalogue! {
     PEAK_FREQUENCY = "peak_frequency", "", "frequency of the largest displacement", Frequency, Significant(4), Interval;
     BARE_PEAK_FREQUENCY = "bare_peak_frequency", "", "frequency of the largest displacement without absorber", Frequency, Significant(4), Interval;
     DAMPER_PEAK_FREQUENCY = "damper_peak_frequency", "", "frequency of the largest displacement with a tuned mass damper", Frequency, Significant(4), Interval;
-    RETURN_PEAK = "return_peak", "", "peak displacement of the sweep in the other direction", Length, Significant(3), Bound;
+    RETURN_PEAK = "return_peak", "", "peak displacement of the sweep in the other direction", Length, Significant(3), Most;
     RETURN_PEAK_FREQUENCY = "return_peak_frequency", "", "frequency of the largest displacement in the other direction", Frequency, Significant(4), Interval;
     LEAST_PEAK = "least_peak", "", "peak displacement from the best place of the absorber", Length, Significant(3), Interval;
     RELATIVE_CHANGE = "relative_change", "", "relative change", Change, Significant(2), Interval;

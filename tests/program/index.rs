@@ -113,12 +113,13 @@ fn a_case_with_a_band_is_judged_over_the_band() {
     let folder = folder(&[("li2016-band", "a")]);
     assert_eq!(index(folder.path()).0, 0);
     let (markdown, html) = (read(&folder, "README.md"), read(&folder, "index.html"));
-    let row = "| 11.5 mm | 8 Hz to 8.7 Hz | 14.6 mm (+0.27 mm) | −1.8 ± 0.2 dB | 3.39 mm |";
+    let row = "| 11.5 mm | 8 Hz to 8.7 Hz | 14.6 mm (+0.27 mm) | −1.8 dB (+0.2 dB) | 3.39 mm |";
     assert!(markdown.contains(row), "{markdown}");
     assert!(
         markdown.contains("\n1 case: 1 fails.\n") && markdown.contains("| **FAILS (1 of 5)** |")
     );
-    for cell in ["8 Hz to 8.7 Hz", "18.1 mm", "14.6 mm (+0.27 mm)", "−1.8 ± 0.2 dB", "3.39 mm"] {
+    for cell in ["8 Hz to 8.7 Hz", "18.1 mm", "14.6 mm (+0.27 mm)", "−1.8 dB (+0.2 dB)", "3.39 mm"]
+    {
         assert!(html.contains(&format!(">{cell}</td>")), "{cell}");
     }
     assert!(html.contains("<strong class=\"bad\">FAILS (1 of 5)</strong>"), "{html}");

@@ -119,15 +119,17 @@ impl Units {
             let number = text.trim_end_matches(" dB");
             return match kind.error {
                 _ if error == "0.0" => text,
-                ErrorKind::Bound => format!("{text} (\u{2212}{error} dB)"),
+                ErrorKind::Most => format!("{text} (+{error} dB)"),
+                ErrorKind::Least => format!("{text} (\u{2212}{error} dB)"),
                 ErrorKind::Interval => format!("{number} ± {error} dB"),
             };
         }
         match kind.error {
-            ErrorKind::Bound => {
+            ErrorKind::Most | ErrorKind::Least => {
                 let unit = self.unit(kind.dimension, value);
-                let more = joined(&significant(error / unit.size, 2), unit.symbol);
-                format!("{text} (+{more})")
+                let off = joined(&significant(error / unit.size, 2), unit.symbol);
+                let sign = if kind.error == ErrorKind::Most { '+' } else { '\u{2212}' };
+                format!("{text} ({sign}{off})")
             }
             ErrorKind::Interval => {
                 let unit = self.unit(kind.dimension, value);
@@ -265,8 +267,12 @@ mod tests {
         let found = units.with_error(&of::IMPACTS_PER_PERIOD, 0.6834, 0.1021, digits);
         assert_eq!(found, "0.68 ± 0.10");
         assert_eq!(units.with_error(&of::PEAK, 0.1223, 1e-6, digits), "122 mm");
-        let level = |error: f64| units.with_error(&of::CHANGE_DB, 1.98, error, Digits::Decimals(1));
-        assert_eq!([0.002, 2.04].map(level), ["+2.0 dB", "+2.0 ± 2.0 dB"]);
+        let level = |kind| {
+            [0.002, 2.04].map(|error| units.with_error(kind, 1.98, error, Digits::Decimals(1)))
+        };
+        assert_eq!(level(&of::RMS_CHANGE_DB), ["+2.0 dB", "+2.0 ± 2.0 dB"]);
+        // The largest that was seen may be exceeded.
+        assert_eq!(level(&of::CHANGE_DB), ["+2.0 dB", "+2.0 dB (+2.0 dB)"]);
         let least = units.with_error(&of::REDUCTION_DB, 2.0, 0.8, Digits::Decimals(1));
         assert_eq!(least, "+2.0 dB (\u{2212}0.8 dB)");
     }
