@@ -80,8 +80,8 @@ impl ModalCase {
 
     /// As `vinesink analyze --format json`.
     fn analyze(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
-        work::done(py, progress, |_| {
-            json(&analysis(&self.inner, &orbits(&self.inner).map_err(refused)?))
+        work::done(py, progress, |work| {
+            json(&analysis(&self.inner, &orbits(&self.inner, work).map_err(refused)?))
         })
     }
 

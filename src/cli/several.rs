@@ -50,7 +50,7 @@ pub fn simulate(one: &OneCase, case: &ModalCase) -> Result<bool> {
 
 /// Prints its exact orbits under each load.
 pub fn analyze(one: &OneCase, case: &ModalCase) -> Result<bool> {
-    let found = orbits(case).into_diagnostic()?;
+    let found = orbits(case, &Parallel).into_diagnostic()?;
     one.print(|| analysis_text(case, &found), || analysis(case, &found))?;
     Ok(true)
 }

@@ -1,6 +1,7 @@
 //! What a load does with other amplitudes: how far it may grow, and at which displacement each absorber works.
 
 use super::along::{AlongLoad, AtFrequency};
+use super::orbits::{Stretches, stable_amplitudes};
 use super::{ModalAnswer, ModalError, driven_mode, linear_peak};
 use crate::analysis::Grading;
 use crate::case::{Load, ModalCase, PlacedAbsorber};
@@ -24,6 +25,9 @@ pub struct OverForce {
     /// For each absorber the largest displacements of the structure in that mode, in m, between which it is in symmetric 1:1
     /// resonance by itself, at leading order; none of one at a node.
     pub working: Vec<Option<[f64; 2]>>,
+    /// The frequency of the mode that it is about, in Hz, and the amplitudes at which an exact orbit with two impacts of each
+    /// absorber per period attracts there; none where the structure has no steady motion.
+    pub exact: Option<(f64, Stretches)>,
 }
 
 /// What it does with one amplitude.
@@ -100,7 +104,8 @@ impl OverForce {
             ForceStep { times: times(step), motions, bare, outcomes }
         };
         let steps = found.chunks(at.len()).enumerate().map(step).collect();
-        Ok(Some(Self { at, steps, working: working(case, driven_mode(case, load)) }))
+        let exact = stable_amplitudes(case, load, centre).ok().map(|found| (centre, found));
+        Ok(Some(Self { at, steps, working: working(case, driven_mode(case, load)), exact }))
     }
 
     /// What limits come to; none without them.

@@ -10,6 +10,7 @@ mod drift;
 mod forces;
 mod linear;
 mod optimum;
+mod orbits;
 mod rest;
 mod sensors;
 
@@ -19,7 +20,6 @@ use crate::executor::Executor;
 use crate::measure::PlaceMeasure;
 use crate::method::Method;
 use crate::motions::longest_flight;
-use crate::orbits::{ModalOrbit, antiperiodic_orbits};
 use crate::simulation::ModalStartError;
 use crate::system::InvalidModalSystem;
 
@@ -29,6 +29,7 @@ pub use drift::{OffStructure, off_structures};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
+pub use orbits::{LoadOrbits, Stretches, orbits};
 pub use sensors::sensors;
 
 /// Why there is no answer.
@@ -139,18 +140,6 @@ impl ModalAnswer {
     pub fn all_hold(&self) -> bool {
         all_hold(&self.criteria())
     }
-}
-
-/// For each load the frequency of the mode that it is about, in Hz, and the exact orbits there.
-///
-/// # Errors
-/// [`ModalError::System`] where there is no steady motion.
-pub fn orbits(case: &ModalCase) -> Result<Vec<(f64, Vec<ModalOrbit>)>, ModalError> {
-    let of = |load: &Load| {
-        let at = load.centre(case);
-        Ok((at, antiperiodic_orbits(&case.system(load, at)?)))
-    };
-    case.loads.iter().map(of).collect()
 }
 
 /// The mode in which a load acts, or that which is nearest to its range.

@@ -179,15 +179,20 @@ impl Load {
         }
     }
 
-    /// The natural frequency of a mode in its range, of that which it acts on if it acts on one, in Hz; the middle of the range
+    /// The natural frequencies of modes in its range, of that which it acts on if it acts on one, in Hz; the middle of the range
     /// where there is none.
-    pub fn centre(&self, case: &ModalCase) -> f64 {
+    pub fn resonances(&self, case: &ModalCase) -> Vec<f64> {
         let [from, to] = self.range_hz;
         let modes = case.modes.iter().enumerate();
         let acts = |k: usize| !matches!(self.on, ActsOn::Mode(mode) if mode != k);
-        let mut within =
-            modes.filter(|(k, mode)| acts(*k) && (from..=to).contains(&mode.frequency_hz));
-        within.next().map_or(0.5 * (from + to), |(_, mode)| mode.frequency_hz)
+        let own = modes.filter(|(k, _)| acts(*k)).map(|(_, mode)| mode.frequency_hz);
+        let within: Vec<f64> = own.filter(|own| (from..=to).contains(own)).collect();
+        if within.is_empty() { vec![0.5 * (from + to)] } else { within }
+    }
+
+    /// The first of its [`resonances`](Self::resonances).
+    pub fn centre(&self, case: &ModalCase) -> f64 {
+        self.resonances(case)[0]
     }
 }
 

@@ -1,20 +1,23 @@
-//! The exact orbits under each load, and the amplitudes at which each absorber is in 1:1 resonance by theory.
+//! The exact orbits under each load and where they attract, and the amplitudes at which each absorber is in 1:1 resonance by
+//! theory.
 
 use serde_json::{Value, json};
 
-use super::{frequency_unit, given, load_row, units};
+use super::{frequency_unit, given, load_row, stretch_rows, units};
 use crate::case::ModalCase;
 use crate::method::Method;
-use crate::modal::working_range;
-use crate::orbits::ModalOrbit;
+use crate::modal::{LoadOrbits, Stretches, working_range};
+use crate::orbits::{ModalOrbit, ReachEnd};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 use crate::report::document::{Content, headed};
 use crate::report::error::RenderError;
 use crate::report::template::render;
+use crate::system::ModalParameter;
 
-/// `vinesink/answer@1`: for each load the frequency in Hz and the orbits there, in SI.
-pub fn analysis(case: &ModalCase, found: &[(f64, Vec<ModalOrbit>)]) -> Value {
+/// `vinesink/answer@1`: for each load and each mode in its range the frequency in Hz, the orbits there and where one attracts,
+/// in SI.
+pub fn analysis(case: &ModalCase, found: &[LoadOrbits]) -> Value {
     let omega = case.omega();
     let orbit = |one: &ModalOrbit| {
         let radius = one.spectral_radius();
@@ -28,8 +31,14 @@ pub fn analysis(case: &ModalCase, found: &[(f64, Vec<ModalOrbit>)]) -> Value {
         told["stable"] = json!(one.stable());
         told
     };
-    let loads = found.iter().map(|(at, orbits)| {
-        json!({ "at": at, "unit": frequency_unit(case), "orbits": orbits.iter().map(orbit).collect::<Vec<_>>() })
+    let loads = found.iter().map(|one| {
+        json!({
+            "load": one.load + 1,
+            "at": one.at,
+            "unit": frequency_unit(case),
+            "orbits": one.orbits.iter().map(orbit).collect::<Vec<_>>(),
+            "stable": one.along.iter().map(|along| stretches(case, one.load, along)).collect::<Vec<_>>(),
+        })
     });
     let absorbers = case.absorbers.iter().map(|one| {
         let [lower, upper] = working_range(one);
@@ -41,22 +50,54 @@ pub fn analysis(case: &ModalCase, found: &[(f64, Vec<ModalOrbit>)]) -> Value {
     headed(heading.map(String::as_str), units(case).name(), Content::Analysis, fields)
 }
 
+/// Where an orbit attracts along a number.
+fn stretches(case: &ModalCase, load: usize, of: &Stretches) -> Value {
+    let (what, absorber, kind) = varied(case, load, of);
+    let unit = kind.dimension.symbol(!case.reduced);
+    let end = |end: &ReachEnd| json!({ "value": end.value, "kind": end.kind });
+    let found = of.found.iter().map(|[from, to]| json!({ "from": end(from), "to": end(to) }));
+    json!({
+        "of": what,
+        "absorber": absorber,
+        "unit": unit,
+        "looked_at": of.range,
+        "stretches": found.collect::<Vec<_>>(),
+    })
+}
+
+/// What a number is called, of which absorber it is, and its kind.
+fn varied(
+    case: &ModalCase,
+    load: usize,
+    of: &Stretches,
+) -> (&'static str, Option<usize>, &'static Kind) {
+    match of.parameter {
+        ModalParameter::FrequencyRatio => ("frequency", None, &of::EXCITATION_FREQUENCY),
+        ModalParameter::Clearance(j) => ("clearance", Some(j + 1), &of::CLEARANCE),
+        _ => ("amplitude", None, case.loads[load].amplitude_kind()),
+    }
+}
+
 /// The same on a terminal.
 ///
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
-pub fn analysis_text(
-    case: &ModalCase,
-    found: &[(f64, Vec<ModalOrbit>)],
-) -> Result<String, RenderError> {
+pub fn analysis_text(case: &ModalCase, found: &[LoadOrbits]) -> Result<String, RenderError> {
     let mut facts = analysis(case, found);
     let quantities = |numbers: &Value, kind: &'static Kind| -> Value {
         let numbers = numbers.as_array().into_iter().flatten().filter_map(Value::as_f64);
         numbers.map(|one| json!(Quantity::new(kind, one, Method::ExactOrbit))).collect()
     };
-    for ((k, load), (at, _)) in case.loads.iter().enumerate().zip(found) {
-        facts["loads"][k]["load"] = load_row(case, load);
-        facts["loads"][k]["at"] = json!(given(&of::EXCITATION_FREQUENCY, *at));
+    for (k, one) in found.iter().enumerate() {
+        facts["loads"][k]["load"] = load_row(case, &case.loads[one.load]);
+        facts["loads"][k]["at"] = json!(given(&of::EXCITATION_FREQUENCY, one.at));
+        for (told, along) in
+            facts["loads"][k]["stable"].as_array_mut().into_iter().flatten().zip(&one.along)
+        {
+            let (.., kind) = varied(case, one.load, along);
+            told["looked_at"] = json!(along.range.map(|value| given(kind, value)));
+            told["stretches"] = json!(stretch_rows(kind, along));
+        }
         for orbit in facts["loads"][k]["orbits"].as_array_mut().into_iter().flatten() {
             orbit["speeds"] = quantities(&orbit["impact_speeds"], &of::IMPACT_SPEED);
             orbit["at_absorbers"] = quantities(&orbit["harmonics_at_absorbers"], &of::PEAK);

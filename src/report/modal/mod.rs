@@ -20,10 +20,11 @@ use crate::criteria::Outcome;
 use crate::executor::Executor;
 use crate::method::Method;
 use crate::modal::{
-    DamperChoice, ForceStep, ModalAnswer, ModalError, OffStructure, OverForce, WorstOfPlace,
-    choices, modes_alone, off_structures,
+    DamperChoice, ForceStep, ModalAnswer, ModalError, OffStructure, OverForce, Stretches,
+    WorstOfPlace, choices, modes_alone, off_structures,
 };
 use crate::motions::{ModalMotion, SensorExtent};
+use crate::orbits::ReachEnd;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind, Quantity, Units};
 use crate::simulation::Reading;
@@ -155,8 +156,23 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
         "at": of_load.at.iter().map(|at| given(&of::EXCITATION_FREQUENCY, *at)).collect::<Vec<_>>(),
         "limits": limits,
         "working": working.collect::<Vec<_>>(),
+        "exact": of_load.exact.as_ref().map(|(at, found)| {
+            let at = given(&of::EXCITATION_FREQUENCY, *at);
+            json!({ "at": at, "stretches": stretch_rows(load.amplitude_kind(), found) })
+        }),
         "steps": of_load.steps.iter().map(step).collect::<Vec<_>>(),
     })
+}
+
+/// Stretches on which an exact orbit attracts: their ends with what ends them, and whether that is where looking ended.
+fn stretch_rows(kind: &'static Kind, of: &Stretches) -> Vec<Value> {
+    let end = |end: &ReachEnd| {
+        let edge = of.range.contains(&end.value);
+        let at =
+            Quantity::new(kind, end.value, if edge { Method::Given } else { Method::ExactOrbit });
+        json!({ "at": at, "kind": end.kind, "edge": edge })
+    };
+    of.found.iter().map(|[from, to]| json!({ "from": end(from), "to": end(to) })).collect()
 }
 
 /// A load with its range in words.
