@@ -16,6 +16,7 @@
 //! phases of the mode nearest to the excitation; starts are no part of the solution.
 
 mod branch;
+mod stretches;
 mod walk;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -28,10 +29,8 @@ use super::multipliers::eigenvalues;
 use crate::numerics::polynomial::quadratic_roots;
 use crate::system::{ModalState, ModalSystem};
 
-pub use branch::{
-    ModalBranch, ModalBranchPoint, ModalSpecialPoint, ReachEnd, stable_reach, stable_stretches,
-    values_looked_at,
-};
+pub use branch::{ModalBranch, ModalBranchPoint, ModalSpecialPoint};
+pub use stretches::{ReachEnd, stable_reach, stable_stretches, values_looked_at};
 
 /// Amplitudes and phases of the starts of Newton's iteration.
 const AMPLITUDES: u32 = 24;
