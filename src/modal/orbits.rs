@@ -48,7 +48,8 @@ pub fn orbits(case: &ModalCase, on: &dyn Executor) -> Result<Vec<LoadOrbits>, Mo
         for at in load.resonances(case) {
             let system = case.system(load, at)?;
             let orbits = antiperiodic_orbits(&system);
-            asked.extend(parameters(case, load, at).map(|one| (found.len(), system.clone(), one)));
+            let each = parameters(case, load, at).into_iter();
+            asked.extend(each.map(|one| (found.len(), system.clone(), one)));
             found.push(LoadOrbits { load: number, at, orbits, along: Vec::new() });
         }
     }
@@ -64,11 +65,7 @@ pub fn orbits(case: &ModalCase, on: &dyn Executor) -> Result<Vec<LoadOrbits>, Mo
 }
 
 /// What is looked at, with what a unit of the physics is worth, and between which values.
-fn parameters(
-    case: &ModalCase,
-    load: &Load,
-    at: f64,
-) -> impl Iterator<Item = (ModalParameter, f64, [f64; 2])> {
+fn parameters(case: &ModalCase, load: &Load, at: f64) -> Vec<(ModalParameter, f64, [f64; 2])> {
     let around = |own: f64| RANGE.map(|factor| factor * own);
     let mut all = vec![(ModalParameter::Excitation, load.amplitude, around(load.amplitude))];
     let [from, to] = load.range_hz;
@@ -81,7 +78,7 @@ fn parameters(
             each.map(|(j, one)| (ModalParameter::Clearance(j), 1.0, around(one.clearance_m))),
         );
     }
-    all.into_iter()
+    all
 }
 
 /// The amplitudes of a load from a quarter to four times its own at which an orbit attracts at a frequency in Hz.

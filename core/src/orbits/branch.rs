@@ -7,33 +7,16 @@ use nalgebra::Vector5;
 use serde::Serialize;
 
 use super::OrbitError;
-use super::continuation::{BranchTrace, Family, trace};
+use super::continuation::{BranchTrace, Family, Traced as _, trace};
+use super::locate::located;
 use super::newton::PARAMETER;
 use super::orbit::{Orbit, Origin};
 use super::special_point::SpecialPoint;
 use super::tracer::{TracedPoint, Tracer};
+use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
-/// How a branch is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Settings {
-    /// Values of the parameter between which the branch is followed.
-    pub range: [f64; 2],
-    /// Most points.
-    pub most_points: usize,
-    /// First step along the branch, in the norm of the first state (over the clearance, radians)
-    /// and the parameter over its first value.
-    pub first_step: f64,
-    /// Largest step: distance between points of a figure that still looks smooth.
-    pub largest_step: f64,
-}
-
-impl Settings {
-    /// The defaults, for a range of the parameter.
-    pub fn within(range: [f64; 2]) -> Self {
-        Self { range, most_points: MOST_POINTS, first_step: FIRST_STEP, largest_step: LARGEST_STEP }
-    }
-}
+pub use super::continuation::{BranchEnd, Settings};
 
 /// Which way along the parameter a branch sets out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -57,41 +40,6 @@ pub struct BranchPoint {
     pub passed: usize,
 }
 
-/// Why a branch ends, and where.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case", tag = "why")]
-#[non_exhaustive]
-pub enum BranchEnd {
-    /// The end of the range was reached.
-    Range {
-        /// Last value of the parameter.
-        value: f64,
-    },
-    /// The orbit stops being a motion: an impact appears or disappears, or the absorber stays on a
-    /// wall.
-    Grazing {
-        /// Value of the parameter.
-        value: f64,
-    },
-    /// The branch came back to where it began.
-    Closed {
-        /// Value of the parameter there.
-        value: f64,
-    },
-    /// So many points were asked for, or each of them takes so much work.
-    PointLimit {
-        /// Last value of the parameter.
-        value: f64,
-    },
-    /// Newton's method fails at the smallest step.
-    NotConverged {
-        /// Value of the parameter from which no further point was found.
-        value: f64,
-        /// What Newton's method said.
-        reason: String,
-    },
-}
-
 /// Orbits in order along a branch.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Branch {
@@ -105,14 +53,6 @@ pub struct Branch {
     pub end: BranchEnd,
 }
 
-/// Points after which a branch that neither ends nor closes is given up: with the largest step an
-/// arclength of a hundred clearances.
-const MOST_POINTS: usize = 2000;
-/// A fifth of the largest step: a branch may begin next to a bifurcation.
-const FIRST_STEP: f64 = 0.01;
-/// A twentieth of a clearance or radian: what a figure still shows as smooth, and short enough for
-/// two bifurcations of one kind seldom to share a step.
-const LARGEST_STEP: f64 = 0.05;
 /// Follows the branch through `start`, an orbit of `base`, in one direction.
 ///
 /// From 7.5 mm, the clearance of the crate page, upwards and downwards to the two bifurcations that bound the
@@ -166,6 +106,36 @@ pub fn follow(
     };
     let first = tracer.correct(cycle, scaled, &along, &along)?;
     collected(&tracer, first, start.origin, settings)
+}
+
+impl Family for Tracer<'_> {
+    type Point = TracedPoint;
+    type Special = SpecialPoint;
+    fn scale(&self) -> f64 {
+        self.scale
+    }
+    fn radians(&self, point: &TracedPoint) -> f64 {
+        let frequency = self.base.frequency_ratio().max(1.0);
+        frequency * point.cycle().durations.iter().sum::<f64>()
+    }
+    fn advance(&self, from: &TracedPoint, step: f64) -> Result<TracedPoint, OrbitError> {
+        let ahead = from.parameter() + step * from.rise();
+        self.correct(Self::predicted(from, step), ahead, &from.tangent, &from.tangent)
+    }
+    fn at_parameter(
+        &self,
+        from: &TracedPoint,
+        step: f64,
+        scaled: f64,
+    ) -> Result<TracedPoint, OrbitError> {
+        self.correct(Self::predicted(from, step), scaled, &PARAMETER.into(), &from.tangent)
+    }
+    fn between(&self, here: &TracedPoint, there: &TracedPoint, step: f64) -> Vec<SpecialPoint> {
+        located(self, here, there, step)
+    }
+    fn bifurcation(special: &SpecialPoint) -> (Bifurcation, f64) {
+        (special.kind, special.value)
+    }
 }
 
 /// The branch from a point on it, whose orbit was found in a way of its own, along its tangent.

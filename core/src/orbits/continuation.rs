@@ -1,8 +1,9 @@
 //! Pseudo-arclength continuation in one parameter (Keller 1977), whatever the orbits are of: a step along the tangent,
 //! Newton's method on the plane across it, and what lies between two points.
 
+use serde::Serialize;
+
 use super::OrbitError;
-use super::branch::{BranchEnd, Settings};
 use crate::bifurcation::Bifurcation;
 use crate::numerics::bracket::brent;
 
@@ -41,6 +42,70 @@ const FEWEST_AROUND: usize = 3;
 /// of the branch: either end of a stretch that passes a point is within one stretch of it, and a
 /// curved one a little farther.
 const BESIDE: f64 = 2.0;
+
+/// Points after which a branch that neither ends nor closes is given up: with the largest step an
+/// arclength of a hundred clearances.
+const MOST_POINTS: usize = 2000;
+/// A fifth of the largest step: a branch may begin next to a bifurcation.
+const FIRST_STEP: f64 = 0.01;
+/// A twentieth of a clearance or radian: what a figure still shows as smooth, and short enough for
+/// two bifurcations of one kind seldom to share a step.
+const LARGEST_STEP: f64 = 0.05;
+/// How a branch is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Settings {
+    /// Values of the parameter between which the branch is followed.
+    pub range: [f64; 2],
+    /// Most points.
+    pub most_points: usize,
+    /// First step along the branch, in the norm of the first state (over the clearance, radians)
+    /// and the parameter over its first value.
+    pub first_step: f64,
+    /// Largest step: distance between points of a figure that still looks smooth.
+    pub largest_step: f64,
+}
+
+impl Settings {
+    /// The defaults, for a range of the parameter.
+    pub fn within(range: [f64; 2]) -> Self {
+        Self { range, most_points: MOST_POINTS, first_step: FIRST_STEP, largest_step: LARGEST_STEP }
+    }
+}
+
+/// Why a branch ends, and where.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "why")]
+#[non_exhaustive]
+pub enum BranchEnd {
+    /// The end of the range was reached.
+    Range {
+        /// Last value of the parameter.
+        value: f64,
+    },
+    /// The orbit stops being a motion: an impact appears or disappears, or the absorber stays on a
+    /// wall.
+    Grazing {
+        /// Value of the parameter.
+        value: f64,
+    },
+    /// The branch came back to where it began.
+    Closed {
+        /// Value of the parameter there.
+        value: f64,
+    },
+    /// So many points were asked for, or each of them takes so much work.
+    PointLimit {
+        /// Last value of the parameter.
+        value: f64,
+    },
+    /// Newton's method fails at the smallest step.
+    NotConverged {
+        /// Value of the parameter from which no further point was found.
+        value: f64,
+        /// What Newton's method said.
+        reason: String,
+    },
+}
 
 /// A point while a branch is followed.
 pub(super) trait Traced: Clone {

@@ -6,14 +6,11 @@ use nalgebra::{Matrix4, Vector4, Vector5};
 
 use super::OrbitError;
 use super::admissibility::Distances;
-use super::continuation::{Family, Traced};
+use super::continuation::Traced;
 use super::cycle::Cycle;
 use super::impact_map::ImpactMap;
-use super::locate::located;
-use super::newton::{Converged, PARAMETER, converge, corrected};
+use super::newton::{Converged, converge, corrected};
 use super::orbit::{Orbit, Origin};
-use super::special_point::SpecialPoint;
-use crate::bifurcation::Bifurcation;
 use crate::system::{Parameter, System};
 
 /// Scale of a parameter whose first value is smaller: a restitution of 0 is no measure of its own
@@ -58,7 +55,8 @@ impl TracedPoint {
 
 /// What a continuation works on.
 pub(super) struct Tracer<'a> {
-    base: &'a System,
+    /// What everything else is.
+    pub base: &'a System,
     /// What varies.
     pub parameter: Parameter,
     /// The parameter's unit in a [`TracedPoint`].
@@ -114,7 +112,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// `point`'s cycle moved along the branch's tangent by `step`.
-    fn predicted(point: &TracedPoint, step: f64) -> Cycle {
+    pub fn predicted(point: &TracedPoint, step: f64) -> Cycle {
         point.found.linear.moved(point.cycle(), &(point.tangent * step))
     }
 }
@@ -132,36 +130,6 @@ impl Traced for TracedPoint {
     }
     fn parameter(&self) -> f64 {
         self.found.parameter
-    }
-}
-
-impl Family for Tracer<'_> {
-    type Point = TracedPoint;
-    type Special = SpecialPoint;
-    fn scale(&self) -> f64 {
-        self.scale
-    }
-    fn radians(&self, point: &TracedPoint) -> f64 {
-        let frequency = self.base.frequency_ratio().max(1.0);
-        frequency * point.cycle().durations.iter().sum::<f64>()
-    }
-    fn advance(&self, from: &TracedPoint, step: f64) -> Result<TracedPoint, OrbitError> {
-        let ahead = from.parameter() + step * from.rise();
-        self.correct(Self::predicted(from, step), ahead, &from.tangent, &from.tangent)
-    }
-    fn at_parameter(
-        &self,
-        from: &TracedPoint,
-        step: f64,
-        scaled: f64,
-    ) -> Result<TracedPoint, OrbitError> {
-        self.correct(Self::predicted(from, step), scaled, &PARAMETER.into(), &from.tangent)
-    }
-    fn between(&self, here: &TracedPoint, there: &TracedPoint, step: f64) -> Vec<SpecialPoint> {
-        located(self, here, there, step)
-    }
-    fn bifurcation(special: &SpecialPoint) -> (Bifurcation, f64) {
-        (special.kind, special.value)
     }
 }
 
