@@ -1,5 +1,5 @@
 //! Names the sources that a program is built from, so that it can tell its results from those of another
-//! build: a SHA-256 over every file of `core/src/` and `src/`, and the locked versions of its dependencies. Lists the templates.
+//! build: a SHA-256 over every file of the folders `src/` of the physics and the program, and the locked versions of its dependencies. Lists the templates.
 
 #[path = "src/digest.rs"]
 mod digest;
@@ -14,7 +14,14 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn sources() -> Result<(), Box<dyn Error>> {
     let mut list = String::new();
-    for file in files(&["core/src", "src", "Cargo.lock"])? {
+    for file in files(&[
+        "core/src",
+        "core/base/src",
+        "core/orbits/src",
+        "core/simulation/src",
+        "src",
+        "Cargo.lock",
+    ])? {
         let named = digest::sha256(&std::fs::read(&file)?);
         list += &format!("{named} {}\n", file.display());
     }

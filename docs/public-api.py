@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Compares the public interface of the physics with docs/public-api.txt.
 
-Run it after `cargo doc --no-deps -p vinesink-core`; with `--update` it writes the list.
+Run it after `cargo doc --no-deps`; with `--update` it writes the list. Each room is read from the pages of the crate that it
+stands in: `vinesink-core` has it under the same name.
 """
 
 import argparse
@@ -14,7 +15,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LIST = ROOT / "docs" / "public-api.txt"
-CRATE = "vinesink_core"
+WHOLE = "vinesink_core"
+PARTS = ["vinesink_base", "vinesink_orbits", "vinesink_simulation"]
 # Ids on the page of an item; a field of a variant is `variant.NAME.field.NAME`.
 MEMBER = re.compile(
     r"(method|tymethod|variant|structfield|associatedconstant|associatedtype)\.\w+(\.field\.\w+)?"
@@ -113,11 +115,18 @@ def main():
     target = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
     arguments.add_argument("--doc", type=Path, default=target / "doc", help="folder of cargo doc")
     given = arguments.parse_args()
-    folder = given.doc / CRATE
-    if not (folder / "all.html").is_file():
-        sys.exit(f"{folder / 'all.html'} is missing: run `cargo doc --no-deps -p vinesink-core`")
-    links = parsed(Links(), folder / "all.html").found
-    lines = sorted({line for href in links for line in item_lines(folder, href)})
+    rooms, found = set(), set()
+    for crate in [*PARTS, WHOLE]:
+        folder = given.doc / crate
+        if not (folder / "all.html").is_file():
+            sys.exit(f"{folder / 'all.html'} is missing: run `cargo doc --no-deps`")
+        links = [href for href in parsed(Links(), folder / "all.html").found if href.split("/")[0] not in rooms]
+        rooms |= {href.split("/")[0] for href in links}
+        found |= {line for href in links for line in item_lines(folder, href)}
+    missing = sorted(room for room in rooms if not (given.doc / WHOLE / room / "index.html").is_file())
+    if missing:
+        sys.exit(f"{WHOLE} lacks {', '.join(missing)}")
+    lines = sorted(found)
     now = "".join(f"{line}\n" for line in lines)
     if given.update:
         LIST.write_text(now, encoding="utf-8")

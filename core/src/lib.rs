@@ -73,24 +73,19 @@
 #![warn(missing_docs)]
 #![forbid(unsafe_code)]
 
-pub mod analysis;
-pub mod bifurcation;
-pub mod cavity;
 pub mod dissipation;
-pub mod equations;
 pub mod excitation;
-pub mod executor;
 pub mod flights;
 pub mod linear;
-pub mod method;
 pub mod motions;
+
+#[doc(inline)]
+pub use vinesink_base::{
+    bifurcation, equations, executor, method, operation_count, symbolic, system,
+};
 #[doc(hidden)]
-pub mod names;
-#[doc(hidden)]
-pub mod numerics;
-pub mod operation_count;
-pub mod orbits;
-pub mod regimes;
-pub mod simulation;
-pub mod symbolic;
-pub mod system;
+pub use vinesink_base::{names, numerics};
+#[doc(inline)]
+pub use vinesink_orbits::{analysis, cavity, orbits};
+#[doc(inline)]
+pub use vinesink_simulation::{regimes, simulation};

@@ -537,7 +537,12 @@ fn destination<'a>(path: &'a str, room: &'a str, depth: usize) -> Option<&'a str
     let first = match steps.next()? {
         "crate" if room.starts_with("evidence") => "evidence",
         "vinesink_evidence" => "evidence",
-        "crate" | "vinesink" | "vinesink_core" => steps.next()?,
+        "crate"
+        | "vinesink"
+        | "vinesink_core"
+        | "vinesink_base"
+        | "vinesink_orbits"
+        | "vinesink_simulation" => steps.next()?,
         "vinesink_figure" => "figure",
         "super" if supers >= depth => steps.nth(supers - 1)?,
         "super" if INNER.contains(&room) && supers + 1 == depth => room.split('/').next()?,
@@ -602,9 +607,15 @@ fn sources() -> Vec<(String, String)> {
     }
     let mut found = Vec::new();
     // The crates of figures and of evidence are a room each.
-    for (folder, within) in
-        [("src", ""), ("core/src", ""), ("figure/src", "figure/"), ("evidence/src", "evidence/")]
-    {
+    for (folder, within) in [
+        ("src", ""),
+        ("core/src", ""),
+        ("core/base/src", ""),
+        ("core/orbits/src", ""),
+        ("core/simulation/src", ""),
+        ("figure/src", "figure/"),
+        ("evidence/src", "evidence/"),
+    ] {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
         let mut files = Vec::new();
         collect(&root, &mut files);

@@ -102,9 +102,20 @@ fn a_reach_ends_where_no_orbit_attracts_any_more() {
 /// searched by itself.
 #[test]
 fn stretches_are_where_an_orbit_attracts() {
+    stretches_of_systems(8, [20, 800]);
+}
+
+#[test]
+#[ignore = "deep"]
+fn stretches_of_forty_systems_are_where_an_orbit_attracts() {
+    stretches_of_systems(40, [300, 300]);
+}
+
+/// Of so many systems; at least so many values lie inside of a stretch and outside of all.
+fn stretches_of_systems(count: usize, least: [usize; 2]) {
     let mut noise = Noise(11);
     let (mut inside, mut outside) = (0, 0);
-    for k in 0..40 {
+    for k in 0..count {
         let absorbers = 1 + k % 2;
         let system = random(&mut noise, 1 + k % 3, absorbers);
         for parameter in [ModalParameter::Excitation, ModalParameter::Clearance(absorbers - 1)] {
@@ -122,7 +133,7 @@ fn stretches_are_where_an_orbit_attracts() {
             }
         }
     }
-    assert!(inside > 300 && outside > 300, "{inside} {outside}");
+    assert!(inside > least[0] && outside > least[1], "{inside} {outside}");
 }
 
 /// What is a little off comes back on one side of a limit, and leaves on the other. The simulation shares nothing with the

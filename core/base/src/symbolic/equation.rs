@@ -109,7 +109,9 @@ pub const fn operations(text: &str) -> u64 {
 /// Declares [`Formula`]s, each `NAME(parameters): [left] = right;`, in groups of `"title", "what they
 /// give", source { ... }`, and a list of these groups. Parameters are symbols, the right side is Rust over
 /// `f64` with `PI` and the functions of [`crate::symbolic`].
-macro_rules! equations {
+#[doc(hidden)]
+#[macro_export]
+macro_rules! declared_equations {
     ($(#[$list_doc:meta])* $list:ident = $($title:literal, $gives:literal, $source:expr => {
         $($name:ident($($symbol:ident),*): [$($left:tt)*] = $right:expr;)+
     })+) => {
@@ -136,7 +138,8 @@ macro_rules! equations {
         }),+];
     };
 }
-pub(crate) use equations;
+#[doc(hidden)]
+pub use declared_equations as equations;
 
 impl Values {
     /// The same values with all that follow from them: a symbol that is the left side of an equation

@@ -402,7 +402,8 @@ fn within_one(mean: f64, difference: f64) -> bool {
     0.5 * difference.abs() <= mean.min(1.0 - mean) + f64::EPSILON
 }
 
-pub(crate) fn check(
+#[doc(hidden)]
+pub fn check(
     name: &'static str,
     value: f64,
     within: bool,

@@ -356,7 +356,8 @@ impl Statistics {
 }
 
 /// What some successive periods dissipate, and what impacts take of it; `before` is the period before them.
-pub(crate) fn lost_in(before: Option<PeriodRecord>, periods: &[PeriodRecord]) -> [f64; 2] {
+#[doc(hidden)]
+pub fn lost_in(before: Option<PeriodRecord>, periods: &[PeriodRecord]) -> [f64; 2] {
     let begin = before.map_or([0.0; 3], |record| record.lost);
     let end = periods.last().map_or(begin, |record| record.lost);
     let [damper, impact, friction] = [0, 1, 2].map(|k| end[k] - begin[k]);

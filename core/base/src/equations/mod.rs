@@ -3,7 +3,7 @@
 //!
 //! Results hold at first order in the mass ratio, near 1:1 resonance, for two symmetric impacts per cycle.
 //! What follows from the paper is derived in each file's head, and `tests/physics/equations.rs` proves it against
-//! the paper's equations. [`crate::orbits::equations`] holds such motions exactly, at any mass ratio and
+//! the paper's equations. `orbits::equations` of `vinesink-core` holds such motions exactly, at any mass ratio and
 //! frequency.
 //!
 //! For the program itself: this module may change at any time.

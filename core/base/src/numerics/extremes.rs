@@ -117,7 +117,8 @@ impl Cubic {
 /// Of two functions of time, a velocity and its rate: the largest sizes, the integrals of the squares, and the time that they
 /// are over.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct RateSums {
+#[doc(hidden)]
+pub struct RateSums {
     pub peaks: [f64; 2],
     pub squares: [f64; 2],
     pub time: f64,

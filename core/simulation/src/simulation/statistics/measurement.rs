@@ -86,19 +86,22 @@ impl Measurement {
 
     /// The same, but in so many periods at the beginning nothing but impacts and states are noted: flights are
     /// missing in their records and in the sums over the window.
-    pub(crate) fn after(periods: u64, system: &System, start: State) -> Self {
+    #[doc(hidden)]
+    pub fn after(periods: u64, system: &System, start: State) -> Self {
         Self { without_flights: periods, ..Self::begin(system, start) }
     }
 
     /// The same, its records in the memory of another that is over.
-    pub(crate) fn with_memory(mut self, mut records: Vec<PeriodRecord>) -> Self {
+    #[doc(hidden)]
+    pub fn with_memory(mut self, mut records: Vec<PeriodRecord>) -> Self {
         records.clear();
         self.statistics.records = records;
         self
     }
 
     /// That memory, once nobody asks for records any more.
-    pub(crate) fn take_memory(&mut self) -> Vec<PeriodRecord> {
+    #[doc(hidden)]
+    pub fn take_memory(&mut self) -> Vec<PeriodRecord> {
         std::mem::take(&mut self.statistics.records)
     }
 

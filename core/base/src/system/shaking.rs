@@ -29,7 +29,8 @@ impl<T> Shaking<T> {
 
 impl Shaking {
     /// Of the largest velocity and acceleration, and their mean squares.
-    pub(crate) fn of([velocity, acceleration]: [f64; 2], mean_squares: [f64; 2]) -> Self {
+    #[doc(hidden)]
+    pub fn of([velocity, acceleration]: [f64; 2], mean_squares: [f64; 2]) -> Self {
         let [rms_velocity, rms_acceleration] = mean_squares.map(f64::sqrt);
         let (peak_velocity, peak_acceleration) = (velocity, acceleration);
         Self { peak_velocity, rms_velocity, peak_acceleration, rms_acceleration }

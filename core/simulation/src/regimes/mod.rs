@@ -6,8 +6,10 @@
 mod dynamics_kind;
 mod energetics;
 pub mod lyapunov;
-pub(crate) mod modulation;
-pub(crate) mod periodicity;
+#[doc(hidden)]
+pub mod modulation;
+#[doc(hidden)]
+pub mod periodicity;
 pub mod return_map;
 mod sequence;
 
@@ -187,7 +189,8 @@ pub fn classify(
 impl Evidence {
     /// What a regime is decided by, from a window in which only impacts and peaks were measured; the rest is
     /// left open.
-    pub(crate) fn of_impacts(statistics: &Statistics, impacts: &[Impact], period: f64) -> Self {
+    #[doc(hidden)]
+    pub fn of_impacts(statistics: &Statistics, impacts: &[Impact], period: f64) -> Self {
         let records = statistics.records();
         let periodicity = periodicity::find(records);
         let (per_period, last) = match periodicity {
@@ -221,7 +224,8 @@ impl Evidence {
 
 impl Regime {
     /// That of what several windows of one motion show together.
-    pub(crate) fn of_several(windows: &[Evidence]) -> Self {
+    #[doc(hidden)]
+    pub fn of_several(windows: &[Evidence]) -> Self {
         let Some(first) = windows.first() else { return Self::AtRest };
         let count = windows.len() as f64;
         let mean = |of: fn(&Evidence) -> f64| windows.iter().map(of).sum::<f64>() / count;
@@ -241,7 +245,8 @@ impl Regime {
         })
     }
 
-    pub(crate) fn of(evidence: &Evidence) -> Self {
+    #[doc(hidden)]
+    pub fn of(evidence: &Evidence) -> Self {
         if evidence.impacts_per_period == 0.0 {
             return Self::AtRest;
         }

@@ -42,7 +42,8 @@ pub use modal::{
 };
 pub use run::{Simulation, Stop};
 pub use shaking::ShakingMeter;
-pub(crate) use statistics::lost_in;
+#[doc(hidden)]
+pub use statistics::lost_in;
 pub use statistics::{Energy, Measurement, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
 pub use trust::{Doubt, doubts};

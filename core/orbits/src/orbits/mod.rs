@@ -33,6 +33,7 @@ mod symmetric;
 mod tracer;
 mod two_impact;
 
+#[doc(no_inline)]
 pub use crate::bifurcation::Bifurcation;
 pub use admissibility::{Admissibility, Narrowest};
 pub use boundaries::{AsymmetricOrbits, ExactBoundaries};

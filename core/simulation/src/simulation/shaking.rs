@@ -61,17 +61,20 @@ impl ShakingMeter {
 
     /// The same where segments are so short that velocity and acceleration are cubics in them: off by `h^4/384`.
     #[must_use]
-    pub(crate) const fn of_short(self) -> Self {
+    #[doc(hidden)]
+    pub const fn of_short(self) -> Self {
         Self { short: true, ..self }
     }
 
     /// Segments that follow are told in a frame with that velocity.
-    pub(crate) const fn set_frame(&mut self, velocity: f64) {
+    #[doc(hidden)]
+    pub const fn set_frame(&mut self, velocity: f64) {
         self.frame = velocity;
     }
 
     /// Measures from zero on, and gives what was measured before.
-    pub(crate) fn taken(&mut self) -> Self {
+    #[doc(hidden)]
+    pub fn taken(&mut self) -> Self {
         let before = *self;
         self.sums = RateSums::default();
         before
@@ -79,17 +82,20 @@ impl ShakingMeter {
 
     /// Both together.
     #[must_use]
-    pub(crate) fn and(self, other: &Self) -> Self {
+    #[doc(hidden)]
+    pub fn and(self, other: &Self) -> Self {
         Self { sums: self.sums.and(&other.sums), ..self }
     }
 
     /// Largest absolute velocity and acceleration so far.
-    pub(crate) const fn peaks(&self) -> [f64; 2] {
+    #[doc(hidden)]
+    pub const fn peaks(&self) -> [f64; 2] {
         self.sums.peaks
     }
 
     /// Mean square velocity and acceleration so far; 0 where no time has passed.
-    pub(crate) fn mean_squares(&self) -> [f64; 2] {
+    #[doc(hidden)]
+    pub fn mean_squares(&self) -> [f64; 2] {
         self.sums.mean_squares()
     }
 

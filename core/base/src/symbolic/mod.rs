@@ -14,7 +14,8 @@ mod latex;
 mod symbol;
 mod values;
 
-pub(crate) use equation::equations;
+#[doc(hidden)]
+pub use equation::equations;
 pub use equation::{Equation, Formula, Group, operations};
 pub use expr::{Expr, atan2, cos, cube, ln, sin, sqrt, square};
 pub use latex::format_number;

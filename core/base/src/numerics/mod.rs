@@ -15,6 +15,7 @@ pub mod scatter;
 
 /// Whether a number is left out where it is written.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
-pub(crate) fn is_zero(value: &f64) -> bool {
+#[doc(hidden)]
+pub fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }

@@ -26,7 +26,8 @@ impl ImpactLog {
     }
 
     /// The same in the memory of another that is over.
-    pub(crate) fn with_memory(self, mut impacts: Vec<Impact>) -> Self {
+    #[doc(hidden)]
+    pub fn with_memory(self, mut impacts: Vec<Impact>) -> Self {
         impacts.clear();
         Self { impacts, ..self }
     }

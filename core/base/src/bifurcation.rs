@@ -53,7 +53,8 @@ impl Bifurcation {
     }
 
     /// Whether the orbit stops being a motion there, whatever its multipliers.
-    pub(crate) fn ends_motion(self) -> bool {
+    #[doc(hidden)]
+    pub fn ends_motion(self) -> bool {
         matches!(self, Self::Grazing | Self::Sticking | Self::VanishingImpact | Self::Reversal)
     }
 }
