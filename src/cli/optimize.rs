@@ -84,6 +84,9 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     if let Some(new) = &arguments.write {
         store::must_be_new(new)?;
     }
+    if arguments.out.is_some() {
+        case_file::name(path)?;
+    }
     let (case, text) = case_file::read_any(path, *reading)?;
     let case = match case {
         AnyCase::One(case) => *case,

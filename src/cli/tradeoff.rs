@@ -51,6 +51,9 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long, reading } = &arguments.one;
     let case = case_file::read(path, *reading)?;
     one_case::steady(&case, path, "a trade-off")?;
+    if arguments.out.is_some() {
+        case_file::name(path)?;
+    }
     let system = case.system();
     let effort = TradeoffEffort { search: case.effort(), ..TradeoffEffort::default() };
     let [starts, motion] = Work::motions(&case, &effort.search);
