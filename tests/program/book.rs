@@ -3,7 +3,8 @@
 //! A block marked `console` holds commands behind `$ `, an exit code that is not 0 behind `? `, and the output. The
 //! blocks of a page run one after another in a folder of its own; a comment `<!-- run: ... -->` does so unseen.
 //! A comment `<!-- slow: ... -->` before a block that takes seconds is done in its place where neither the test nor
-//! the program is optimised: `BOOK_PROGRAM=target/release/vinesink cargo test --test program book::` runs all of them.
+//! the program is optimised. `BOOK_PROGRAM=target/release/vinesink cargo test --test program book:: -- --include-ignored` runs
+//! all of them.
 //! `[..]` stands for the rest of a line that is not the same on every machine. `SNAPSHOTS=overwrite` writes
 //! what is printed, equations, quotations and formulas into the pages; twice, since one may follow from another.
 
@@ -212,12 +213,27 @@ fn run_page(name: &str, text: &str) -> (Vec<String>, String) {
     (faults, page)
 }
 
+/// Pages whose commands take seconds each.
+const SLOW_PAGES: [&str; 3] = ["first-design.md", "transients.md", "tutorial.md"];
+
 #[test]
 fn what_the_book_shows_is_what_the_program_prints() {
+    run_pages(|name| !SLOW_PAGES.contains(&name));
+}
+
+#[test]
+#[ignore = "deep"]
+fn what_slow_pages_of_the_book_show_is_what_the_program_prints() {
+    run_pages(|name| SLOW_PAGES.contains(&name));
+}
+
+fn run_pages(which: impl Fn(&str) -> bool) {
     let _turn = turn();
     // Where a page alone is worked on.
     let only = std::env::var("BOOK_PAGE").ok();
-    let wanted = |name: &String| only.as_ref().is_none_or(|only| name.contains(only.as_str()));
+    let wanted = |name: &String| {
+        which(name) && only.as_ref().is_none_or(|only| name.contains(only.as_str()))
+    };
     let waiting: Vec<(String, String)> =
         pages().into_iter().filter(|(name, _)| wanted(name)).collect();
     let (waiting, faults) = (Mutex::new(waiting), Mutex::new(Vec::new()));

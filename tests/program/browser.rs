@@ -1,13 +1,11 @@
 //! Reports and their index as a person meets them: in Chromium, without a window.
 //!
 //! Needs Debian's package `chromium` (or a program named in `CHROMIUM`), and for the accessibility
-//! check axe-core's script, which `.ci/run` fetches into `target/axe` (or a file named in `AXE`).
-//! Where one is missing the tests say so and pass, unless `VINESINK_BROWSER=required`.
+//! check axe-core's script, which `.ci/deep` fetches into `target/axe` (or a file named in `AXE`).
+//! Where one is missing the tests fail: `.ci/deep browser` runs them, `cargo test` counts them as ignored.
 
 use std::collections::BTreeMap;
-use std::env;
 use std::fs;
-use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
@@ -39,22 +37,12 @@ static REPORTS: LazyLock<PathBuf> = LazyLock::new(|| {
     folder.canonicalize().expect("a path")
 });
 
-/// Chromium, or nothing where these tests are to be skipped.
-pub fn browser() -> Option<Browser> {
-    let found = chromium::program();
-    if found.is_none() {
-        skipped(
-            "there is no chromium: install Debian's package `chromium`, or name it in CHROMIUM",
-        );
-    }
-    found.map(|program| Browser::start(&program))
-}
-
-pub fn skipped(why: &str) {
-    let required = env::var("VINESINK_BROWSER").is_ok_and(|value| value == "required");
-    assert!(!required, "{why}");
-    // Not captured by the test runner, unlike `eprintln!`.
-    let _ = writeln!(io::stderr(), "skipped: {why}");
+/// Chromium, with which these tests fail where it is missing.
+pub fn browser() -> Browser {
+    let program = chromium::program().expect(
+        "there is no chromium: install Debian's package `chromium`, or name it in CHROMIUM",
+    );
+    Browser::start(&program)
 }
 
 fn pages() -> Vec<PathBuf> {
@@ -70,7 +58,7 @@ fn name(file: &Path) -> String {
 
 /// Calls `check` with every page in some views, and fails with all that it finds.
 fn everywhere(views: &[View], check: impl Fn(&mut Page) -> Vec<String>) {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     let mut wrong: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for file in pages() {
         let mut page = browser.page(DESKTOP);
@@ -89,8 +77,9 @@ fn everywhere(views: &[View], check: impl Fn(&mut Page) -> Vec<String>) {
 }
 
 #[test]
+#[ignore = "deep"]
 fn pages_load_without_errors_and_without_the_network() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     for file in pages() {
         for view in [DESKTOP, PHONE] {
             let mut page = browser.page(view);
@@ -103,17 +92,16 @@ fn pages_load_without_errors_and_without_the_network() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn equations_and_figures_are_seen_on_phone_and_desktop() {
     everywhere(&[DESKTOP, PHONE], checks::layout);
 }
 
 #[test]
+#[ignore = "deep"]
 fn pages_are_accessible() {
-    let Some(script) = checks::axe() else {
-        return skipped(
-            "there is no axe-core: run `npm pack axe-core` and unpack it in target/axe, or name its axe.min.js in AXE",
-        );
-    };
+    let script = checks::axe()
+        .expect("there is no axe-core: run `npm pack axe-core` and unpack it in target/axe, or name its axe.min.js in AXE");
     let script = fs::read_to_string(script).expect("readable");
     // What is hidden on a phone may be pale in the dark only.
     let views = [DESKTOP, PHONE].map(|view| [view, View { dark: true, ..view }]);
@@ -121,8 +109,9 @@ fn pages_are_accessible() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn colours_of_pages_and_figures_follow_the_readers_preference() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     for file in pages() {
         let mut page = browser.page(DESKTOP);
         page.open(&file);
@@ -140,8 +129,9 @@ fn colours_of_pages_and_figures_follow_the_readers_preference() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn marked_points_have_tooltips() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     for case in CASES {
         let mut page = browser.page(DESKTOP);
         page.open(&REPORTS.join(case).join("report.html"));
@@ -151,8 +141,9 @@ fn marked_points_have_tooltips() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn pages_are_printed_on_several_sheets() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     for file in pages() {
         let mut page = browser.page(DESKTOP);
         page.open(&file);
@@ -177,8 +168,9 @@ fn column(page: &mut Page, head: usize) -> Vec<String> {
 const CLEARANCE: usize = 3;
 
 #[test]
+#[ignore = "deep"]
 fn the_index_is_sorted_by_keyboard() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     let mut page = browser.page(DESKTOP);
     page.open(&REPORTS.join("index.html"));
     let by_name = column(&mut page, CLEARANCE);
@@ -212,8 +204,9 @@ fn the_index_is_sorted_by_keyboard() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn chosen_cases_stand_side_by_side() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     let mut page = browser.page(DESKTOP);
     page.open(&REPORTS.join("index.html"));
     let shown = "[...document.querySelectorAll('#numbers tr')]
@@ -249,8 +242,9 @@ fn chosen_cases_stand_side_by_side() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn the_index_does_without_scripts() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     let mut page = browser.page(DESKTOP);
     page.without_scripts();
     page.open(&REPORTS.join("index.html"));
@@ -262,8 +256,9 @@ fn the_index_does_without_scripts() {
 
 /// Where no pointer rests, the keyboard and a finger tell what a marked point is.
 #[test]
+#[ignore = "deep"]
 fn a_marked_point_is_told_by_the_arrow_keys_and_under_a_finger() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     for view in [DESKTOP, PHONE] {
         let mut page = browser.page(view);
         page.open(&REPORTS.join("further").join(FURTHER).join("report.html"));
@@ -309,8 +304,9 @@ fn a_marked_point_is_told_by_the_arrow_keys_and_under_a_finger() {
 
 /// On a phone the evidence begins folded; a link to it, a search or its heading shows it, and paper has it all.
 #[test]
+#[ignore = "deep"]
 fn the_evidence_is_folded_on_a_phone() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     let report = REPORTS.join("further").join(FURTHER).join("report.html");
     const FOLDED: &str = "[...document.querySelectorAll('h2 + [hidden]')].map((one) => one.previousElementSibling.id)";
     let mut page = browser.page(DESKTOP);
@@ -338,8 +334,9 @@ fn the_evidence_is_folded_on_a_phone() {
 
 /// A number is one of its unit, whatever its prefix; a list of different quantities has no order.
 #[test]
+#[ignore = "deep"]
 fn tables_sort_by_a_column() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     let mut page = browser.page(DESKTOP);
     page.open(&REPORTS.join("further").join(FURTHER).join("report.html"));
     checks::unfold(&mut page);
@@ -388,8 +385,9 @@ fn tables_sort_by_a_column() {
 
 /// The checks themselves: each must see what it is there for.
 #[test]
+#[ignore = "deep"]
 fn faults_are_found() {
-    let Some(mut browser) = browser() else { return };
+    let mut browser = browser();
     let folder = tempfile::tempdir().expect("a folder");
     let faulty = folder.path().join("faulty.html");
     let mut found = |content: &str, check: &dyn Fn(&mut Page) -> Vec<String>| {

@@ -35,9 +35,13 @@ fn with(text: &str, keys: &[&str], value: f64, unit: &str) -> String {
 /// designs that nobody tuned to.
 #[test]
 fn ranges_end_where_check_says_so() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let [mut ends, mut held] = [0; 2];
-    for name in [
+    ranges_end(&["tests/designs/floor"], [2, 2]);
+}
+
+#[test]
+#[ignore = "deep"]
+fn ranges_of_six_designs_end_where_check_says_so() {
+    let designs = [
         "tests/designs/floor",
         "tests/designs/footbridge",
         "cases/arm-empty",
@@ -45,7 +49,15 @@ fn ranges_end_where_check_says_so() {
         "cases/mast-mode-3",
         "tests/decisions/board",
         "tests/designs/pipe",
-    ] {
+    ];
+    ranges_end(&designs, [12, 12]);
+}
+
+/// At least so many ends are found and so many checks hold.
+fn ranges_end(designs: &[&str], least: [usize; 2]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [mut ends, mut held] = [0; 2];
+    for name in designs {
         let mut text = std::fs::read_to_string(format!("{name}.toml")).expect("a case");
         // Two of them fail as they are; what is asked of them is twice as much here as they have.
         if name.ends_with("board") || name.ends_with("pipe") {
@@ -107,7 +119,7 @@ fn ranges_end_where_check_says_so() {
             }
         }
     }
-    assert!(ends >= 12 && held >= 12, "{ends} ends, {held} of what holds");
+    assert!(ends >= least[0] && held >= least[1], "{ends} ends, {held} of what holds");
 }
 
 /// A range that goes to where no absorber is needed says so: a structure at resonance moves by x_st/(2 zeta) without one.
@@ -133,6 +145,7 @@ fn a_range_says_where_the_structure_alone_keeps_the_limit() {
 /// What is said of an amplitude and a natural frequency that change at once is what `check` says of that case, on designs that
 /// nobody tuned to: what fails there fails, and what holds does not fail.
 #[test]
+#[ignore = "deep"]
 fn combinations_are_what_check_says_of_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("case.toml");
@@ -191,6 +204,7 @@ fn combinations_are_what_check_says_of_them() {
 /// 51 mm, as another integrator with 600 steps a period finds too, and with a frequency 5 % lower it does not keep 60 mm (that
 /// integrator: 62 mm).
 #[test]
+#[ignore = "deep"]
 fn what_the_ends_alone_would_miss_is_found() {
     const CHIMNEY: &str = r#"
 title = "Chimney"
@@ -247,6 +261,7 @@ peak_displacement = "<= 60 mm"
 
 /// Criteria alone: no device beside the absorber, no range.
 #[test]
+#[ignore = "deep"]
 fn criteria_alone_are_judged_alone() {
     let of = |more: &[&str]| checked("cases/arm-empty.toml", more);
     let (whole, alone) = (of(&[]), of(&["--criteria-only"]));

@@ -575,6 +575,7 @@ fn no_period_to_measure_is_refused() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn tradeoff_prints_the_same_bytes_and_leaves_seconds_out_unless_asked() {
     let case = shipped("li2016-8hz-b7p5mm.toml");
     let folder = folder();

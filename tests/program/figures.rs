@@ -182,6 +182,17 @@ fn further_figures_come_only_where_they_are_asked_for() {
 /// Further figures at the edges: what cannot be shown is left out, and nothing fails.
 #[test]
 fn further_figures_at_the_edges() {
+    at_the_edges(false);
+}
+
+/// With those that follow motions along a hundred places, and with basins.
+#[test]
+#[ignore = "deep"]
+fn basins_and_diagrams_at_the_edges() {
+    at_the_edges(true);
+}
+
+fn at_the_edges(with_long_ones: bool) {
     for changes in [
         &[("amplitude", "\"0 mm\"")][..],
         &[("restitution", "0.0")],
@@ -194,7 +205,7 @@ fn further_figures_at_the_edges() {
     ] {
         let mut case = with_further_figures(changed(changes));
         // Basins take 1600 simulations: where a start is most special is enough.
-        let basins = changes[0].0 == "restitution";
+        let basins = with_long_ones && changes[0].0 == "restitution";
         case.report.figures.retain(|figure| basins || *figure != ExtraFigure::Basins);
         // Diagrams follow motions along a hundred places: so do only the edges of what they are over.
         let diagram = match changes[0].0 {
@@ -208,6 +219,7 @@ fn further_figures_at_the_edges() {
             ExtraFigure::DiagramFrequency,
             ExtraFigure::DiagramForcing,
         ];
+        let diagram = diagram.filter(|_| with_long_ones);
         case.report.figures.retain(|one| !diagrams.contains(one) || Some(*one) == diagram);
         check(&case);
     }

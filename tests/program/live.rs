@@ -1,5 +1,5 @@
 //! The live page in Chromium: `web/build` makes it, into `target/web/live.html` (or a file named in `VINESINK_LIVE`).
-//! Where page or browser are missing the tests say so and pass, unless `VINESINK_BROWSER=required`.
+//! Where page or browser are missing the tests fail: `.ci/deep browser` makes both and runs them.
 
 use std::env;
 use std::fs;
@@ -13,7 +13,7 @@ use vinesink::executor::Serial;
 use vinesink::simulation::{Simulation, Trace};
 use vinesink::system::State;
 
-use crate::browser::{browser, skipped};
+use crate::browser::browser;
 use crate::browser_support::checks::{self, DESKTOP, PHONE};
 use crate::browser_support::chromium::{Browser, Page, View};
 
@@ -28,21 +28,18 @@ const PRESETS: [&str; 5] = [
 
 pub const LIVE: &str = "document.querySelector('[data-live]').live";
 
-fn file() -> Option<PathBuf> {
+fn file() -> PathBuf {
     file_of(None)
 }
 
-/// The live page's file, or that of a page beside it; nothing where these tests are to be skipped.
-pub fn file_of(name: Option<&str>) -> Option<PathBuf> {
+/// The live page's file, or that of a page beside it.
+pub fn file_of(name: Option<&str>) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let given = env::var_os("VINESINK_LIVE").map(PathBuf::from);
     let live = given.unwrap_or_else(|| root.join("target/web/live.html"));
     let file = name.map_or(live.clone(), |name| live.with_file_name(name));
-    if !file.is_file() {
-        skipped("there is no live page: run web/build");
-        return None;
-    }
-    Some(file)
+    assert!(file.is_file(), "there is no live page: run web/build");
+    file
 }
 
 /// The page in a browser, with everything on it computed.
@@ -167,8 +164,9 @@ fn confront(page: &Value, native: &Value, what: &str) {
 /// Every number, sentence and drawing of the page is that of the program, to the last bit: the libraries of
 /// mathematical functions are the same on both.
 #[test]
+#[ignore = "deep"]
 fn the_page_says_what_the_program_says() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     for name in PRESETS {
         // Figures that a case asks for are left to the program.
@@ -187,8 +185,9 @@ fn the_page_says_what_the_program_says() {
 
 /// After some sliders were moved the case is another one, and the program says the same of it.
 #[test]
+#[ignore = "deep"]
 fn sliders_move_everything() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     choose_the_paper(&mut page);
     let before = text(&mut page);
@@ -232,8 +231,9 @@ fn sliders_move_everything() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn the_mark_is_dragged_over_the_map_and_taken_back() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     choose_the_paper(&mut page);
     let begin = text(&mut page);
@@ -303,8 +303,9 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn a_link_holds_the_case_and_a_case_file_is_pasted() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     let paste = |page: &mut Page, text: &str| {
         page.evaluate(&format!(
@@ -381,8 +382,9 @@ fn a_link_holds_the_case_and_a_case_file_is_pasted() {
 
 /// The button chooses what `vinesink optimize --write` writes.
 #[test]
+#[ignore = "deep"]
 fn the_best_clearance_is_the_programs() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     let begin = text(&mut page);
     let case = Case::parse("case.toml", &begin).expect("valid");
@@ -398,8 +400,9 @@ fn the_best_clearance_is_the_programs() {
 
 /// What takes long can be stopped, and the case is as it was.
 #[test]
+#[ignore = "deep"]
 fn the_search_can_be_stopped() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     let begin = text(&mut page);
     let stopped = "(async () => {
@@ -419,8 +422,9 @@ fn the_search_can_be_stopped() {
 
 /// The first figures name what the ball does; who asks for the theory's limits gets them.
 #[test]
+#[ignore = "deep"]
 fn the_first_figures_need_no_theory() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     let theirs = ["Z3", "Hopf", "saddle-node", "1:1", "exact"];
     for detailed in [false, true] {
@@ -440,8 +444,9 @@ fn the_first_figures_need_no_theory() {
 
 /// A frame of the book is as high as what it shows: nothing in it scrolls, and no room is left.
 #[test]
+#[ignore = "deep"]
 fn a_frame_is_as_high_as_its_content() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let folder = tempfile::tempdir().expect("a folder");
     let script = fs::read_to_string("docs/book.js").expect("the book's script");
     let address = format!("file://{}?show=sim&sliders=restitution", file.display());
@@ -474,8 +479,9 @@ fn a_frame_is_as_high_as_its_content() {
 
 /// A frame of the book begins with the case that its page is about.
 #[test]
+#[ignore = "deep"]
 fn a_frame_begins_with_its_case() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = browser.page(DESKTOP);
     let asks = "show=map&sliders=restitution&begin=two%20symmetric";
     page.open_address(&format!("file://{}?{asks}", file.display()));
@@ -485,8 +491,9 @@ fn a_frame_begins_with_its_case() {
 
 /// The criteria, over the band: what `vinesink check` says.
 #[test]
+#[ignore = "deep"]
 fn criteria_are_judged_as_check_judges_them() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     page.evaluate("((choose) => { choose.value = '1'; choose.dispatchEvent(new Event('change')); })(document.querySelector('.live-bar select'))");
     settle(&mut page);
@@ -524,8 +531,9 @@ fn criteria_are_judged_as_check_judges_them() {
 /// What one sees first: a scale that stays while the motion goes on, and a title that says whose numbers these are; a finger
 /// beside the star scrolls, and nothing jumps while the page fills.
 #[test]
+#[ignore = "deep"]
 fn the_first_screen_holds_still() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     for view in [DESKTOP, PHONE] {
         let mut page = opened(&mut browser, &file, view);
         let shift = page.evaluate(
@@ -568,8 +576,9 @@ fn the_first_screen_holds_still() {
 
 /// The impacts of the running simulation are those of the library, bit by bit.
 #[test]
+#[ignore = "deep"]
 fn the_running_simulation_is_the_programs() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     let shipped = shipped("li2016-8p5hz-fig4d");
     let ran = page.evaluate(&format!(
@@ -597,8 +606,9 @@ fn the_running_simulation_is_the_programs() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn the_page_is_quiet_accessible_and_fits() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     is_quiet_accessible_and_fits(&mut browser, &file, |page| slide(page, "clearance", 300));
 }
 
@@ -629,8 +639,9 @@ pub fn is_quiet_accessible_and_fits(browser: &mut Browser, file: &Path, act: fn(
 
 /// A report with the live page is still one file, begins with its own case, and needs no network.
 #[test]
+#[ignore = "deep"]
 fn a_report_holds_the_live_page() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path().canonicalize().expect("a path");
     let case = folder.join("foot.toml");
@@ -663,8 +674,9 @@ fn a_report_holds_the_live_page() {
 
 /// Without a name the page is the one beside the program; a case that it cannot show is refused.
 #[test]
+#[ignore = "deep"]
 fn the_page_beside_the_program_is_taken() {
-    let Some(file) = file() else { return };
+    let file = file();
     let folder = tempfile::tempdir().expect("a folder");
     let program = folder.path().join("vinesink");
     fs::copy(assert_cmd::cargo::cargo_bin("vinesink"), &program).expect("a program");
@@ -690,8 +702,9 @@ fn the_page_beside_the_program_is_taken() {
 /// Why it works or not, in a line: the energy of a period beside that of an absorber at rest, which the search finds as well; a
 /// verdict that is mixed says why at once; and what begins at rest begins in the middle.
 #[test]
+#[ignore = "deep"]
 fn the_first_lines_say_why() {
-    let (Some(file), Some(mut browser)) = (file(), browser()) else { return };
+    let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     let preset = |page: &mut Page, k: u32| {
         page.evaluate(&format!("((choose) => {{ choose.value = '{k}'; choose.dispatchEvent(new Event('change')); }})(document.querySelector('.live-bar select'))"));

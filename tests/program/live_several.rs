@@ -1,5 +1,5 @@
 //! The live page of structures of several modes in Chromium: `web/build` makes it, into `target/web/live-several.html`.
-//! Where page or browser are missing the tests say so and pass, unless `VINESINK_BROWSER=required`.
+//! Where page or browser are missing the tests fail: `.ci/deep browser` makes both and runs them.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -40,8 +40,9 @@ fn at(text: &str, load: usize, frequency: f64, amplitude: f64) -> ModalCase {
 
 /// Sentence and motions are those of the program.
 #[test]
+#[ignore = "deep"]
 fn the_page_says_what_the_program_says() {
-    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let (file, mut browser) = (file_of(Some(PAGE)), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     for (name, load, frequency, amplitude) in
         [("mast", 1, 6.9, 14.07), ("floor", 0, 5.1, 800.0), ("graded", 0, 2.0, 30.0)]
@@ -63,8 +64,9 @@ fn the_page_says_what_the_program_says() {
 
 /// A slider changes the text of the case, what is said of it, and what runs; a load has its own sliders.
 #[test]
+#[ignore = "deep"]
 fn sliders_move_everything() {
-    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let (file, mut browser) = (file_of(Some(PAGE)), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     let said = "document.querySelector('.live-headline').textContent";
     let before = page.evaluate(said);
@@ -124,8 +126,9 @@ impl ModalObserver for Once<'_> {
 
 /// The simulation that runs is the program's: the same flights, as long as rounding allows.
 #[test]
+#[ignore = "deep"]
 fn the_running_simulation_is_the_programs() {
-    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let (file, mut browser) = (file_of(Some(PAGE)), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
     let text = shipped("floor");
     let request = json!({ "ask": "run", "text": text, "from": "rest", "at": { "load": 0, "frequency": 5.1, "amplitude": 883.0 } });
@@ -149,15 +152,17 @@ fn the_running_simulation_is_the_programs() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn the_page_is_quiet_accessible_and_fits() {
-    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let (file, mut browser) = (file_of(Some(PAGE)), browser());
     is_quiet_accessible_and_fits(&mut browser, &file, |page| slide(page, "restitution_1", 700));
 }
 
 /// A report with the page is still one file and begins with its own case; modes in a file are refused.
 #[test]
+#[ignore = "deep"]
 fn a_report_holds_the_page() {
-    let (Some(file), Some(mut browser)) = (file_of(Some(PAGE)), browser()) else { return };
+    let (file, mut browser) = (file_of(Some(PAGE)), browser());
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path().canonicalize().expect("a path");
     let run = |case: &str| {

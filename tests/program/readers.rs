@@ -1,7 +1,6 @@
 //! Results of a sweep in pandas, polars and DuckDB, through the script that is shown to users.
 //!
-//! Needs a Python with the packages, named in `VINESINK_PYTHON`; `.ci/run` makes one. Without it the test
-//! says so and passes.
+//! Needs a Python with the packages, named in `VINESINK_PYTHON`; `.ci/deep` makes one.
 
 use crate::common;
 use std::collections::BTreeMap;
@@ -20,11 +19,10 @@ frequency = { values = ["8 Hz", "8.3 Hz", "8.35 Hz", "8.7 Hz"] }
 "#;
 
 #[test]
+#[ignore = "deep"]
 fn three_libraries_read_the_same() {
-    let Ok(python) = std::env::var("VINESINK_PYTHON") else {
-        eprintln!("VINESINK_PYTHON names no Python with pandas, polars and duckdb: not looked at");
-        return;
-    };
+    let python = std::env::var("VINESINK_PYTHON")
+        .expect("VINESINK_PYTHON names a Python with pandas, polars and duckdb");
     let folder = TempDir::new().expect("a folder");
     let case = format!("{}{SWEEP}", common::table_1_case());
     fs::write(folder.path().join("map.toml"), case).expect("written");

@@ -384,6 +384,7 @@ fn documents_say_how_the_cavity_lies() {
 }
 
 #[test]
+#[ignore = "deep"]
 fn a_report_says_among_its_inputs_how_the_cavity_lies() {
     let (design, _) = BRIDGE.split_once("[excitation]").expect("a table");
     let free =

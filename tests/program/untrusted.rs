@@ -17,9 +17,6 @@ use vinesink::report::index::{self, IndexedReport, Summary};
 use vinesink::report::{document::FORMAT, escape, template};
 use vinesink::store;
 
-use crate::browser::browser;
-use crate::browser_support::checks::{self, DESKTOP};
-
 /// Text that means something wherever it is not escaped, on one line.
 const HOSTILE: &str = "\"><img src=x onerror=boom(1)><script>boom(2)</script> a`<img src=x onerror=boom(3)>`b \
     [c](javascript:boom(4)) ![d](//evil.example/d) @somebody owner/repo#1 GH-1 https://evil.example www.evil.example \
@@ -217,67 +214,79 @@ fn hostile_reports() -> TempDir {
     folder
 }
 
-#[test]
-fn no_script_of_a_case_runs() {
-    let Some(mut browser) = browser() else { return };
-    let folder = hostile_reports();
-    let root = folder.path().canonicalize().expect("a path");
-    let reports = root.join("reports");
-    let mut pages = vec![reports.join("index.html")];
-    for entry in fs::read_dir(&reports).expect("a folder") {
-        let page = entry.expect("an entry").path().join("report.html");
-        pages.extend(page.is_file().then_some(page));
-    }
-    assert_eq!(pages.len(), 5);
-    for file in pages {
-        let mut page = browser.page(DESKTOP);
-        let name = file.to_str().expect("UTF-8").bytes().map(|byte| match byte {
-            b'/' | b'.' | b'-' | b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' => {
-                char::from(byte).to_string()
-            }
-            other => format!("%{other:02X}"),
-        });
-        page.open_address(&format!("file://{}", name.collect::<String>()));
-        checks::unfold(&mut page);
-        let strange =
-            "document.querySelectorAll('[onerror], main script, img[src=x], h1 img').length";
-        assert_eq!(page.evaluate(strange), 0, "{}", file.display());
-        assert_eq!(checks::noise(&mut page, &root), [""; 0], "{}", file.display());
-    }
-}
+/// In Chromium: `.ci/deep browser` runs them.
+mod in_a_browser {
+    use super::*;
+    use crate::browser::browser;
+    use crate::browser_support::checks::{self, DESKTOP};
 
-/// What the pages themselves do is allowed, and a script that gets into one all the same does not run.
-#[test]
-fn the_policy_lets_a_page_do_its_own_work_and_nothing_else() {
-    let Some(mut browser) = browser() else { return };
-    let folder = hostile_reports();
-    let root = folder.path().canonicalize().expect("a path");
-    let index = root.join("reports/index.html");
-    let mut page = browser.page(DESKTOP);
-    page.open(&index);
-    page.evaluate("document.querySelectorAll('#cases thead button').forEach((one) => one.click())");
-    page.evaluate("document.querySelectorAll('#cases input').forEach((one) => one.click())");
-    let images = "[...document.querySelectorAll('#figures img')].filter((one) => one.naturalWidth > 0 || !one.complete).length";
-    assert_eq!(page.evaluate(images), 4);
-    page.evaluate("document.querySelector('#clear').click()");
-    assert_eq!(checks::noise(&mut page, &root), [""; 0]);
-    let right = "getComputedStyle(document.querySelector('td.right')).textAlign";
-    let report = root.join("reports/record/report.html");
-    drop(page);
-    let mut page = browser.page(DESKTOP);
-    page.open(&report);
-    assert_eq!(page.evaluate(right), "right");
-    assert_eq!(checks::noise(&mut page, &root), [""; 0]);
-    drop(page);
-    for file in [index, report] {
-        let attack = "<script>document.title = 'ran'</script><img src=x onerror=\"document.title = 'ran'\"><p style=\"color: red\">a</p></main>";
-        let attacked = fs::read_to_string(&file).expect("a page").replacen("</main>", attack, 1);
-        fs::write(&file, attacked).expect("written");
+    #[test]
+    #[ignore = "deep"]
+    fn no_script_of_a_case_runs() {
+        let mut browser = browser();
+        let folder = hostile_reports();
+        let root = folder.path().canonicalize().expect("a path");
+        let reports = root.join("reports");
+        let mut pages = vec![reports.join("index.html")];
+        for entry in fs::read_dir(&reports).expect("a folder") {
+            let page = entry.expect("an entry").path().join("report.html");
+            pages.extend(page.is_file().then_some(page));
+        }
+        assert_eq!(pages.len(), 5);
+        for file in pages {
+            let mut page = browser.page(DESKTOP);
+            let name = file.to_str().expect("UTF-8").bytes().map(|byte| match byte {
+                b'/' | b'.' | b'-' | b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' => {
+                    char::from(byte).to_string()
+                }
+                other => format!("%{other:02X}"),
+            });
+            page.open_address(&format!("file://{}", name.collect::<String>()));
+            checks::unfold(&mut page);
+            let strange =
+                "document.querySelectorAll('[onerror], main script, img[src=x], h1 img').length";
+            assert_eq!(page.evaluate(strange), 0, "{}", file.display());
+            assert_eq!(checks::noise(&mut page, &root), [""; 0], "{}", file.display());
+        }
+    }
+
+    /// What the pages themselves do is allowed, and a script that gets into one all the same does not run.
+    #[test]
+    #[ignore = "deep"]
+    fn the_policy_lets_a_page_do_its_own_work_and_nothing_else() {
+        let mut browser = browser();
+        let folder = hostile_reports();
+        let root = folder.path().canonicalize().expect("a path");
+        let index = root.join("reports/index.html");
         let mut page = browser.page(DESKTOP);
-        page.open(&file);
-        assert_ne!(page.evaluate("document.title"), "ran");
-        let noise = checks::noise(&mut page, &root).join("\n");
-        assert!(noise.matches("Content Security Policy").count() >= 3, "{noise}");
+        page.open(&index);
+        page.evaluate(
+            "document.querySelectorAll('#cases thead button').forEach((one) => one.click())",
+        );
+        page.evaluate("document.querySelectorAll('#cases input').forEach((one) => one.click())");
+        let images = "[...document.querySelectorAll('#figures img')].filter((one) => one.naturalWidth > 0 || !one.complete).length";
+        assert_eq!(page.evaluate(images), 4);
+        page.evaluate("document.querySelector('#clear').click()");
+        assert_eq!(checks::noise(&mut page, &root), [""; 0]);
+        let right = "getComputedStyle(document.querySelector('td.right')).textAlign";
+        let report = root.join("reports/record/report.html");
+        drop(page);
+        let mut page = browser.page(DESKTOP);
+        page.open(&report);
+        assert_eq!(page.evaluate(right), "right");
+        assert_eq!(checks::noise(&mut page, &root), [""; 0]);
+        drop(page);
+        for file in [index, report] {
+            let attack = "<script>document.title = 'ran'</script><img src=x onerror=\"document.title = 'ran'\"><p style=\"color: red\">a</p></main>";
+            let attacked =
+                fs::read_to_string(&file).expect("a page").replacen("</main>", attack, 1);
+            fs::write(&file, attacked).expect("written");
+            let mut page = browser.page(DESKTOP);
+            page.open(&file);
+            assert_ne!(page.evaluate("document.title"), "ran");
+            let noise = checks::noise(&mut page, &root).join("\n");
+            assert!(noise.matches("Content Security Policy").count() >= 3, "{noise}");
+        }
     }
 }
 
@@ -323,16 +332,28 @@ fn indexed(report: &str) -> Option<(String, String)> {
     Some((file(index::MARKDOWN), file(index::HTML)))
 }
 
-/// Every text of a report, replaced: a reviewer is told, or the report is refused, and nothing of it is active.
+/// Texts of reports, replaced: a reviewer is told, or the report is refused, and nothing of it is active.
 #[test]
 fn no_text_of_a_report_is_active_in_a_comment_or_an_index() {
+    replaced_texts_are_told_and_not_active(9);
+}
+
+/// The same of every text.
+#[test]
+#[ignore = "deep"]
+fn no_text_at_all_of_a_report_is_active_in_a_comment_or_an_index() {
+    replaced_texts_are_told_and_not_active(1);
+}
+
+/// Of every `step`th text of each report.
+fn replaced_texts_are_told_and_not_active(step: usize) {
     let mut told = 0;
     for name in SHIPPED {
         let whole = shipped(name);
         let mut all = Vec::new();
         pointers(&whole, "", &mut all);
         assert!(all.len() > 300, "{}", all.len());
-        for (k, at) in all.into_iter().enumerate() {
+        for (k, at) in all.into_iter().step_by(step).enumerate() {
             // The second text differs in what it tries, not in how it is told: one direction of every third is enough.
             let texts = [(HOSTILE.to_owned(), 2), (hostile(), 1)];
             for (hostile, directions) in texts.into_iter().take(if k % 3 == 0 { 2 } else { 1 }) {
@@ -351,7 +372,7 @@ fn no_text_of_a_report_is_active_in_a_comment_or_an_index() {
             }
         }
     }
-    assert!(told > 100, "{told} comments show the text");
+    assert!(told > 100 / step, "{told} comments show the text");
 }
 
 /// A generator of numbers, the same on every machine (SplitMix64).
@@ -554,6 +575,20 @@ fn nothing_printed_is_obeyed_by_a_terminal_or_a_build_server() {
 #[cfg(unix)]
 #[test]
 fn no_output_is_written_through_a_link() {
+    for command in ["report", "optimize", "sweep"] {
+        writes_through_no_link(command);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+#[ignore = "deep"]
+fn no_tradeoff_is_written_through_a_link() {
+    writes_through_no_link("tradeoff");
+}
+
+#[cfg(unix)]
+fn writes_through_no_link(command: &str) {
     use std::os::unix::fs::symlink;
     let sweep = "\n[sweep]\nclearance = { from = 0.9, to = 1.1, count = 3 }\nstarts = 1\n";
     let bounds = "\n[optimize]\nobjective = \"stable-share\"\nclearance = [0.5, 2.0]\n";
@@ -561,38 +596,31 @@ fn no_output_is_written_through_a_link() {
         "{}{sweep}{bounds}",
         case("a").replace("[criteria]\nimpact_velocity = \"<= 0.001\"\n", "")
     );
-    let commands = [
-        &["report", "a.toml"][..],
-        &["tradeoff", "a.toml"],
-        &["optimize", "a.toml"],
-        &["sweep", "a.toml"],
-    ];
-    for command in commands {
-        for linked in ["out/a", "out/a/figures", "out/a/chunks"] {
-            let folder = folder_with(&[("a.toml", &text_of), ("elsewhere/kept.txt", "kept")]);
-            let (path, elsewhere) = (folder.path(), folder.path().join("elsewhere"));
-            let at = path.join(linked);
-            fs::create_dir_all(at.parent().expect("a folder")).expect("a folder");
-            symlink(&elsewhere, &at).expect("a link");
-            let output = vinesink(path, &[command, &["--out", "out"]].concat());
-            let said = text(&output.stderr);
-            let there: Vec<_> = fs::read_dir(&elsewhere).expect("a folder").collect();
-            assert_eq!(there.len(), 1, "{command:?} {linked}: {said}");
-            assert!(at.is_symlink(), "{command:?} {linked}: {said}");
-            if linked == "out/a" {
-                assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
-                let said = said.split(['\n', '│', ' ']).filter(|word| !word.is_empty());
-                let said = said.collect::<Vec<_>>().join(" ");
-                assert!(said.contains("is a link, through which nothing is written"), "{said}");
-            }
-        }
-        // The folder that was named may be one.
+    let command = &[command, "a.toml"][..];
+    for linked in ["out/a", "out/a/figures", "out/a/chunks"] {
         let folder = folder_with(&[("a.toml", &text_of), ("elsewhere/kept.txt", "kept")]);
-        symlink("elsewhere", folder.path().join("out")).expect("a link");
-        let output = vinesink(folder.path(), &[command, &["--out", "out"]].concat());
-        assert!(output.status.code() != Some(2), "{command:?}: {}", text(&output.stderr));
-        assert!(folder.path().join("elsewhere/a").is_dir(), "{command:?}");
+        let (path, elsewhere) = (folder.path(), folder.path().join("elsewhere"));
+        let at = path.join(linked);
+        fs::create_dir_all(at.parent().expect("a folder")).expect("a folder");
+        symlink(&elsewhere, &at).expect("a link");
+        let output = vinesink(path, &[command, &["--out", "out"]].concat());
+        let said = text(&output.stderr);
+        let there: Vec<_> = fs::read_dir(&elsewhere).expect("a folder").collect();
+        assert_eq!(there.len(), 1, "{command:?} {linked}: {said}");
+        assert!(at.is_symlink(), "{command:?} {linked}: {said}");
+        if linked == "out/a" {
+            assert_eq!(output.status.code(), Some(2), "{command:?}: {said}");
+            let said = said.split(['\n', '│', ' ']).filter(|word| !word.is_empty());
+            let said = said.collect::<Vec<_>>().join(" ");
+            assert!(said.contains("is a link, through which nothing is written"), "{said}");
+        }
     }
+    // The folder that was named may be one.
+    let folder = folder_with(&[("a.toml", &text_of), ("elsewhere/kept.txt", "kept")]);
+    symlink("elsewhere", folder.path().join("out")).expect("a link");
+    let output = vinesink(folder.path(), &[command, &["--out", "out"]].concat());
+    assert!(output.status.code() != Some(2), "{command:?}: {}", text(&output.stderr));
+    assert!(folder.path().join("elsewhere/a").is_dir(), "{command:?}");
 }
 
 /// Who writes a report and who adds a page to it wait for one another.
@@ -629,6 +657,7 @@ fn nothing_is_lost_where_several_write_at_once() {
 /// The lock of a writer that is killed is gone with it.
 #[cfg(unix)]
 #[test]
+#[ignore = "deep"]
 fn a_report_waits_for_another_writer_no_longer_than_that_lives() {
     let folder = folder_with(&[("a.toml", &case("a")), ("out/kept.txt", "kept")]);
     let held = store::Output::open(&folder.path().join("out")).expect("a folder");
