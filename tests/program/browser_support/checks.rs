@@ -87,7 +87,7 @@ pub fn noise(page: &mut Page, folder: &Path) -> Vec<String> {
     found.collect()
 }
 
-/// Where axe-core's script lies: in `AXE`, or where `.ci/run` puts it.
+/// Where axe-core's script lies: in `AXE`, or where `.ci/deep` puts it.
 pub fn axe() -> Option<PathBuf> {
     let usual = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/axe/package/axe.min.js");
     let given = std::env::var_os("AXE").map(PathBuf::from);
