@@ -657,7 +657,6 @@ fn nothing_is_lost_where_several_write_at_once() {
 /// The lock of a writer that is killed is gone with it.
 #[cfg(unix)]
 #[test]
-#[ignore = "deep"]
 fn a_report_waits_for_another_writer_no_longer_than_that_lives() {
     let folder = folder_with(&[("a.toml", &case("a")), ("out/kept.txt", "kept")]);
     let held = store::Output::open(&folder.path().join("out")).expect("a folder");
