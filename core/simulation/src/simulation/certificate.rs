@@ -299,6 +299,21 @@ mod tests {
         assert!(nearest[0].min(nearest[1]) > 0.5, "{nearest:?}: the bound is never nearly reached");
     }
 
+    /// A level gap of 0.995 has `b3 = 0.995`: nothing is proven where the motion may be 0.01 off its quintic.
+    #[test]
+    fn a_panel_is_no_clearer_than_its_quintic_is_known() {
+        struct Level;
+        impl Jet<f64> for Level {
+            fn jet(&self) -> [f64; 3] {
+                [0.995, 0.0, 0.0]
+            }
+        }
+        let clear = |coefficient: f64| {
+            Hull::of(&Level, &Level, 1.0, &Slack { coefficient, slope_squared: 0.0 }).clear()
+        };
+        assert!(clear(0.004) && !clear(0.01));
+    }
+
     #[test]
     fn coefficients_say_where_a_gap_stays_and_where_it_leaves() {
         let hull = |inner: [f64; 4], last: f64| Hull { inner, last, slack: 0.01 };
