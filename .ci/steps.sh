@@ -6,7 +6,7 @@ export CARGO_TERM_COLOR=never
 export CARGO_INCREMENTAL=0 CARGO_PROFILE_DEV_CODEGEN_UNITS=256
 target="$(realpath -m "${CARGO_TARGET_DIR:-target}")"
 
-# step NAME: a headline, and the seconds of the step before it.
+# step NAME: a headline, and where the seconds of this step begin.
 step_names=() step_begins=()
 step() {
     step_names+=("$1") step_begins+=("$SECONDS")
@@ -24,11 +24,12 @@ seconds_of_steps() {
     printf '%6d  all\n' "$SECONDS"
 }
 
-# debian PROGRAM-OR-FILE=PACKAGE ...: installs the packages whose program or file is missing.
+# debian PACKAGE ...: installs the packages that are missing. One whose program of the same name is there already, wherever it
+# comes from, is not.
 debian() {
-    local need missing=()
-    for need in "$@"; do
-        command -v "${need%%=*}" >/dev/null || [ -e "${need%%=*}" ] || missing+=("${need#*=}")
+    local package missing=()
+    for package in "$@"; do
+        command -v "$package" >/dev/null || dpkg -s "$package" >/dev/null 2>&1 || missing+=("$package")
     done
     if [ "${#missing[@]}" -gt 0 ]; then
         apt-get update -qq && apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
@@ -37,7 +38,7 @@ debian() {
 
 # Python's environments with the packages that tests and checks use.
 environment() {
-    python3 -c "import ensurepip" 2>/dev/null || debian no-such-file=python3-venv
+    python3 -c "import ensurepip" 2>/dev/null || debian python3-venv
     [ -x "$target/python/bin/python" ] || python3 -m venv "$target/python"
     "$target/python/bin/pip" install --quiet --disable-pip-version-check "$@"
 }

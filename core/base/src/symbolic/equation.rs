@@ -138,6 +138,7 @@ macro_rules! declared_equations {
         }),+];
     };
 }
+// A macro for other crates stands at the root, where `equations` is a room.
 #[doc(hidden)]
 pub use declared_equations as equations;
 
