@@ -49,11 +49,11 @@ const LONG_ENOUGH: f64 = 0.2;
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, format, long, reading } = &arguments.one;
-    let case = case_file::read(path, *reading)?;
-    one_case::steady(&case, path, "a trade-off")?;
     if arguments.out.is_some() {
         case_file::name(path)?;
     }
+    let case = case_file::read(path, *reading)?;
+    one_case::steady(&case, path, "a trade-off")?;
     let system = case.system();
     let effort = TradeoffEffort { search: case.effort(), ..TradeoffEffort::default() };
     let [starts, motion] = Work::motions(&case, &effort.search);

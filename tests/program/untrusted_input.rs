@@ -437,10 +437,11 @@ fn a_case_without_a_name_is_refused() {
     fs::create_dir(folder.path().join("reports")).expect("a folder");
     fs::write(folder.path().join("reports/kept.md"), "kept").expect("written");
     for name in ["..toml", "...toml"] {
-        fs::write(folder.path().join(name), common::table_1_case()).expect("written");
-        for command in ["report", "tradeoff"] {
+        // No case at all: the name is looked at before there is any work.
+        fs::write(folder.path().join(name), "no case").expect("written");
+        for command in ["report", "tradeoff", "optimize"] {
             let mut arguments = vec![command, name];
-            if command == "tradeoff" {
+            if command != "report" {
                 arguments.extend(["--out", "reports"]);
             }
             let said = refused(folder.path(), &arguments);
