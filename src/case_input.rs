@@ -68,10 +68,24 @@ pub fn parse_several(
     folder: &Path,
     reach: Reach,
 ) -> Result<ModalCase, CaseInputError> {
-    let read = |file: String| read_named(name, "file of its modes", &file, folder, reach);
+    let read = |file: String| {
+        let read = store::read_named(folder, &file, reach);
+        let what = "file of its modes";
+        let named = |source| CaseInputError::Named { what, case: name.to_owned(), source };
+        read.map(|(path, bytes)| ModesFile::of_bytes(&path.display().to_string(), &bytes))
+            .map_err(named)
+    };
     let modes = modes_file(text).map(read).transpose()?;
-    let modes = modes.map(|(name, text)| ModesFile { name, text });
     Ok(ModalCase::parse_with(name, text, modes)?)
+}
+
+/// Reads a file of modes, wherever it is.
+///
+/// # Errors
+/// [`StoreError`] where it cannot be read.
+pub fn read_modes(path: &Path) -> Result<ModesFile, StoreError> {
+    let (path, bytes) = store::read_named(Path::new(""), &path.to_string_lossy(), Reach::Anywhere)?;
+    Ok(ModesFile::of_bytes(&path.display().to_string(), &bytes))
 }
 
 /// Reads a case file of several modes or absorbers; its text beside the case.

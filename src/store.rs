@@ -21,7 +21,7 @@ pub use error::StoreError;
 pub use folder::{Output, folder_below, read_folder, replace_folder};
 pub use git::{read_files_at, read_reports_at};
 pub use growing::Growing;
-pub use reading::{CaseText, Reach, open, read_case, read_record, read_text};
+pub use reading::{CaseText, Reach, open, read_case, read_named, read_record, read_text};
 pub use reports::{StoredReport, StoredReports, read_reports};
 pub use shards::Shards;
 

@@ -51,8 +51,8 @@ pub use criteria::{Criterion, Relation};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use modal::{
-    ActsOn, Bounds, Load, ModalCase, ModalSweep, ModesFile, PlaceCriterion, PlacedAbsorber,
-    StructuralMode, is_modal, modes_file,
+    ActsOn, Bounds, ListedMode, Load, ModalCase, ModalSweep, ModesFile, ModesListing,
+    PlaceCriterion, PlacedAbsorber, StructuralMode, is_modal, modes_file,
 };
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;

@@ -10,7 +10,8 @@ use super::excitation::ExcitationTable;
 use super::reader::{Reader, Table};
 use super::restitution::{Restitution, one_or_each};
 use super::schema::one_of;
-use super::support::{self, Orientation, Support, SupportKind};
+use super::support::{self, Orientation, SOFT, Support, SupportKind};
+use super::warnings::{hertz, percent};
 use crate::excitation::Transient;
 use crate::quantity::Dimension;
 use crate::quantity::numbers::rounded_to;
@@ -74,7 +75,7 @@ pub(super) struct AbsorberTable {
     #[schemars(example = &"spring")]
     pub(super) support: Option<SupportKind>,
     /// f_s, the frequency of the absorber on the pendulum or the spring that carries it, above 0, at most a fifth of the
-    /// excitation's: the model leaves its force out.
+    /// structure's and of the excitation's: the model leaves its force out.
     #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0, "x-symbol" = r"f_\mathrm{s}"), example = "0.4 Hz")]
     pub(super) support_frequency: Option<f64>,
     /// Room for the length of the pendulum, or for the stretch of the spring by the absorber's weight,
@@ -220,6 +221,19 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         let expected = format!("expected at most {} s", rounded_to(most, 3));
         let help = "between steel or hard rubber it takes 0.1 to 5 ms; without the line impacts take no time";
         reader.report(cavity.span_of_value("contact_time"), message, expected, help);
+        return None;
+    }
+    let own = physical.natural_frequency_rad_per_s() / TAU;
+    if let Some(ratio) = support.and_then(|one| one.frequency_hz).map(|of| of / own)
+        && support::is_stiff(ratio)
+    {
+        let message = format!(
+            "the support has {} of the structure's frequency, and the model leaves its force out",
+            percent(ratio)
+        );
+        let expected = format!("expected at most {} %, {}", 100.0 * SOFT, hertz(SOFT * own));
+        let help = "take a softer one, a longer pendulum for example: a stiff one holds the absorber back from its walls, and nothing here would say so";
+        reader.report(cavity.span_of_value("support_frequency"), message, expected, help);
         return None;
     }
     physical.damping_n_s_per_m = match (oscillator.damping, oscillator.damping_ratio) {

@@ -23,6 +23,8 @@ const MOST_PROBLEMS: usize = 100;
 pub(super) struct Reader<'t> {
     pub text: &'t str,
     pub problems: Vec<Problem>,
+    /// What is probably a slip.
+    pub warnings: Vec<Problem>,
     /// How many were found after [`MOST_PROBLEMS`].
     pub more: usize,
     pub inputs: Vec<Input>,
@@ -43,6 +45,7 @@ impl<'t> Reader<'t> {
         Self {
             text,
             problems,
+            warnings: Vec::new(),
             more: 0,
             inputs,
             design: None,
@@ -57,6 +60,11 @@ impl<'t> Reader<'t> {
         self.text.lines().next().map_or(0, str::len)
     }
 
+    /// The line, from 1, in which a byte stands.
+    pub fn line_of(&self, at: usize) -> usize {
+        1 + self.text[..at].matches('\n').count()
+    }
+
     /// Records a problem.
     pub fn report(
         &mut self,
@@ -66,6 +74,18 @@ impl<'t> Reader<'t> {
         help: impl Into<String>,
     ) {
         self.keep(|text| Problem::new(text, span, message, expected).help(help));
+    }
+
+    /// Records what is probably a slip.
+    pub fn warn(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let warning = Problem::new(self.text, span, message, label).help(help);
+        self.warnings.push(warning.into_warning());
     }
 
     /// Keeps a problem, or counts it where there are enough: to say where each of thousands is would take seconds.

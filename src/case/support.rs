@@ -13,7 +13,7 @@ use vinesink_core::names;
 use super::inputs::Input;
 use super::physical::{AbsorberTable, Physical};
 use super::reader::{Reader, Table};
-use super::{Case, Design, Rounding};
+use super::{Case, Design, Distribution, Rounding};
 use crate::excitation::{Record, Scene, Transient};
 use crate::linear::{BandSystems, bare_along, driven};
 use crate::quantity::numbers::rounded_to;
@@ -60,8 +60,17 @@ impl Support {
     }
 }
 
-/// Frequency of a support over the excitation's up to which its force is left out: then `(f_s/f)^2` is 4 %.
+/// Frequency of a support over the structure's, or over the excitation's, up to which its force is left out: then `(f_s/f)^2`
+/// is 4 %.
 pub(super) const SOFT: f64 = 0.2;
+/// Relative error that a ratio of two frequencies may have.
+const ROUNDING: f64 = 1e-12;
+
+/// Whether a support of so many times another frequency holds the absorber back: a case as it is written is then refused, for the model
+/// has the absorber where it would not be.
+pub(super) fn is_stiff(ratio: f64) -> bool {
+    ratio > SOFT * (1.0 + ROUNDING)
+}
 
 /// Room in m where a case gives none: what is longer is a slip of a unit.
 const MOST_ROOM: f64 = 1e6;
@@ -188,6 +197,35 @@ impl Case {
     /// The support's frequency over the lowest of the excitation.
     pub(super) fn support_ratio(&self) -> Option<f64> {
         Some(self.design.support()?.frequency_hz? / self.lowest_hz())
+    }
+
+    /// The support's frequency over the lowest that the structure has where its mass or its own frequency is uncertain, at twice a
+    /// standard deviation, or swept; none where neither is.
+    pub(super) fn support_ratio_in_drift(&self) -> Option<f64> {
+        let support = self.design.support()?.frequency_hz?;
+        let shapes = |one: &Parameter| matches!(one, Parameter::NaturalFrequency | Parameter::Mass);
+        let uncertain = self.uncertainty.parameters().filter_map(|(of, errors)| {
+            let largest = match errors {
+                Distribution::Normal(deviation) => 2.0 * deviation,
+                Distribution::Uniform(largest) => largest,
+            };
+            let own = self.design.value(of)?;
+            // More mass is a lower frequency.
+            Some((of, if of == Parameter::Mass { own + largest } else { own - largest }))
+        });
+        let swept = self.sweep.iter().flat_map(|sweep| &sweep.axes).filter_map(|axis| {
+            let ends = [axis.values.first()?, axis.values.last()?];
+            Some((axis.parameter, *ends[usize::from(axis.parameter == Parameter::Mass)]))
+        });
+        let own = |(of, value): (Parameter, f64)| match of {
+            Parameter::Mass => {
+                let mass = self.design.value(of)?;
+                Some(self.units().frequency(1.0) * sqrt(mass / value))
+            }
+            _ => Some(value),
+        };
+        let all = uncertain.chain(swept).filter(|(of, _)| shapes(of)).filter_map(own);
+        all.map(|own| support / own.max(0.0)).max_by(f64::total_cmp)
     }
 
     /// The lowest frequency of the excitation, or the structure's where it has none; in Hz, or over the latter.

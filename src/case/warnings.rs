@@ -4,7 +4,7 @@
 
 use super::error::Problem;
 use super::inputs::Input;
-use super::support::{Orientation, SOFT, metres, static_length};
+use super::support::{Orientation, SOFT, is_stiff, metres, static_length};
 use super::{BandOver, BandSettings, Case, Design, Rounding};
 use crate::quantity::numbers::rounded_to;
 
@@ -250,10 +250,21 @@ impl Read<'_> {
     /// That the force of the support is not small, which the model leaves out.
     fn support(&self) -> Option<Problem> {
         let (ratio, left_out) = (self.case.support_ratio()?, self.case.support_left_out()?);
-        if ratio <= SOFT * (1.0 + ROUNDING) && left_out <= MOST_LEFT_OUT {
-            return None;
-        }
         let at = self.input(1, &["support_frequency"])?;
+        if !is_stiff(ratio) && left_out <= MOST_LEFT_OUT {
+            let drifted = self.case.support_ratio_in_drift().filter(|ratio| is_stiff(*ratio))?;
+            let message = format!(
+                "`{}` = {} is {} of the lowest natural frequency that [uncertainty] or [sweep] gives the structure",
+                at.name,
+                at.as_written,
+                percent(drifted)
+            );
+            let meant = format!(
+                "there the model leaves out a force that counts: it is small up to {}",
+                percent(SOFT)
+            );
+            return Some(self.warning(at, message, "no soft support there", meant));
+        }
         let message = format!(
             "`{}` = {}: the support's restoring acceleration, which the model leaves out, is {} of the structure's",
             at.name,

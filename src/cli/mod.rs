@@ -8,6 +8,7 @@ mod completions;
 mod diff;
 mod index;
 mod manual;
+mod modes;
 mod new;
 mod one_case;
 mod optimize;
@@ -47,6 +48,7 @@ Examples:
   vinesink tradeoff damper.toml                 how much accuracy for how much work
   vinesink optimize damper.toml                 the clearance that serves it best
   vinesink sweep damper.toml                    a map over its parameters, as Parquet
+  vinesink modes mast.unv                       the modes of a file, and how it is read
   vinesink schema > vinesink.schema.json        let the editor complete and check cases
   vinesink help new                             what a command does, with examples";
 
@@ -62,6 +64,7 @@ enum Command {
     Tradeoff(tradeoff::Arguments),
     Optimize(optimize::Arguments),
     Sweep(sweep::Arguments),
+    Modes(modes::Arguments),
     Schema(schema::Arguments),
     Completions(completions::Arguments),
     Manual(manual::Arguments),
@@ -86,6 +89,7 @@ impl Cli {
             Command::Tradeoff(arguments) => tradeoff::run(arguments),
             Command::Optimize(arguments) => optimize::run(arguments),
             Command::Sweep(arguments) => sweep::run(arguments),
+            Command::Modes(arguments) => modes::run(arguments),
             Command::Schema(arguments) => schema::run(arguments),
             Command::Completions(arguments) => completions::run(arguments),
             Command::Manual(arguments) => manual::run(arguments),

@@ -130,10 +130,24 @@ pub fn read_record(
     name: &str,
     reach: Reach,
 ) -> Result<(PathBuf, String), StoreError> {
+    let (path, bytes) = read_named(folder, name, reach)?;
+    let text = text_of(&path, bytes)?;
+    Ok((path, text))
+}
+
+/// Reads the bytes of a file that a case in `folder` names, with the path that messages give it.
+///
+/// # Errors
+/// [`StoreError`] when it cannot be read, is no regular file, is too large or is not below the folder.
+pub fn read_named(
+    folder: &Path,
+    name: &str,
+    reach: Reach,
+) -> Result<(PathBuf, Vec<u8>), StoreError> {
     let path = folder.join(name);
     let folder = if folder == Path::new("") { Path::new(".") } else { folder };
-    let text = text_of(&path, read(&within(folder, &path, reach)?, FileKind::Record)?)?;
-    Ok((path, text))
+    let bytes = read(&within(folder, &path, reach)?, FileKind::Record)?;
+    Ok((path, bytes))
 }
 
 /// The file that a path leads to, which must be below a folder unless all are in reach.

@@ -31,6 +31,7 @@ mod live;
 mod live_several;
 mod metadata;
 mod modal;
+mod modal_files;
 mod modal_orbits;
 mod modal_reduced;
 mod modal_sweep;

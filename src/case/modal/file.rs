@@ -5,7 +5,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::StructuralMode;
-use super::table::{self, Modes, ModesFile};
+use super::alike::alike;
+use super::table::{self, Columns, FileMode, Modes, ModesFile};
 use super::universal::{self, Direction};
 use crate::case::error::CaseError;
 use crate::case::reader::{Reader, Table};
@@ -20,7 +21,8 @@ pub(super) struct ModesTable {
     #[schemars(example = &"mast.csv")]
     #[expect(dead_code, reason = "read before the case is")]
     file: String,
-    /// Places of a Universal File: a node and the direction in which it moves, each by a name.
+    /// Places, each by a name: of a Universal File a node and the direction in which it moves, of a file of columns the column with the
+    /// shape there, where not every further column is a place.
     #[schemars(with = "Value", extend("type" = "object", "additionalProperties" = { "type": "string" }))]
     #[schemars(example = json!({ "tip": "12 z" }))]
     #[expect(dead_code, reason = "read by its own names")]
@@ -37,7 +39,7 @@ pub(super) struct ModesTable {
     damping_ratio: Option<f64>,
 }
 
-/// Places and modes of the file that `[modes]` names.
+/// Places and modes of the file that `[modes]` names, and what was found in it.
 ///
 /// # Errors
 /// What is wrong with that file.
@@ -45,40 +47,50 @@ pub(super) fn modes_of_file(
     reader: &mut Reader,
     root: &Table,
     file: Option<&ModesFile>,
-) -> Result<Modes, CaseError> {
+) -> Result<(Modes, String), CaseError> {
     if root.has("mode") {
         let message = "[modes] and [[mode]] both say which modes there are";
         reader.report(root.span_of("modes"), message, "expected one of them", "remove one");
     }
     let Some((table, read)) = reader.optional::<ModesTable>(root, "modes") else {
-        return Ok(Modes::default());
+        return Ok(Default::default());
     };
     let Some(file) = file else {
         let message = "the file of the modes was not read";
         let help = "write the modes as [[mode]] where a case is a text without a folder";
         reader.report(root.span_of("modes"), message, "expected a case in a file", help);
-        return Ok(Modes::default());
+        return Ok(Default::default());
     };
     let before = reader.problems.len();
-    let FileModes { places, modes: mut all, unit_of_mass } = match universal::is_universal(
-        &file.text,
-    ) {
-        true => universal_modes(reader, &table, file)?,
-        false if table.has("places") => {
-            let message = "`places` has no meaning: the file does not begin with a line -1, as a Universal File does";
-            let expected = "expected a Universal File, or no `places`";
-            let help = "name another file, or remove the line where the file is one of columns, whose head names its places";
-            reader.report(table.span_of("places"), message, expected, help);
-            return Ok(Modes::default());
-        }
-        false => {
-            let (places, modes) = table::read(file)?;
-            FileModes { places, modes, unit_of_mass: 1.0 }
-        }
-    };
+    let FileModes { places, modes: mut all, unit_of_mass, complex, read_as } =
+        match universal::is_universal(file.text()) {
+            true => universal_modes(reader, &table, file)?,
+            false => columns_of(reader, &table, file)?,
+        };
     if reader.problems.len() > before {
-        return Ok(Modes::default());
+        return Ok(Default::default());
     }
+    if !complex.is_empty() {
+        let lines: Vec<String> = complex.iter().map(usize::to_string).collect();
+        let message = match lines.as_slice() {
+            [line] => format!("1 mode of the file is complex and is not read: line {line}"),
+            all => format!(
+                "{} modes of the file are complex and are not read: lines {}",
+                all.len(),
+                all.join(", ")
+            ),
+        };
+        let (label, help) = (
+            "a mode that is left out takes no part",
+            "export real normal modes, or say which of the others count: numbers = [1, 2]",
+        );
+        if read.numbers.is_none() {
+            reader.report(table.span_of("file"), message, label, help);
+            return Ok(Default::default());
+        }
+        reader.warn(table.span_of("file"), message, label, help);
+    }
+    let in_file = all.len();
     if let Some(numbers) = &read.numbers {
         let span = table.span_of_value("numbers");
         let known = |number: &u64| (1..=all.len() as u64).contains(number);
@@ -88,7 +100,7 @@ pub(super) fn modes_of_file(
             let message = format!("the file has {} modes", all.len());
             let expected = format!("expected numbers from 1 to {}, each once", all.len());
             reader.report(span, message, expected, "write numbers = [1, 2, 3]");
-            return Ok(Modes::default());
+            return Ok(Default::default());
         }
         all = numbers.iter().map(|number| all[*number as usize - 1].clone()).collect();
     }
@@ -97,12 +109,13 @@ pub(super) fn modes_of_file(
         let expected = format!("expected 1 to {MOST_MODES}");
         let help = "choose those that matter most: numbers = [1, 2, 3]";
         reader.report(table.span_of("file"), message, expected, help);
-        return Ok(Modes::default());
+        return Ok(Default::default());
     }
-    for (k, mode) in all.iter_mut().enumerate() {
+    let number = |k: usize| read.numbers.as_ref().map_or(k as u64 + 1, |numbers| numbers[k]);
+    for (k, FileMode { mode, .. }) in all.iter_mut().enumerate() {
         mode.damping_ratio = read.damping_ratio.unwrap_or(mode.damping_ratio);
         mode.mass_kg = read.mass.unwrap_or(mode.mass_kg);
-        let number = read.numbers.as_ref().map_or(k as u64 + 1, |numbers| numbers[k]);
+        let number = number(k);
         // A file of columns is judged line by line.
         if let Some((wrong, expected)) = impossible(mode) {
             let message = format!("mode {number} of the file {wrong}");
@@ -117,7 +130,31 @@ pub(super) fn modes_of_file(
             break;
         }
     }
-    Ok((places, all))
+    let shapes: Vec<(f64, &[f64])> =
+        all.iter().map(|one| (one.mode.frequency_hz, one.whole.as_slice())).collect();
+    for pair in alike(&shapes) {
+        let [first, second] = [pair.first, pair.second];
+        let told = [first, second].map(|k| {
+            format!("mode {} of line {} at {} Hz", number(k), all[k].line, all[k].mode.frequency_hz)
+        });
+        let help =
+            "keep one of them with `numbers`, where they are one mode that was written twice";
+        let (words, label) = match pair.equal {
+            true => ("have one frequency and one shape", "expected each mode once"),
+            false => {
+                ("have nearly one frequency and one shape", "each of them takes its part of a load")
+            }
+        };
+        let message = format!("{} and {} {words}", told[0], told[1]);
+        match pair.equal {
+            true => reader.report(table.span_of("file"), message, label, help),
+            false => reader.warn(table.span_of("file"), message, label, help),
+        }
+    }
+    let path = table.value("file").and_then(|value| value.get_ref().as_str()).unwrap_or_default();
+    let some = format!("{} of {in_file} modes", all.len());
+    let told = format!("{some} from {path}, {read_as}");
+    Ok(((places, all.into_iter().map(|one| one.mode).collect()), told))
 }
 
 /// What a mode cannot be, and what was expected.
@@ -138,10 +175,56 @@ fn impossible(mode: &StructuralMode) -> Option<(String, &'static str)> {
 /// What a file has, at the places that a case names.
 struct FileModes {
     places: Vec<String>,
-    modes: Vec<StructuralMode>,
+    modes: Vec<FileMode>,
     /// In kg.
     unit_of_mass: f64,
+    /// Lines of modes that are not read.
+    complex: Vec<usize>,
+    /// What kind of file it is.
+    read_as: String,
 }
+
+/// What `places` says of each place, in the order in which they are written; none where there is no such key.
+fn named<T>(
+    reader: &mut Reader,
+    table: &Table,
+    parse: impl Fn(&str) -> Option<T>,
+    [is_none, expected, help]: [&str; 3],
+) -> Option<Vec<(String, T)>> {
+    let entries = table.value("places")?.get_ref().as_table()?;
+    let mut named = Vec::new();
+    for (name, value) in entries {
+        match value.get_ref().as_str().and_then(&parse) {
+            Some(at) => named.push((name.get_ref().to_string(), at)),
+            None => {
+                let message = format!("`{}` of `places` is {is_none}", name.get_ref());
+                reader.report(value.span(), message, expected, help);
+            }
+        }
+    }
+    Some(named)
+}
+
+/// That of a file of columns.
+fn columns_of(
+    reader: &mut Reader,
+    table: &Table,
+    file: &ModesFile,
+) -> Result<FileModes, CaseError> {
+    const WORDS: [&str; 3] = [
+        "no name of a column",
+        "expected a text, as in \"tip\"",
+        "write places = { tip = \"tip\" }: a column of the file",
+    ];
+    let named = named(reader, table, |column| Some(column.to_owned()), WORDS);
+    let named = named.filter(|all| !all.is_empty());
+    let Columns { places, modes, .. } = table::read(file, named.as_deref())?;
+    let read_as = "a file of columns".to_owned();
+    Ok(FileModes { places, modes, unit_of_mass: 1.0, complex: Vec::new(), read_as })
+}
+
+/// Nodes that a message names.
+const NAMED: usize = 5;
 
 /// That of a Universal File.
 fn universal_modes(
@@ -150,34 +233,28 @@ fn universal_modes(
     file: &ModesFile,
 ) -> Result<FileModes, CaseError> {
     const HELP: &str = "write places = { tip = \"12 z\" }: a node of the file and its direction";
-    let mut named: Vec<(String, Direction)> = Vec::new();
-    let entries = table.value("places").and_then(|value| value.get_ref().as_table());
-    for (name, value) in entries.into_iter().flatten() {
-        match value.get_ref().as_str().and_then(Direction::parse) {
-            Some(at) => named.push((name.get_ref().to_string(), at)),
-            None => {
-                let message =
-                    format!("`{}` of `places` is no node with a direction", name.get_ref());
-                let expected = "expected a number and x, y or z, as in \"12 z\"";
-                reader.report(value.span(), message, expected, HELP);
-            }
-        }
-    }
-    let (places, at): (Vec<String>, Vec<Direction>) = named.into_iter().unzip();
+    const WORDS: [&str; 3] =
+        ["no node with a direction", "expected a number and x, y or z, as in \"12 z\"", HELP];
+    let named = named(reader, table, Direction::parse, WORDS);
+    let written = table.value("places").and_then(|value| value.get_ref().as_table());
+    let is_none = written.is_none_or(|all| all.is_empty());
+    let (places, at): (Vec<String>, Vec<Direction>) = named.into_iter().flatten().unzip();
     let found = universal::read(file, &at)?;
-    let nodes: Vec<String> = found.nodes.iter().map(u64::to_string).collect();
+    let nodes: Vec<String> = found.nodes.iter().take(NAMED).map(u64::to_string).collect();
     let nodes = format!("expected nodes of the file, which begin with {}", nodes.join(", "));
-    if entries.is_none_or(|all| all.is_empty()) {
+    if is_none {
         let message = "a Universal File has nodes, and the case does not name its places";
         reader.report(table.span_of("places"), message, nodes.as_str(), HELP);
     }
     for (k, at) in at.iter().enumerate() {
-        let lacks = |mode: &StructuralMode| mode.shape[k].is_nan();
+        let lacks = |one: &FileMode| one.mode.shape[k].is_nan();
         let Some(mode) = found.modes.iter().position(lacks) else { continue };
         let message =
             format!("\"{}\" is node {}, which mode {} does not have", places[k], at.node, mode + 1);
         let help = "name a node that every mode of the file has";
         reader.report(table.span_of_value("places"), message, nodes.as_str(), help);
     }
-    Ok(FileModes { places, modes: found.modes, unit_of_mass: found.unit_of_mass })
+    let read_as = format!("a Universal File of {}", found.counted());
+    let universal::Universal { modes, unit_of_mass, complex, .. } = found;
+    Ok(FileModes { places, modes, unit_of_mass, complex, read_as })
 }

@@ -1,8 +1,10 @@
 //! A case of several modes and absorbers: `[[mode]]`, `[[absorber]]` and `[excitation]`, or `[[excitation]]` where several
 //! may act, one at a time.
 
+mod alike;
 mod asked;
 mod file;
+mod listing;
 mod load;
 mod mode;
 mod place;
@@ -29,6 +31,7 @@ use crate::quantity::Kind;
 use crate::quantity::catalogue as of;
 use vinesink_core::names;
 
+pub use listing::{ListedMode, ModesListing};
 pub(super) use read::ModalFile;
 pub use sweep::ModalSweep;
 pub(super) use sweep::form as axis_form;
@@ -64,6 +67,8 @@ pub struct ModalCase {
     pub periods: u64,
     /// The file of its modes, where they are in one.
     pub modes_file: Option<ModesFile>,
+    /// How many modes that is, and what was found in the file, as a sentence without its end.
+    pub modes_from: Option<String>,
     /// Within which bounds better absorbers are looked for.
     pub bounds: Bounds,
     /// What `vinesink sweep` varies.
@@ -258,7 +263,7 @@ impl ModalCase {
         let mut reader = Reader::of(visible);
         match read::read(&mut reader, &document, sha256(text.as_bytes()), modes.as_ref())? {
             Some((case, spans)) if reader.problems.is_empty() => {
-                let warnings = warnings::of(&case, visible, &spans);
+                let warnings = warnings::of(&case, visible, &spans, reader.warnings);
                 Ok(Self { modes_file: modes, warnings, ..case })
             }
             _ => Err(refused(reader.problems, reader.more)),

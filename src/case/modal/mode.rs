@@ -9,6 +9,7 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::StructuralMode;
+use super::alike::alike;
 use super::table::Modes;
 use crate::case::number::Form;
 use crate::case::reader::{Reader, Table};
@@ -56,7 +57,7 @@ pub(super) fn read_modes(
         modes.push(mode);
         damping.push(table.span_of_value("damping_ratio"));
     }
-    let shapes: Vec<_> = modes.iter().map(|(_, shape)| shape.clone()).collect();
+    let shapes: Vec<Shape> = modes.iter().map(|(_, shape)| shape.clone()).collect();
     let modes: Vec<StructuralMode> = modes
         .into_iter()
         .map(|(mode, shape)| StructuralMode {
@@ -68,6 +69,25 @@ pub(super) fn read_modes(
         let message = format!("the shape has no value at \"{name}\", where another mode has one");
         let help = format!("write shape = {{ {name} = 1.0, ... }}; 0 where the mode has a node");
         reader.report(span, message, "expected every place in the shape of every mode", help);
+    }
+    let found: Vec<(f64, &[f64])> =
+        modes.iter().map(|mode| (mode.frequency_hz, mode.shape.as_slice())).collect();
+    for pair in alike(&found) {
+        let [first, second] = [&modes[pair.first], &modes[pair.second]].map(|one| one.frequency_hz);
+        let [line, span] = [pair.first, pair.second].map(|k| shapes[k].0.clone());
+        let line = reader.line_of(line.start);
+        let words = if pair.equal { "one" } else { "nearly one" };
+        let unit = if reader.plain { "times the first" } else { "Hz" };
+        let message = format!(
+            "mode {} at {second} {unit} has {words} frequency and one shape with mode {}, at {first} {unit} in line {line}",
+            pair.second + 1,
+            pair.first + 1,
+        );
+        let help = "remove one of them, where they are one mode that was written twice";
+        match pair.equal {
+            true => reader.report(span, message, "expected each mode once", help),
+            false => reader.warn(span, message, "each of them takes its part of a load", help),
+        }
     }
     (places, modes)
 }

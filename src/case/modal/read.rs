@@ -156,15 +156,17 @@ pub(super) fn read(
             }
         }
     }
+    let mut modes_from = None;
     let (places, mut modes) = match (&reduced, root.has("modes")) {
         (Some(table), _) => {
             let tables = tables::<ReducedModeTable>(reader, table, "mode");
             read_modes(reader, tables, read_reduced_mode, &mut spans.damping)
         }
         (None, true) => {
-            let read = modes_of_file(reader, &root, file)?;
+            let (read, told) = modes_of_file(reader, &root, file)?;
             spans.damping =
                 damping_of_file(&root).map_or(Vec::new(), |span| vec![span; read.1.len()]);
+            modes_from = Some(told);
             read
         }
         (None, false) => {
@@ -264,6 +266,7 @@ pub(super) fn read(
         starts,
         periods,
         modes_file: None,
+        modes_from,
         bounds,
         sweep: None,
         warnings: Vec::new(),

@@ -1,6 +1,9 @@
 //! Modes from a file of columns: a head that names them, with units, and a line for each mode.
 
+use std::collections::HashSet;
+
 use super::StructuralMode;
+use super::universal::{self, line_of};
 use crate::case::error::{CaseError, Problem};
 use crate::case::quantity::{number_in, unit_in_brackets};
 use crate::case::record::{lines, problem};
@@ -17,6 +20,35 @@ pub struct ModesFile {
     pub text: String,
 }
 
+impl ModesFile {
+    /// That of the bytes of a file. What is no UTF-8 is taken for Latin-1, which may stand in titles and comments; of a Universal File
+    /// the bytes of binary data sets, which hold no modes, are left out.
+    pub fn of_bytes(name: &str, bytes: &[u8]) -> Self {
+        let bytes = universal::without_binary(bytes);
+        let latin = |bytes: Vec<u8>| bytes.into_iter().map(char::from).collect();
+        let text = String::from_utf8(bytes).unwrap_or_else(|error| latin(error.into_bytes()));
+        Self { name: name.to_owned(), text }
+    }
+
+    /// Its text without a byte order mark.
+    pub(super) fn text(&self) -> &str {
+        self.text.strip_prefix('\u{feff}').unwrap_or(&self.text)
+    }
+}
+
+/// A mode of a file.
+#[derive(Debug, Clone)]
+pub(super) struct FileMode {
+    /// The mode, its shape at the places of a case.
+    pub mode: StructuralMode,
+    /// All of its shape that the file has.
+    pub whole: Vec<f64>,
+    /// At how many nodes or places that is.
+    pub nodes: usize,
+    /// In which line, from 1, its frequency stands.
+    pub line: usize,
+}
+
 /// Names of places, and modes with their shapes there.
 pub(super) type Modes = (Vec<String>, Vec<StructuralMode>);
 
@@ -30,22 +62,45 @@ const KNOWN: [(&str, bool, Dimension); 4] = [
     ("participation", false, Dimension::Number),
 ];
 
-/// A column: one of [`KNOWN`], or a place.
-#[derive(Clone, Copy)]
-struct Column<'t> {
-    known: Option<usize>,
-    name: &'t str,
-    unit: &'static Unit,
+/// What a column is: one of [`KNOWN`], the shape at a place, or something that nobody reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Is {
+    Known(usize),
+    Place,
+    Other,
 }
 
-/// The modes of a file.
-pub(super) fn read(file: &ModesFile) -> Result<Modes, CaseError> {
-    let text = file.text.strip_prefix('\u{feff}').unwrap_or(&file.text);
+#[derive(Clone, Copy)]
+struct Column<'t> {
+    is: Is,
+    name: &'t str,
+    /// Its cell of the head.
+    cell: &'t str,
+    /// None of what is not read.
+    unit: Option<&'static Unit>,
+}
+
+/// What a file of columns has.
+pub(super) struct Columns {
+    /// Names of places.
+    pub places: Vec<String>,
+    /// The modes with their shapes there.
+    pub modes: Vec<FileMode>,
+    /// What its columns were read as.
+    pub read_as: String,
+}
+
+/// The modes of a file, at the places that a case names, each by its column; at those of all further columns unless it does.
+pub(super) fn read(
+    file: &ModesFile,
+    named: Option<&[(String, String)]>,
+) -> Result<Columns, CaseError> {
+    let text = file.text();
     let mut lines = lines(text);
     let head = lines.next().unwrap_or(&text[..0]);
     let refused = |problems| CaseError::new(&file.name, text, problems, 0);
     // A file whose head is another one may be anything, and is not shown.
-    let columns = columns(text, head).map_err(|problem| {
+    let columns = columns(text, head, named).map_err(|problem| {
         let help = format!("begin it with a line such as {HEAD}; {}", problem.message);
         refused(vec![*problem]).without_text("a table of modes", &help)
     })?;
@@ -62,38 +117,114 @@ pub(super) fn read(file: &ModesFile) -> Result<Modes, CaseError> {
     if !problems.is_empty() {
         return Err(refused(problems));
     }
-    let places = columns.iter().filter(|one| one.known.is_none());
-    Ok((
-        places.map(|one| one.name.to_owned()).collect(),
-        modes.into_iter().filter_map(Result::ok).collect(),
-    ))
+    let modes: Vec<StructuralMode> = modes.into_iter().filter_map(Result::ok).collect();
+    let at: Vec<&Column> = columns.iter().filter(|one| one.is == Is::Place).collect();
+    if named.is_none()
+        && let Some(counts) = (0..at.len()).find(|k| counts(at[*k].name, &modes, *k))
+    {
+        let values: Vec<String> = modes.iter().map(|mode| mode.shape[counts].to_string()).collect();
+        let (name, values) = (at[counts].name, values.join(", "));
+        let entry = |one: &&Column| format!("{} = {:?}", bare(one.name), one.name);
+        let others: Vec<String> = at.iter().filter(|one| one.name != name).map(entry).collect();
+        let message = format!(
+            "the column {name} holds {values}: numbers of the modes, it seems, and no shape"
+        );
+        let help = match others.is_empty() {
+            true => "remove the column, and add one with the shape at a place".to_owned(),
+            false => format!(
+                "remove the column, or name those that are places in [modes]: places = {{ {} }}",
+                others.join(", ")
+            ),
+        };
+        let expected = "expected the shape at a place";
+        return Err(refused(vec![*problem(text, at[counts].cell, message, expected, &help)]));
+    }
+    // Places by their names, and which of the columns that are read each is.
+    let places: Vec<(String, usize)> = match named {
+        None => at.iter().enumerate().map(|(k, one)| (one.name.to_owned(), k)).collect(),
+        Some(named) => {
+            let of = |column: &str| at.iter().position(|one| one.name == column);
+            named.iter().filter_map(|(place, column)| Some((place.clone(), of(column)?))).collect()
+        }
+    };
+    let of = |(line, mode): (&&str, StructuralMode)| FileMode {
+        nodes: mode.shape.len(),
+        line: line_of(text, line),
+        whole: mode.shape.clone(),
+        mode: StructuralMode {
+            shape: places.iter().map(|(_, k)| mode.shape[*k]).collect(),
+            ..mode
+        },
+    };
+    let modes = lines.iter().zip(modes).map(of).collect();
+    let cells = |is: &dyn Fn(Is) -> bool| {
+        let cells = columns.iter().filter(|one| is(one.is)).map(|one| one.cell.trim());
+        cells.collect::<Vec<_>>().join(", ")
+    };
+    let numbers = cells(&|is| matches!(is, Is::Known(_)));
+    let read_as = format!("{numbers}; shapes at {}", cells(&|is| is == Is::Place));
+    Ok(Columns { places: places.into_iter().map(|(name, _)| name).collect(), modes, read_as })
 }
 
-fn columns<'t>(text: &str, head: &'t str) -> Result<Vec<Column<'t>>, Box<Problem>> {
-    let mut columns: Vec<Column> = Vec::new();
+/// Whether what a column holds counts the modes: whole numbers one after the other, of three and more any that ascend; of a single
+/// mode by its name.
+fn counts(name: &str, modes: &[StructuralMode], place: usize) -> bool {
+    const NAMES: [&str; 8] = ["mode", "no", "no.", "nr", "number", "id", "index", "#"];
+    let values: Vec<f64> = modes.iter().map(|mode| mode.shape[place]).collect();
+    let whole = values.iter().all(|value| value.fract() == 0.0);
+    let steps = |holds: fn(f64) -> bool| values.windows(2).all(|two| holds(two[1] - two[0]));
+    match values.len() {
+        1 => whole && NAMES.contains(&name.to_lowercase().as_str()),
+        2 => whole && steps(|step| step == 1.0),
+        _ => whole && steps(|step| step > 0.0),
+    }
+}
+
+/// A key of TOML.
+fn bare(name: &str) -> String {
+    let plain = |one: u8| one.is_ascii_alphanumeric() || one == b'_' || one == b'-';
+    if name.bytes().all(plain) { name.to_owned() } else { format!("{name:?}") }
+}
+
+/// The columns of a head that are read, in the order of the places that are named.
+fn columns<'t>(
+    text: &str,
+    head: &'t str,
+    named: Option<&[(String, String)]>,
+) -> Result<Vec<Column<'t>>, Box<Problem>> {
+    let (mut columns, mut names): (Vec<Column>, HashSet<&str>) = (Vec::new(), HashSet::new());
     for cell in head.split(',') {
         let name = cell.split('(').next().unwrap_or(cell).trim();
         let wrong = |message: String, help: &str| {
             problem(text, cell, message, "expected the columns of a table of modes", help)
         };
-        if name.is_empty() || columns.iter().any(|one| one.name == name) {
+        if name.is_empty() || !names.insert(name) {
             let message = format!("the column \"{name}\" has no name, or stands there twice");
             return Err(wrong(message, "name each column once"));
         }
         let known = KNOWN.iter().position(|(known, ..)| *known == name);
+        let is = match (known, named) {
+            (Some(known), _) => Is::Known(known),
+            (None, Some(named)) if named.iter().all(|(_, column)| column != name) => Is::Other,
+            (None, _) => Is::Place,
+        };
         let of = known.map_or(Dimension::Number, |known| KNOWN[known].2);
-        let unit = unit_in_brackets(of, cell)
-            .map_err(|(what, accepted)| wrong(format!("the column {name} {what}"), &accepted))?;
-        columns.push(Column { known, name, unit });
+        let unit = (is != Is::Other).then(|| unit_in_brackets(of, cell)).transpose();
+        let unit =
+            unit.map_err(|(what, accepted)| wrong(format!("the column {name} {what}"), &accepted))?;
+        columns.push(Column { is, name, cell, unit });
     }
-    let has = |known: usize| columns.iter().any(|one| one.known == Some(known));
-    if let Some((name, ..)) =
-        KNOWN.iter().enumerate().find(|(k, one)| one.1 && !has(*k)).map(|one| one.1)
-    {
+    let lacks = |name: &str| !names.contains(name);
+    if let Some((name, ..)) = KNOWN.iter().find(|(name, needed, _)| *needed && lacks(name)) {
         let message = format!("there is no column {name}");
         return Err(problem(text, head, message, "expected it in the head", "add the column"));
     }
-    if columns.iter().all(|one| one.known.is_some()) {
+    if let Some((_, column)) = named.into_iter().flatten().find(|(_, column)| lacks(column)) {
+        let message = format!("there is no column {column}, which `places` names");
+        let expected = "expected columns of the file in `places`";
+        return Err(problem(text, head, message, expected, "name a column of the file"));
+    }
+    if columns.iter().all(|one| one.is != Is::Place) {
         let message = "there is no column of a place".to_owned();
         return Err(problem(text, head, message, "expected the shape at a place", "add a column"));
     }
@@ -115,14 +246,16 @@ fn mode(text: &str, line: &str, columns: &[Column]) -> Result<StructuralMode, Bo
             let message = format!("{} is \"{}\"", column.name, cell.trim());
             problem(text, cell, message, expected, "write numbers such as 0.25 or 2.5e-1")
         };
-        let number = number_in(cell, column.unit).ok_or_else(|| wrong("expected a number"))?;
-        match column.known {
-            None => shape.push(number),
-            Some(0 | 2) if number <= 0.0 => return Err(wrong("expected a number above 0")),
-            Some(1) if !(0.0..=LARGEST_DAMPING_RATIO).contains(&number) => {
+        let Some(unit) = column.unit else { continue };
+        let number = number_in(cell, unit).ok_or_else(|| wrong("expected a number"))?;
+        match column.is {
+            Is::Other => {}
+            Is::Place => shape.push(number),
+            Is::Known(0 | 2) if number <= 0.0 => return Err(wrong("expected a number above 0")),
+            Is::Known(1) if !(0.0..=LARGEST_DAMPING_RATIO).contains(&number) => {
                 return Err(wrong("expected a damping ratio from 0 to 0.85"));
             }
-            Some(known) => values[known] = number,
+            Is::Known(known) => values[known] = number,
         }
     }
     if shape.iter().all(|value| *value == 0.0) {

@@ -17,10 +17,15 @@ pub(super) struct Spans {
     pub frequencies: Vec<Vec<Range<usize>>>,
 }
 
-/// Everything that a case is warned of, in the order of its lines.
-pub(super) fn of(case: &ModalCase, text: &str, spans: &Spans) -> Vec<Problem> {
+/// Everything that a case is warned of, what was `found` as it was read among it, in the order of its lines.
+pub(super) fn of(
+    case: &ModalCase,
+    text: &str,
+    spans: &Spans,
+    mut found: Vec<Problem>,
+) -> Vec<Problem> {
     let read = Read { case, text };
-    let mut found = read.damping(spans);
+    found.extend(read.damping(spans));
     // What has no unit has none that is wrong.
     if !case.reduced {
         found.extend(read.masses());

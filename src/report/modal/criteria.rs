@@ -79,6 +79,7 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
         "holds": answer.all_hold(),
         "criteria": answer.judged.iter().map(told).collect::<Vec<_>>(),
         "loads": along(case, answer, &Beside::default()),
+        "modes_from": case.modes_from,
     });
     if !case.warnings.is_empty() {
         document["warnings"] = json!(warnings(case));
@@ -86,6 +87,7 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
     let page = json!({
         "path": path, "case": name, "warnings": warnings(case), "criteria": criteria(case, answer), "outside": null, "choice": null,
         "alternatives": null, "ranges": null, "combined": null, "reliability": null,
+        "modes_from": case.modes_from,
     });
     Checked::of(document, page, units)
 }

@@ -4,6 +4,7 @@
 mod analysis;
 mod criteria;
 mod figure;
+mod listing;
 mod live;
 mod optimum;
 
@@ -32,6 +33,7 @@ use crate::system::Scales;
 
 pub use analysis::{analysis, analysis_text};
 pub use criteria::checked;
+pub use listing::{listing, listing_text};
 pub use live::{at_frequency, over_frequency};
 pub use optimum::{optimum, optimum_text};
 
@@ -379,6 +381,7 @@ pub fn document(
         "band": null,
         "places_of_shapes": case.places,
         "modes": modes.collect::<Vec<_>>(),
+        "modes_from": case.modes_from,
         "absorbers": absorbers(case),
         "worst": worst.map(|one| worst_row(case, &one)),
         "loads": along(case, answer, beside),
