@@ -83,10 +83,21 @@ impl Wish {
         keys.iter().zip(given).map(line).collect()
     }
 
-    /// What a case file with it would be refused for; none of what it may be.
+    /// What a case file with it would be refused for; none of what it may be. A share without a per cent sign that a case would be
+    /// warned of is one, for nobody reads the warnings of what is written.
     pub fn refused(self, drive: Drive, given: &[String]) -> Option<Problem> {
         let text = Case::starting_text_with("t", drive.kind(), &self.lines(drive, given));
-        Case::parse("t", &text).err().and_then(|error| error.problems().next().cloned())
+        let is_share = matches!(self, Self::Damping | Self::MassRatio);
+        match Case::parse("t", &text) {
+            Err(error) => error.problems().next().cloned(),
+            Ok(case) if is_share && !given.iter().any(|one| one.contains('%')) => {
+                let own = |one: &&Problem| {
+                    given.iter().any(|given| one.underlined.contains(given.trim()))
+                };
+                case.warnings().iter().find(own).cloned()
+            }
+            Ok(_) => None,
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::analysis::Analysis;
 use crate::band::Survey;
 use crate::case::{Case, ExtraFigure};
 use crate::criteria::{self, Judged};
-use crate::excitation::Scene;
+use crate::excitation::{Release, Scene};
 use crate::executor::Executor;
 use crate::motions::{Effort, Measured, Motions, Place, measured, motions};
 use crate::operating_range::{
@@ -215,8 +215,14 @@ impl Answer {
             Survey::of(&case.range(), &settings, found.as_ref(), on)
         });
         let survey = survey.transpose()?;
-        let judged = survey.as_ref().filter(|_| judges);
-        let judged = judged.map(|survey| criteria::judge(case, survey)).unwrap_or_default();
+        let judged = survey.as_ref().filter(|_| judges).map(|survey| {
+            criteria::contact::judge_in_contact(case, survey, |shifted| {
+                let mut settings = criteria::settings(shifted);
+                settings.effort = settings.effort.map(|_| effort);
+                Survey::of(&shifted.range(), &settings, None, on)
+            })
+        });
+        let judged = judged.transpose()?.unwrap_or_default();
         let study = study.map(|study| match survey.as_ref().filter(|_| along) {
             Some(survey) => study.along(survey.clone()),
             None => study,
@@ -260,13 +266,21 @@ impl Answer {
         effort: Effort,
         on: &dyn Executor,
     ) -> Result<Self, StudyError> {
+        if case.design.release().is_some_and(Release::is_rest) {
+            return Err(StudyError::AtRest);
+        }
         let found = match asked {
             Asked::Analysis => Study::by_theory(case),
             _ => Study::of_case(case, on).transpose()?,
         };
         let found = found.ok_or(StudyError::NotSteady(case.design.scene().words()))?;
         let judges = matches!(asked, Asked::Criteria | Asked::Decision | Asked::Report);
-        let judged = if judges { criteria::judge_transient(case, &found) } else { Vec::new() };
+        let again =
+            |case: &Case| Study::of_case(case, on).transpose()?.ok_or(StudyError::NotStudied);
+        let judged = match judges {
+            true => criteria::contact::judge_transient_in_contact(case, &found, again)?,
+            false => Vec::new(),
+        };
         Ok(Self { judged, transient: Some(found), ..Self::nothing(effort) })
     }
 

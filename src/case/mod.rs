@@ -149,6 +149,8 @@ pub struct Case {
     inputs: Vec<Input>,
     warnings: Vec<Problem>,
     system: System,
+    /// Whether its contact time is what a sensor sees of impacts, which take none.
+    contact_is_sensors: bool,
 }
 
 /// A design in the units its author chose.
@@ -217,7 +219,9 @@ fn one_design() -> Value {
 }
 
 /// Tables that are about steady vibration alone.
-const STEADY_TABLES: [&str; 3] = ["accuracy", "band", "report"];
+const STEADY_TABLES: [&str; 2] = ["accuracy", "band"];
+/// What `[report]` says of every scene.
+const OF_ANY_SCENE: &str = "units";
 
 impl Case {
     /// Reads a case from its text; `name`, usually the file's path, is for messages only.
@@ -296,6 +300,11 @@ impl Case {
         of.contact_time_s
     }
 
+    /// How long an impact takes in s, where the absorber's own contact time says so and not what a sensor sees of it.
+    pub fn impacts_take(&self) -> Option<f64> {
+        self.contact_time().filter(|_| !self.contact_is_sensors)
+    }
+
     /// Places of the absorber from which a case that is not driven steadily is flown; none for one that is.
     pub fn absorber_places(&self) -> Option<u64> {
         let records = self.recording.as_ref().map_or(1, Recording::count);
@@ -350,6 +359,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let starts = simulation.as_ref().and_then(|settings| settings.starts);
     let sweep = sweep::read(reader, &root, starts);
     let (heading, mut design) = (heading?, design?);
+    let contact_is_sensors = criteria.contact_time.is_some();
     if let (Design::Physical(of), Some(time)) = (&mut design, criteria.contact_time) {
         of.contact_time_s = Some(time);
     }
@@ -375,6 +385,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         inputs: std::mem::take(&mut reader.inputs),
         warnings: Vec::new(),
         system,
+        contact_is_sensors,
     })
 }
 
@@ -388,6 +399,14 @@ fn refuse_steady(reader: &mut Reader, root: &Table, scene: Scene) {
         let expected = "expected tables that are about what it does then";
         let help = "remove the table: it is about steady vibration";
         reader.report(root.span_of(name), message, expected, help);
+    }
+    let report = root.value("report").and_then(|report| report.get_ref().as_table());
+    let of_steady = report.into_iter().flatten().filter(|(key, _)| key.get_ref() != OF_ANY_SCENE);
+    for (key, value) in of_steady {
+        let key = key.get_ref();
+        let message = format!("`{key}` has no meaning for a structure that is {}", scene.words());
+        let help = "remove the line: it is about steady vibration";
+        reader.report(value.span(), message, "expected `units` alone", help);
     }
     let Some(simulation) = root.value("simulation") else { return };
     for key in ["periods", "discard"] {

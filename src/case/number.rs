@@ -214,7 +214,7 @@ impl Reader<'_> {
         let mut help = format!("write for example {}", place.line);
         let problem = match form.dimension {
             None if form.whole => format!("is {written}"),
-            None => format!("is {kind}, but it is a plain number"),
+            None => format!("is {kind}, where a plain number belongs"),
             Some(_) if plain_number(place.value.get_ref()).is_some_and(|one| !one.is_finite()) => {
                 format!("is {written}, which is not a finite number")
             }

@@ -46,6 +46,15 @@ impl Reader<'_> {
         if let (Some(either), DeValue::Array(_)) = (alternatives(schema), place.value.get_ref()) {
             return self.each(&place, either);
         }
+        let place = match (alternatives(schema), place.value.get_ref()) {
+            (Some([_, each]), DeValue::Table(_)) => {
+                let pair = toml(&each["examples"][0]);
+                let line =
+                    format!("{}, or {} = {pair} for one value at each wall", place.line, place.key);
+                ValuePlace { line, ..place }
+            }
+            _ => place,
+        };
         if let Some(form) = self.form(schema) {
             if schema["x-signed"].is_string() {
                 return super::uncertainty::read_error(self, place, form);

@@ -1,6 +1,7 @@
 //! A case with another number, of which nothing is written.
 
 use super::{Case, Design};
+use crate::criteria::contact::Impacts;
 use crate::system::{Excitation, Parameter};
 
 impl Case {
@@ -49,6 +50,17 @@ impl Case {
         }
         let band = self.band.as_ref().map(|band| band.moved(1.0 / factor, 0.0));
         Some(Self { band, ..self.with_design(design)? })
+    }
+
+    /// The same with the clearance and restitution that act like impacts of so many seconds, as [`Impacts::act_like`] has them; `impacts` over
+    /// the clearance in fast time. None where that leaves nothing that could happen.
+    pub(crate) fn acting_like(&self, impacts: Impacts, seconds: f64) -> Option<Self> {
+        let Design::Physical(mut of) = self.design else { return None };
+        let time = seconds / self.units().time(1.0);
+        let [clearance, restitution] = impacts.act_like([1.0, of.restitution], time);
+        of.clearance_m *= clearance;
+        of.restitution = restitution;
+        self.beside(Design::Physical(of))
     }
 
     /// Whether its cavity is level and its ends are alike: mirrored it is the same.

@@ -177,7 +177,10 @@ impl Read<'_> {
         let at = self.input(1, &["friction"]).filter(|at| at.value > MOST_FRICTION)?;
         let message = format!("`friction` = {} means {}", at.as_written, percent(at.value));
         let part = at.value / 100.0;
-        let meant = format!("was {} ({}) meant?", percent(part), short(part));
+        let meant = match part <= MOST_FRICTION {
+            true => format!("was {} ({}) meant?", percent(part), short(part)),
+            false => "it is the friction force over the normal force: steel on steel has 0.1 to 0.6, rolling 0.001 to 0.01".to_owned(),
+        };
         Some(self.warning(at, message, "what slides has less than 1", meant))
     }
 

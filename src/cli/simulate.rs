@@ -65,7 +65,11 @@ lengths over the clearance, tau counted from the start of the run, side +1 where
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
-    let case = match case_file::read_any(path, *reading)?.0 {
+    let read = match arguments.initial {
+        Some(_) => case_file::read_even_at_rest(path, *reading)?,
+        None => case_file::read_any(path, *reading)?,
+    };
+    let case = match read.0 {
         AnyCase::One(case) => *case,
         AnyCase::Several(case) => {
             let Arguments { periods, discard, initial, impacts, .. } = &arguments;

@@ -6,6 +6,7 @@
 //! limit is: two designs, or two limits, can be compared. One that only a motion decides which is still settling is not
 //! decided.
 
+pub mod contact;
 mod scope;
 
 use crate::band::{Survey, SurveySettings};
@@ -16,6 +17,7 @@ use crate::method::Method;
 use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
 use crate::transient::Study;
 
+pub use contact::Contact;
 use scope::Scope;
 use vinesink_core::names;
 
@@ -73,6 +75,8 @@ pub struct Judged {
     pub undecided: Option<u64>,
     /// The layer that `found` is from.
     pub decided_by: Method,
+    /// What impacts that take time make of it; none where they take none. The error covers the difference.
+    pub contact: Option<Contact>,
 }
 
 /// The layer that a motion is known by.
@@ -208,6 +212,7 @@ impl Criterion {
             inactive: None,
             undecided: None,
             decided_by,
+            contact: None,
         }
     }
 }
@@ -228,6 +233,9 @@ impl Judged {
         match (self.holds, self.near_limit) {
             (None, _) => Outcome::NotMeasured,
             _ if self.undecided.is_some() => Outcome::NotDecided,
+            (_, true) if matches!(self.contact, Some(Contact { crosses: true, .. })) => {
+                Outcome::NotDecided
+            }
             (_, true) => Outcome::TooCloseToCall,
             (Some(true), _) => Outcome::Holds,
             (Some(false), _) => Outcome::Fails,

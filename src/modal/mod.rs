@@ -15,6 +15,7 @@ mod rest;
 mod sensors;
 
 use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion, RewriteError};
+use crate::criteria::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
 use crate::measure::PlaceMeasure;
@@ -67,11 +68,27 @@ pub struct JudgedPlace {
 }
 
 impl ModalAnswer {
-    /// Of a case, searched with its starts.
+    /// Of a case, searched with its starts; where impacts take time its criteria have what that makes of them.
     ///
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
     pub fn of(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
+        let own = Self::in_no_time(case, on)?;
+        let worst = own.judged.iter().map(|one| &one.worst).filter(|one| !one.rests);
+        let worst = worst.max_by(|a, b| a.value.total_cmp(&b.value)).copied();
+        let Some(worst) = worst else { return Ok(own) };
+        let Ok(system) = case.system(&case.loads[worst.load], worst.at) else { return Ok(own) };
+        let Some(shifted) = case.acting_like(&of_absorbers(&system)) else { return Ok(own) };
+        let there = Self::in_no_time(&shifted, on)?;
+        let judged = own.judged.into_iter().zip(&there.judged).map(|(one, shifted)| JudgedPlace {
+            judged: one.judged.in_contact(&shifted.judged, one.worst.rests != shifted.worst.rests),
+            ..one
+        });
+        Ok(Self { judged: judged.collect(), along: own.along })
+    }
+
+    /// The same where impacts take no time.
+    fn in_no_time(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
         let along = case.loads.iter().map(|load| AlongLoad::of(case, load, on));
         Ok(Self::judged(case, along.collect::<Result<_, _>>()?))
     }

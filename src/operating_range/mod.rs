@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use crate::band::{Survey, SurveySettings};
 use crate::case::Case;
+use crate::criteria::contact::{judge_in_contact, judge_transient_in_contact};
 use crate::criteria::{self, Judged, Outcome};
 use crate::excitation::Transient;
 use crate::executor::{Executor, Serial, map};
@@ -366,30 +367,36 @@ fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenE
     let places = Places { even: even.min(most), closer, shaking, executor: &Serial };
     let Some(study) = Study::brief_of_case(case, places) else { return Ok(Vec::new()) };
     let study = study?;
-    Ok(criteria::judge_transient(case, &study))
+    let again = |case: &Case| match Study::brief_of_case(case, places) {
+        Some(found) => found,
+        None => Ok(study.clone()),
+    };
+    judge_transient_in_contact(case, &study, again)
 }
 
 /// Those of a case that is driven steadily.
 fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
-    let settings = criteria::settings(case);
-    let survey = |effort: Effort| {
-        let settings =
-            SurveySettings { effort: settings.effort.map(|_| effort), ..settings.clone() };
+    let survey = |case: &Case, effort: Effort| {
+        let settings = criteria::settings(case);
+        let settings = SurveySettings { effort: settings.effort.map(|_| effort), ..settings };
         Survey::of(&case.range(), &settings, None, &Serial)
     };
+    let in_contact = |found: &Survey, effort: Effort| {
+        judge_in_contact(case, found, |shifted| survey(shifted, effort))
+    };
     if how == Look::AsCheck {
-        return Ok(criteria::judge(case, &survey(*effort)?));
+        return Ok(in_contact(&survey(case, *effort)?, *effort)?);
     }
     // Most of a search goes into telling a long transient from a motion: first it counts as one, and then places that do not
     // hold by what only a window shows are searched with patience.
     let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
-    let mut found = survey(few.short())?;
+    let mut found = survey(case, few.short())?;
     let mut known: Vec<f64> = Vec::new();
     loop {
         let judged = criteria::judge(case, &found);
         let mut open = criteria::open(case, &found, &judged, &known);
         if open.is_empty() {
-            return Ok(judged);
+            return Ok(in_contact(&found, few.short())?);
         }
         open.truncate(AT_A_TIME);
         found.motions.look_again(&open, &few, &Serial)?;

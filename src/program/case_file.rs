@@ -59,6 +59,27 @@ fn beside(path: &Path) -> Option<String> {
 
 /// Reads a case file of either kind; its text beside the case. What is probably a slip in it is said on standard error.
 pub fn read_any(path: &Path, reading: Reading) -> Result<(AnyCase, String)> {
+    let (case, text) = read_even_at_rest(path, reading)?;
+    if let AnyCase::One(case) = &case {
+        must_move(path, case)?;
+    }
+    Ok((case, text))
+}
+
+/// Refuses a structure that is let go from 0, of which there is nothing to say.
+fn must_move(path: &Path, case: &Case) -> Result<()> {
+    match case.design.release() {
+        Some(release) if release.is_rest() => Err(miette!(
+            help = "write `displacement` or `velocity` above 0; `vinesink simulate --initial` flies an absorber that is kicked",
+            "{}: nothing sets the oscillator in motion",
+            path.display()
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The same where a start is given beside the case, so that nothing in it need set anything in motion.
+pub fn read_even_at_rest(path: &Path, reading: Reading) -> Result<(AnyCase, String)> {
     let read = case_input::read_any(path, reading.reach());
     let (case, text) = read.map_err(|error| refused(path, error))?;
     match &case {
@@ -72,6 +93,7 @@ pub fn read_any(path: &Path, reading: Reading) -> Result<(AnyCase, String)> {
 pub fn read_with_text(path: &Path, reading: Reading) -> Result<(Case, String)> {
     let read = case_input::read(path, reading.reach());
     let (case, text) = read.map_err(|error| refused(path, error))?;
+    must_move(path, &case)?;
     warn(path, case.warnings(), &text);
     Ok((case, text))
 }

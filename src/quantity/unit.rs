@@ -104,7 +104,17 @@ impl Dimension {
     /// Units that a case may be written in beside those of a page.
     fn further_units(self) -> &'static [Unit] {
         match self {
-            Self::Length => const { &[unit("cm", -2), quotient("in", INCH[0], INCH[1])] },
+            Self::Length => {
+                const {
+                    &[
+                        unit("cm", -2),
+                        quotient("in", INCH[0], INCH[1]),
+                        // A thousandth of an inch.
+                        quotient("mil", INCH[0], 1e3 * INCH[1]),
+                        quotient("thou", INCH[0], 1e3 * INCH[1]),
+                    ]
+                }
+            }
             Self::Mass => {
                 const {
                     &[

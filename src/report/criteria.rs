@@ -173,6 +173,9 @@ pub(super) fn row(units: &Units, judged: &Judged, at: Option<Quantity>) -> Value
         // False while a motion that could decide otherwise still settles.
         "decided": judged.undecided.is_none(),
     });
+    if let Some(contact) = judged.contact {
+        row["contact"] = json!({ "found": contact.found, "crosses": contact.crosses });
+    }
     // Share of the absorber's resting places from which a start from rest never wakes it.
     if let Some(share) = judged.inactive {
         row["inactive_share"] = json!(share);

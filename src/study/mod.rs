@@ -64,6 +64,9 @@ pub enum StudyError {
     /// What becomes of a structure that is not driven steadily cannot be followed.
     #[error(transparent)]
     Driven(#[from] DrivenError),
+    /// A structure is let go from 0.
+    #[error("nothing sets the oscillator in motion; let it go from a displacement above 0")]
+    AtRest,
     /// Something that is about steady vibration was asked of a structure that is not driven steadily.
     #[error("its structure is {0}, and an analysis is about one that is driven steadily")]
     NotSteady(&'static str),

@@ -62,7 +62,8 @@ impl OneFlight {
                         peak: found.peak,
                         impacts: found.impacts.last().copied().unwrap_or(0),
                         impact_speed: found.impact_speeds.last().copied().unwrap_or(0.0),
-                        settles: Some(TAU * found.settles),
+                        // Nothing comes down to a share of 0.
+                        settles: (level > 0.0).then_some(TAU * found.settles),
                         ..none
                     })
                     .map_err(DrivenError::from)

@@ -518,7 +518,7 @@ fn texts_that_are_no_quantity() {
 #[test]
 fn a_quantity_where_a_plain_number_belongs_and_the_reverse() {
     let text = with(REDUCED, "damping = 1.799", "damping = \"3.02 N s/m\"");
-    let message = "`damping` is text, but it is a plain number";
+    let message = "`damping` is text, where a plain number belongs";
     refused_with(&text, 6, "\"3.02 N s/m\"", message);
     let text = with(PHYSICAL, "clearance = \"7.5 mm\"", "clearance = true");
     refused_with(&text, 11, "true", "`clearance` is true or false");

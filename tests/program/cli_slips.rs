@@ -321,3 +321,119 @@ fn what_was_meant_is_told() {
         assert!(told(&[command, "damper"]).contains("did you mean damper.toml?"), "{command}");
     }
 }
+
+/// A share without a per cent sign that would be warned of is not written into a case.
+#[test]
+fn a_share_of_a_proposal_is_no_slip() {
+    let folder = TempDir::new().expect("a folder");
+    let known = ["--mass", "30 kg", "--frequency", "6.9 Hz", "--force", "14 N"];
+    for (flag, value, words) in [
+        ("--damping", "0.4", "was 0.4 % (0.004) meant?"),
+        ("--damping", "3", "was 3 % (0.03) meant?"),
+        ("--mass-ratio", "2", "was 2 % (0.02) meant?"),
+    ] {
+        let mut command = Command::cargo_bin("vinesink").expect("built");
+        let damping: &[&str] = if flag == "--damping" { &[] } else { &["--damping", "0.5 %"] };
+        let output = command
+            .current_dir(folder.path())
+            .args(["new", "case", flag, value])
+            .args(known)
+            .args(damping)
+            .output()
+            .expect("it runs");
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && told.contains(words), "{flag} {value}: {told}");
+        assert!(!folder.path().join("case.toml").exists());
+    }
+}
+
+/// What is asked back makes sense.
+#[test]
+fn a_slip_is_not_asked_back_as_another() {
+    let with = |line: &str| {
+        slipped(BRIDGE, "restitution = 0.6\n", &format!("restitution = 0.6\n{line}\n"))
+    };
+    let said = |line: &str| warnings(&with(line))[0].1.clone();
+    assert!(said("friction = 30").contains("was 30 % (0.3) meant?"));
+    for line in ["friction = 1000", "friction = 1e6"] {
+        assert!(
+            said(line).contains("the friction force over the normal force")
+                && !said(line).contains("meant?")
+        );
+    }
+    let table = BRIDGE.replacen("restitution = 0.6", "restitution = { plus = 0.6 }", 1);
+    let error = Case::parse("case.toml", &table).expect_err("refused");
+    let one = error.problems().next().expect("a problem");
+    assert!(one.message.contains("is a table, where a plain number belongs"), "{}", one.message);
+    let help = one.help.as_deref().unwrap_or_default();
+    assert!(help.contains("restitution = [0.65, 0.55] for one value at each wall"), "{help}");
+}
+
+/// An absorber may be kicked in a structure at rest: one flight of it is told, and nothing else is said of a structure that nothing
+/// moves.
+#[test]
+fn an_absorber_may_be_kicked() {
+    let folder = TempDir::new().expect("a folder");
+    let (design, _) = BRIDGE.split_once("[excitation]").expect("a table");
+    let text = format!(
+        "{design}[excitation]\nkind = \"free\"\ndisplacement = \"0 mm\"\n[criteria]\ndecay_time = \"<= 5 s\"\n"
+    );
+    fs::write(folder.path().join("kick.toml"), text).expect("written");
+    let run = |arguments: &[&str]| {
+        let mut command = Command::cargo_bin("vinesink").expect("built");
+        let output = command.current_dir(folder.path()).args(arguments).output().expect("it runs");
+        let told =
+            [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+        (output.status.code(), told.concat())
+    };
+    for y_velocity in ["1", "0.5", "-2"] {
+        let start = format!("0,0,0,{y_velocity}");
+        let (code, told) =
+            run(&["simulate", "kick.toml", "--initial", &start, "--impacts", "impacts.csv"]);
+        assert_eq!(code, Some(0), "{told}");
+        // The first impact is at the speed of the kick, after one clearance.
+        let impacts = fs::read_to_string(folder.path().join("impacts.csv")).expect("written");
+        let first: Vec<f64> = impacts
+            .lines()
+            .nth(1)
+            .expect("an impact")
+            .split(',')
+            .map(|one| one.parse().expect("a number"))
+            .collect();
+        let speed: f64 = y_velocity.parse().expect("a number");
+        assert!((first[0] - 1.0 / speed.abs()).abs() < 1e-12 && first[5] == speed, "{first:?}");
+    }
+    for command in ["check", "simulate", "analyze", "report", "optimize"] {
+        let (code, told) = run(&[command, "kick.toml"]);
+        assert!(
+            code == Some(2) && told.contains("nothing sets the oscillator in motion"),
+            "{command}: {told}"
+        );
+    }
+}
+
+/// Pages in inches and pounds of every scene, and lengths in thousandths of an inch.
+#[test]
+fn units_of_pages_and_mil_belong_to_every_scene() {
+    let (design, _) = BRIDGE.split_once("[excitation]").expect("a table");
+    let noise = "kind = \"record\"\nquantity = \"force\"\nspectrum = [[1, 1.0], [4, 1.0]]\nduration = \"20 s\"\nseed = 1\nrealisations = 2\n";
+    for drive in [
+        "kind = \"free\"\ndisplacement = \"2000 mil\"\n",
+        "kind = \"sine-sweep\"\nof = \"force\"\namplitude = \"250 N\"\nfrom = \"1.8 Hz\"\nto = \"2.4 Hz\"\nrate = \"0.01 Hz/s\"\n",
+        noise,
+    ] {
+        let text = format!("{design}[excitation]\n{drive}[report]\nunits = \"us\"\n");
+        let case = Case::parse("case.toml", &text).expect("a case");
+        let shown = case.units().text(&vinesink::quantity::catalogue::PEAK, 1.0);
+        assert!(shown.ends_with(" in"), "{shown}");
+        let refused = text.replace("units = \"us\"", "figures = [\"areas\"]");
+        let error = Case::parse("case.toml", &refused).expect_err("refused");
+        let words = "`figures` has no meaning for a structure that is";
+        assert!(error.problems().any(|one| one.message.contains(words)));
+    }
+    for (written, metres) in [("1000 mil", 0.0254), ("50 thou", 0.00127)] {
+        let text = slipped(BRIDGE, "clearance = \"50 mm\"", &format!("clearance = \"{written}\""));
+        let case = Case::parse("case.toml", &text).expect("a case");
+        assert_eq!(case.units().clearance, metres, "{written}");
+    }
+}

@@ -19,6 +19,7 @@ mod choice;
 mod cli;
 mod cli_case;
 mod cli_slips;
+mod contact;
 mod decisions;
 mod deviations;
 mod diff;

@@ -286,3 +286,28 @@ fn a_file_of_modes_is_listed() {
     assert_eq!(run(b"", &[]).0, Some(2));
     assert_eq!(run(b"root:x:0:0:secret", &[]).0, Some(2));
 }
+
+/// A file with more columns than anybody looks at is refused at once, and one with the wrong scale of its shapes.
+#[test]
+fn what_cannot_be_meant_is_refused() {
+    let many: String = (0..100_000).map(|k| format!(",p{k}")).collect();
+    let numbers = ",0.5".repeat(100_000);
+    let wide =
+        format!("frequency (Hz),damping_ratio (%),mass (kg),tip{many}\n1.1,0.5,30,1{numbers}\n");
+    let told = hertz(COLUMNS, wide.as_bytes()).expect_err("refused");
+    assert!(
+        told.contains("the file has 100001 columns of places") && told.contains("places = { tip"),
+        "{told}"
+    );
+    let named = "[modes]\nfile = 'modes'\nplaces = { tip = 'tip' }\n";
+    assert_eq!(hertz(named, wide.as_bytes()), Ok(vec![1.1]));
+    for (shape, words) in [
+        ("1e300", "absorber 1 has more than 1000000 times the mass that its impacts see"),
+        ("1e9", "more than 1000000 times"),
+        ("1e-300", "absorber 1 has less than 1e-12 times the mass that its impacts see"),
+    ] {
+        let file = format!("frequency (Hz),damping_ratio (%),mass (kg),tip\n1.1,0.5,30,{shape}\n");
+        let told = hertz(COLUMNS, file.as_bytes()).expect_err("refused");
+        assert!(told.contains(words) && !told.contains("inf"), "{told}");
+    }
+}

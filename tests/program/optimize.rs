@@ -466,7 +466,7 @@ fn bad_input_is_refused_where_it_stands() {
         (plain("spectrum = [[0.97, -4.0], [1.03, 5.0]]"), "a value of `spectrum` is -4.0", "-4.0"),
         (
             plain("spectrum = [[\"8 Hz\", 4.0], [1.03, 5.0]]"),
-            "a value of `spectrum` is text, but it is a plain number",
+            "a value of `spectrum` is text, where a plain number belongs",
             "\"8 Hz\"",
         ),
         (

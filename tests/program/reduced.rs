@@ -100,7 +100,7 @@ fn what_has_no_meaning_is_refused() {
     let changes = [
         ("displacement = 3.0", "", "nothing sets the oscillator in motion"),
         ("displacement = 3.0", "velocity = 0", "nothing sets the oscillator in motion"),
-        ("displacement = 3.0", "displacement = \"5 mm\"", "is text, but it is a plain number"),
+        ("displacement = 3.0", "displacement = \"5 mm\"", "is text, where a plain number belongs"),
         ("displacement = 3.0", "displacement = -1", "`displacement` is -1"),
         // Rounding hides a wall at a distance of 2 there.
         ("displacement = 3.0", "displacement = 1e17", "is not finite"),
@@ -118,7 +118,7 @@ fn what_has_no_meaning_is_refused() {
     let swept = format!("{HEAD}{SWEEP}");
     let changes = [
         ("rate = 0.001", "rate = -0.001", "`rate` is -0.001"),
-        ("rate = 0.001", "rate = \"0.1 Hz/s\"", "is text, but it is a plain number"),
+        ("rate = 0.001", "rate = \"0.1 Hz/s\"", "is text, where a plain number belongs"),
         ("rate = 0.001", "", "`rate` is missing"),
         // 2 pi 0.01/0.95^2.
         ("rate = 0.001", "rate = 0.01", "the frequency changes by 6.962 % in a period"),

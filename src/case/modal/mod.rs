@@ -55,6 +55,8 @@ pub struct ModalCase {
     pub places: Vec<String>,
     /// The modes; the first is that which frequencies are over.
     pub modes: Vec<StructuralMode>,
+    /// Whether the contact times are what a sensor sees of impacts, which take none.
+    pub contact_is_sensors: bool,
     /// The absorbers.
     pub absorbers: Vec<PlacedAbsorber>,
     /// What may drive it, one at a time.
@@ -263,6 +265,9 @@ impl ModalCase {
         let mut reader = Reader::of(visible);
         match read::read(&mut reader, &document, sha256(text.as_bytes()), modes.as_ref())? {
             Some((case, spans)) if reader.problems.is_empty() => {
+                if let Some(problem) = warnings::out_of_scale(&case, visible) {
+                    return Err(refused(vec![problem], 0));
+                }
                 let warnings = warnings::of(&case, visible, &spans, reader.warnings);
                 Ok(Self { modes_file: modes, warnings, ..case })
             }

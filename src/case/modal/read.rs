@@ -247,6 +247,7 @@ pub(super) fn read(
         let help = "write the case with units, where a sensor reads up to so many hertz";
         reader.report(span.clone(), message, "expected limits alone", help);
     }
+    let contact_is_sensors = upto.is_some();
     read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
     let Some(heading) = heading.filter(|_| reader.problems.is_empty()) else { return Ok(None) };
@@ -267,6 +268,7 @@ pub(super) fn read(
         periods,
         modes_file: None,
         modes_from,
+        contact_is_sensors,
         bounds,
         sweep: None,
         warnings: Vec::new(),

@@ -36,6 +36,9 @@ impl ModesFile {
     }
 }
 
+/// Most places of a structure: each has a column in tables, and is measured in every motion.
+const MOST_PLACES: usize = 200;
+
 /// A mode of a file.
 #[derive(Debug, Clone)]
 pub(super) struct FileMode {
@@ -52,8 +55,8 @@ pub(super) struct FileMode {
 /// Names of places, and modes with their shapes there.
 pub(super) type Modes = (Vec<String>, Vec<StructuralMode>);
 
-/// How a head begins.
-const HEAD: &str = "frequency (Hz),damping_ratio (%),mass (kg),tip";
+/// What a head has.
+const HEAD: &str = "its first line names frequency, damping_ratio and mass, each with its unit in brackets, and a column for each place";
 /// What a mode has beside its shape, whether it must be given, and what it is.
 const KNOWN: [(&str, bool, Dimension); 4] = [
     ("frequency", true, Dimension::Frequency),
@@ -100,9 +103,13 @@ pub(super) fn read(
     let head = lines.next().unwrap_or(&text[..0]);
     let refused = |problems| CaseError::new(&file.name, text, problems, 0);
     // A file whose head is another one may be anything, and is not shown.
+    let known =
+        KNOWN.iter().filter(|(name, ..)| head.split(',').any(|cell| name_of(cell) == *name));
+    let is_table = known.count() > 1;
     let columns = columns(text, head, named).map_err(|problem| {
-        let help = format!("begin it with a line such as {HEAD}; {}", problem.message);
-        refused(vec![*problem]).without_text("a table of modes", &help)
+        let help = format!("{HEAD}; {}", problem.message);
+        let error = refused(vec![*problem]);
+        if is_table { error } else { error.without_text("a table of modes", &help) }
     })?;
     let lines: Vec<&str> = lines.collect();
     if lines.is_empty() {
@@ -180,6 +187,11 @@ fn counts(name: &str, modes: &[StructuralMode], place: usize) -> bool {
     }
 }
 
+/// The name in a cell of the head, without its unit.
+fn name_of(cell: &str) -> &str {
+    cell.split('(').next().unwrap_or(cell).trim()
+}
+
 /// A key of TOML.
 fn bare(name: &str) -> String {
     let plain = |one: u8| one.is_ascii_alphanumeric() || one == b'_' || one == b'-';
@@ -194,7 +206,7 @@ fn columns<'t>(
 ) -> Result<Vec<Column<'t>>, Box<Problem>> {
     let (mut columns, mut names): (Vec<Column>, HashSet<&str>) = (Vec::new(), HashSet::new());
     for cell in head.split(',') {
-        let name = cell.split('(').next().unwrap_or(cell).trim();
+        let name = name_of(cell);
         let wrong = |message: String, help: &str| {
             problem(text, cell, message, "expected the columns of a table of modes", help)
         };
@@ -223,6 +235,13 @@ fn columns<'t>(
         let message = format!("there is no column {column}, which `places` names");
         let expected = "expected columns of the file in `places`";
         return Err(problem(text, head, message, expected, "name a column of the file"));
+    }
+    let count = columns.iter().filter(|one| one.is == Is::Place).count();
+    if count > MOST_PLACES {
+        let message = format!("the file has {count} columns of places");
+        let expected = format!("expected at most {MOST_PLACES}");
+        let help = "name those that count in [modes]: places = { tip = \"tip\" }";
+        return Err(problem(text, head, message, &expected, help));
     }
     if columns.iter().all(|one| one.is != Is::Place) {
         let message = "there is no column of a place".to_owned();

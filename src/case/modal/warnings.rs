@@ -17,6 +17,42 @@ pub(super) struct Spans {
     pub frequencies: Vec<Vec<Range<usize>>>,
 }
 
+/// What to look at where an absorber is no small mass.
+const UNITS: &str = "check the units of its mass and of the modal masses, which belong to the scale of the shapes: an absorber \
+                     usually has a few per cent";
+/// Mass ratios beyond which nothing that is computed means anything.
+const ANY_MASS_RATIO: [f64; 2] = [1e-12, 1e6];
+
+/// Each absorber's mass over that which its impacts see.
+fn mass_ratios(case: &ModalCase) -> impl Iterator<Item = f64> {
+    case.absorbers.iter().map(|one| {
+        let inverse = case.modes.iter().map(|mode| {
+            let phi = mode.shape[one.place];
+            phi * (phi / mode.mass_kg)
+        });
+        one.mass_kg * inverse.sum::<f64>()
+    })
+}
+
+/// The first absorber that is no mass beside the structure at all, or the structure none beside it: where, what and what to do.
+pub(super) fn out_of_scale(case: &ModalCase, text: &str) -> Option<Problem> {
+    let [least, most] = ANY_MASS_RATIO;
+    let (k, ratio) =
+        mass_ratios(case).enumerate().find(|(_, ratio)| !(least..=most).contains(ratio))?;
+    let key = AbsorberKey::ALL.iter().position(|key| *key == AbsorberKey::Mass)?;
+    let span = case.values.get(k)?[key].clone()?;
+    let (side, than) = match ratio < least {
+        true => ("less than", least),
+        false => ("more than", most),
+    };
+    let message = format!(
+        "absorber {} has {side} {} times the mass that its impacts see",
+        k + 1,
+        short(than)
+    );
+    Some(Problem::new(text, span, message, "expected a mass beside the structure's").help(UNITS))
+}
+
 /// Everything that a case is warned of, what was `found` as it was read among it, in the order of its lines.
 pub(super) fn of(
     case: &ModalCase,
@@ -71,23 +107,16 @@ impl Read<'_> {
     fn masses(&self) -> Vec<Problem> {
         let [least, most] = MASS_RATIOS;
         let key = AbsorberKey::ALL.iter().position(|key| *key == AbsorberKey::Mass);
-        let of = |(one, values): (&super::PlacedAbsorber, &[Option<Range<usize>>; 4])| {
-            let inverse = self.case.modes.iter().map(|mode| {
-                let phi = mode.shape[one.place];
-                phi * phi / mode.mass_kg
-            });
-            let ratio = one.mass_kg * inverse.sum::<f64>();
+        let of = |(ratio, values): (f64, &[Option<Range<usize>>; 4])| {
             let span = values[key?].as_ref().filter(|_| !(least..=most).contains(&ratio))?;
             let message = format!(
                 "`mass` = {}: the absorber has {} times the mass that its impacts see",
                 self.written(span),
                 short(ratio)
             );
-            let meant = "check the units of its mass and of the modal masses, which belong to the scale of the shapes: \
-                         an absorber usually has a few per cent";
-            Some(self.warning(span, message, "no small mass beside a structure", meant.to_owned()))
+            Some(self.warning(span, message, "no small mass beside a structure", UNITS.to_owned()))
         };
-        self.case.absorbers.iter().zip(&self.case.values).filter_map(of).collect()
+        mass_ratios(self.case).zip(&self.case.values).filter_map(of).collect()
     }
 
     /// Frequencies of loads that are far from those of all modes.

@@ -101,6 +101,10 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
         "motion": judged.motion.map(Motions::id),
         // Excitation periods after which a motion that could decide otherwise was still settling.
         "undecided_after": judged.undecided,
+        // What is found where impacts take the time that the case says; whether another kind of motion decides there.
+        "contact": judged.contact.map(|contact| {
+            json!({ "found": contact.found.and_then(quantity), "crosses": contact.crosses })
+        }),
         "decided_by": judged.decided_by,
     })
 }
