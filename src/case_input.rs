@@ -2,7 +2,7 @@
 //!
 //! For the program itself: this module may change at any time.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::case::{Case, CaseError, ModalCase, ModesFile, Recording, is_modal, modes_file};
 use crate::store::{self, CaseText, Reach, StoreError};
@@ -70,7 +70,11 @@ pub fn parse_several(
 ) -> Result<ModalCase, CaseInputError> {
     let read = |file: String| read_named(name, "file of its modes", &file, folder, reach);
     let modes = modes_file(text).map(read).transpose()?;
-    let modes = modes.map(|(name, text)| ModesFile { name, text });
+    let text_of = |(path, bytes): (PathBuf, Vec<u8>)| -> Result<ModesFile, StoreError> {
+        let text = store::text_of(&path, bytes)?;
+        Ok(ModesFile { name: path.display().to_string(), text })
+    };
+    let modes = modes.map(text_of).transpose()?;
     Ok(ModalCase::parse_with(name, text, modes)?)
 }
 
@@ -109,19 +113,17 @@ pub fn parse(name: &str, text: &str, folder: &Path, reach: Reach) -> Result<Case
     let case = Case::parse(name, text)?;
     let Some(file) = case.recording.as_ref().and_then(Recording::file) else { return Ok(case) };
     let (path, samples) = read_named(name, "record of its excitation", file, folder, reach)?;
-    Ok(case.with_record(&path, &samples)?)
+    Ok(case.with_record(&path.display().to_string(), samples)?)
 }
 
-/// The path and the text of a file that a case names, below its folder.
+/// The path and the bytes of a file that a case names, below its folder.
 fn read_named(
     case: &str,
     what: &'static str,
     file: &str,
     folder: &Path,
     reach: Reach,
-) -> Result<(String, String), CaseInputError> {
+) -> Result<(PathBuf, Vec<u8>), CaseInputError> {
     let read = store::read_record(folder, file, reach);
-    let named = |source| CaseInputError::Named { what, case: case.to_owned(), source };
-    let (path, text) = read.map_err(named)?;
-    Ok((path.display().to_string(), text))
+    read.map_err(|source| CaseInputError::Named { what, case: case.to_owned(), source })
 }

@@ -121,19 +121,20 @@ pub fn read_case(path: &Path, reach: Reach) -> Result<CaseText, StoreError> {
     Ok(CaseText { text: text_of(path, read(&file, FileKind::Case)?)?, quotable })
 }
 
-/// Reads the record that a case in `folder` names, with the path that messages give it.
+/// Reads the record that a case in `folder` names, with the path that messages give it: bytes, for what writes records often
+/// writes no UTF-8.
 ///
 /// # Errors
-/// As [`read_text`], and where it is not below the folder.
+/// [`StoreError`] when it cannot be read, is no regular file or is too large, and where it is not below the folder.
 pub fn read_record(
     folder: &Path,
     name: &str,
     reach: Reach,
-) -> Result<(PathBuf, String), StoreError> {
+) -> Result<(PathBuf, Vec<u8>), StoreError> {
     let path = folder.join(name);
     let folder = if folder == Path::new("") { Path::new(".") } else { folder };
-    let text = text_of(&path, read(&within(folder, &path, reach)?, FileKind::Record)?)?;
-    Ok((path, text))
+    let bytes = read(&within(folder, &path, reach)?, FileKind::Record)?;
+    Ok((path, bytes))
 }
 
 /// The file that a path leads to, which must be below a folder unless all are in reach.

@@ -108,7 +108,7 @@ fn integrated(
         if happens {
             let mut low = 0.0;
             for _ in 0..60 {
-                let middle = 0.5 * (low + step);
+                let middle = 0.5 * (low + part);
                 if over(runge_kutta(s, t, middle, rate), t + middle) {
                     part = middle
                 } else {

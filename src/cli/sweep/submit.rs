@@ -142,8 +142,8 @@ fn named_file(sweep: &Sweep, from: &Where) -> Result<Option<(PathBuf, Vec<u8>)>>
     };
     let Some(file) = file.filter(|file| Path::new(file).is_relative()) else { return Ok(None) };
     let folder = from.case.parent().unwrap_or(Path::new(""));
-    let (_, text) = store::read_record(folder, &file, from.reading().reach())?;
-    Ok(Some((file.into(), text.into_bytes())))
+    let (_, bytes) = store::read_record(folder, &file, from.reading().reach())?;
+    Ok(Some((file.into(), bytes)))
 }
 
 #[cfg(test)]

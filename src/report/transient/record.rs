@@ -56,8 +56,8 @@ pub(super) fn add(case: &Case, all: &Study, study: &RecordStudy, facts: &mut Val
 /// What drives the structure.
 fn input(case: &Case, study: &RecordStudy) -> Value {
     let source = case.recording.as_ref().map(|recording| match &recording.source {
-        RecordSource::File { path, read } => {
-            json!({ "file": path, "sha256": read.as_ref().map(|(digest, _)| digest) })
+        RecordSource::File { path, read, .. } => {
+            json!({ "file": path, "sha256": read.as_ref().map(|read| &read.sha256) })
         }
         RecordSource::Spectrum(spectrum) => json!({
             "corners": spectrum.corners,
