@@ -120,6 +120,10 @@ impl Faults<'_> {
         let mut sorted: Vec<f64> = samples.iter().map(|sample| sample[1]).collect();
         sorted.sort_by(f64::total_cmp);
         let median = sorted[sorted.len() / 2];
+        if sorted[0] == sorted[sorted.len() - 1] {
+            // A load that is put on at once.
+            return None;
+        }
         let near =
             |at: Option<&[f64; 2]>| at.is_some_and(|at| (at[1] - median).abs() < OFFSET * peak);
         let rests = median.abs() > OFFSET * peak && near(samples.first()) && near(samples.last());
@@ -149,9 +153,9 @@ impl Faults<'_> {
     fn coarse(&self) -> Option<Told> {
         let samples = self.samples();
         let period = self.case.units().time(TAU);
-        let longest = samples
-            .windows(2)
-            .max_by(|a, b| (a[1][0] - a[0][0]).total_cmp(&(b[1][0] - b[0][0])))?;
+        // Where nothing changes a straight line is what was meant.
+        let changes = samples.windows(2).filter(|two| two[0][1] != two[1][1]);
+        let longest = changes.max_by(|a, b| (a[1][0] - a[0][0]).total_cmp(&(b[1][0] - b[0][0])))?;
         let step = longest[1][0] - longest[0][0];
         // A gap that the case accepts is one of its own.
         let told = if step > 3.0 * median_step(samples) { median_step(samples) } else { step };

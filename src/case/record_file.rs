@@ -72,7 +72,10 @@ pub(super) fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<Cow<'a, str>, (
         [0xfe, 0xff, ..] => pairs(u16::from_be_bytes),
         _ => {
             if let Some((what, advice)) = binary(name, bytes) {
-                return Err((format!("{name} is {what}, not text"), advice.to_owned()));
+                return Err((
+                    format!("{name} is not a record: it is {what}, not text"),
+                    advice.to_owned(),
+                ));
             }
             let visible = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
             let latin = || visible.iter().map(|byte| char::from(*byte)).collect::<String>();
@@ -677,7 +680,10 @@ fn unit_of(
     };
     let (expected, help) = match wanted.physical {
         true => ("expected its unit", format!("{accepted}; {how}")),
-        false => ("expected a name without a unit", "numbers of [reduced] have none".to_owned()),
+        false => (
+            "expected a name without a unit",
+            "numbers of [reduced] have none: a head is for example time,value".to_owned(),
+        ),
     };
     let message = format!("the {what} of the record {message}");
     let help = format!("{help}{}", table.own_head());
