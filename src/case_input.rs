@@ -2,7 +2,7 @@
 //!
 //! For the program itself: this module may change at any time.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::case::{Case, CaseError, ModalCase, ModesFile, Recording, is_modal, modes_file};
 use crate::store::{self, CaseText, Reach, StoreError};
@@ -68,24 +68,22 @@ pub fn parse_several(
     folder: &Path,
     reach: Reach,
 ) -> Result<ModalCase, CaseInputError> {
-    let read = |file: String| {
-        let read = store::read_named(folder, &file, reach);
-        let what = "file of its modes";
-        let named = |source| CaseInputError::Named { what, case: name.to_owned(), source };
-        read.map(|(path, bytes)| ModesFile::of_bytes(&path.display().to_string(), &bytes))
-            .map_err(named)
-    };
+    let read = |file: String| read_named(name, "file of its modes", &file, folder, reach);
     let modes = modes_file(text).map(read).transpose()?;
+    let of = |(path, bytes): (PathBuf, Vec<u8>)| {
+        ModesFile::of_bytes(&path.display().to_string(), &bytes)
+    };
+    let modes = modes.map(of).transpose()?;
     Ok(ModalCase::parse_with(name, text, modes)?)
 }
 
 /// Reads a file of modes, wherever it is.
 ///
 /// # Errors
-/// [`StoreError`] where it cannot be read.
-pub fn read_modes(path: &Path) -> Result<ModesFile, StoreError> {
+/// [`CaseInputError`] where it cannot be read, or is no text.
+pub fn read_modes(path: &Path) -> Result<ModesFile, CaseInputError> {
     let (path, bytes) = store::read_named(Path::new(""), &path.to_string_lossy(), Reach::Anywhere)?;
-    Ok(ModesFile::of_bytes(&path.display().to_string(), &bytes))
+    Ok(ModesFile::of_bytes(&path.display().to_string(), &bytes)?)
 }
 
 /// Reads a case file of several modes or absorbers; its text beside the case.
@@ -123,19 +121,17 @@ pub fn parse(name: &str, text: &str, folder: &Path, reach: Reach) -> Result<Case
     let case = Case::parse(name, text)?;
     let Some(file) = case.recording.as_ref().and_then(Recording::file) else { return Ok(case) };
     let (path, samples) = read_named(name, "record of its excitation", file, folder, reach)?;
-    Ok(case.with_record(&path, &samples)?)
+    Ok(case.with_record(&path.display().to_string(), samples)?)
 }
 
-/// The path and the text of a file that a case names, below its folder.
+/// The path and the bytes of a file that a case names, below its folder.
 fn read_named(
     case: &str,
     what: &'static str,
     file: &str,
     folder: &Path,
     reach: Reach,
-) -> Result<(String, String), CaseInputError> {
-    let read = store::read_record(folder, file, reach);
-    let named = |source| CaseInputError::Named { what, case: case.to_owned(), source };
-    let (path, text) = read.map_err(named)?;
-    Ok((path.display().to_string(), text))
+) -> Result<(PathBuf, Vec<u8>), CaseInputError> {
+    let read = store::read_named(folder, file, reach);
+    read.map_err(|source| CaseInputError::Named { what, case: case.to_owned(), source })
 }

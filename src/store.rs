@@ -21,12 +21,15 @@ pub use error::StoreError;
 pub use folder::{Output, folder_below, read_folder, replace_folder};
 pub use git::{read_files_at, read_reports_at};
 pub use growing::Growing;
-pub use reading::{CaseText, Reach, open, read_case, read_named, read_record, read_text};
+pub use reading::{CaseText, Reach, open, read_case, read_named, read_text};
 pub use reports::{StoredReport, StoredReports, read_reports};
 pub use shards::Shards;
 
 /// The bytes of a file as text.
-fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StoreError> {
+///
+/// # Errors
+/// [`StoreError`] with the place of the first byte that is no UTF-8.
+pub fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StoreError> {
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let before = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();

@@ -29,7 +29,8 @@ impl DriftedCase {
     pub fn of(case: &Case, measure: Measure, factor: f64) -> Option<Self> {
         let case = if factor == 1.0 { case.clone() } else { case.with_natural_frequency(factor)? };
         let units = case.units();
-        let pieces = case.records().iter().map(|record| record.pieces(&units, Record::LONGEST));
+        let pieces =
+            case.records().iter().map(|record| record.pieces_to_rest(&units, Record::LONGEST));
         let pieces = pieces.collect();
         Some(Self { band: case.range(), pieces, case, measure, factor })
     }

@@ -146,6 +146,12 @@ impl CaseError {
         Self { source, problems: vec![hidden], more: 0, hidden: true }
     }
 
+    /// That a file is none that can be read, without a word of it.
+    pub(super) fn of_file(name: &str, message: String, help: &str) -> Self {
+        let problem = Problem::new("", 0..0, message, "").help(help);
+        Self { hidden: true, ..Self::new(name, "", vec![problem], 0) }
+    }
+
     /// The name under which the text was parsed, usually the file's path.
     pub fn name(&self) -> &str {
         self.source.0.name()

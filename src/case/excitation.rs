@@ -33,6 +33,17 @@ names! { name:
     }
 }
 
+names! { name:
+    /// What becomes of a gap in a record.
+    #[derive(Serialize, schemars::JsonSchema)]
+    pub(super) enum Gaps {
+        /// The record is refused.
+        Refuse = "refuse",
+        /// It is a straight line.
+        Linear = "linear",
+    }
+}
+
 // What `x-reduced` says of a key holds in `[reduced]` instead.
 /// What drives the oscillator, or sets it in motion.
 #[derive(Default, Deserialize, JsonSchema)]
@@ -88,6 +99,19 @@ pub(super) struct ExcitationTable {
     #[schemars(extend("x-reduced" = json!({ "description": "The record: a CSV file beside the case, a fast time and a \
         value a line below a head without units." })))]
     pub(super) file: Option<String>,
+    /// The column of the values in the file, by its name in the head or its number from 1; needed where several fit.
+    #[schemars(example = &"ch3")]
+    pub(super) column: Option<String>,
+    /// The column of the times, by its name or number; the first unless given.
+    #[schemars(example = "t (s)")]
+    #[schemars(extend("x-reduced" = json!({ "examples": ["tau"] })))]
+    pub(super) time_column: Option<String>,
+    /// The unit of the values, where the file does not name it.
+    #[schemars(example = &"g")]
+    pub(super) unit: Option<String>,
+    /// What becomes of a gap of more than three steps: "refuse", unless given, or "linear", a straight line.
+    #[schemars(example = &"linear")]
+    pub(super) gaps: Option<Gaps>,
     /// One-sided power spectral density instead of a file: frequencies in Hz that ascend, each with the density there
     /// in the squared SI unit of the quantity per Hz, or of a base acceleration as text, "0.02 g2/Hz"; straight in between
     /// on logarithmic scales, nothing outside.
@@ -191,6 +215,11 @@ pub(super) static KINDS: [KindRow; 6] = [
             ("duration", &["spectrum"]),
             ("seed", &["spectrum"]),
             ("realisations", &["spectrum"]),
+            ("column", &["file"]),
+            ("time_column", &["file"]),
+            ("rate", &["file"]),
+            ("unit", &["file"]),
+            ("gaps", &["file"]),
         ],
         lines: "quantity = \"base-acceleration\" # or \"base-displacement\", \"force\"\n\
                 spectrum = [[5, 0.02], [12, 0.02]] # (m/s²)²/Hz over Hz; or a file = \"quake.csv\" and none of what follows\n\
@@ -226,6 +255,9 @@ impl KindRow {
         let chosen = choice.iter().flat_map(|(_, keys)| keys);
         let keys = required.iter().chain(chosen).copied().chain(optional().map(|(key, _)| *key));
         properties.extend(keys.map(|key| (key.to_owned(), json!(true))));
+        if self.kind == ExcitationKind::Record {
+            properties.insert("rate".into(), record_rate(reduced));
+        }
         properties.insert("kind".into(), json!({ "const": self.kind }));
         if self.kind != ExcitationKind::default() {
             required.push("kind");
@@ -251,8 +283,23 @@ impl KindRow {
 }
 
 /// Keys that `[reduced]` says in another way, or not at all.
-const ONLY_PHYSICAL: [&str; 6] =
-    ["amplitude", "frequency", "spectrum", "duration", "seed", "realisations"];
+const ONLY_PHYSICAL: [&str; 7] =
+    ["amplitude", "frequency", "spectrum", "duration", "seed", "realisations", "unit"];
+
+/// The rate of the samples of a record, which is no sweep rate.
+fn record_rate(reduced: bool) -> Value {
+    match reduced {
+        true => json!({
+            "description": "Samples of a record in a fast time, above 0, where its file has no times.",
+            "type": "number", "exclusiveMinimum": 0, "examples": [50], "x-symbol": r"f_\mathrm{s}",
+        }),
+        false => json!({
+            "description": "Samples of a record in a second, above 0, where its file has no times.",
+            "type": "number", "exclusiveMinimum": 0, "examples": ["2 kHz"], "x-measurand": "a frequency",
+            "x-symbol": r"f_\mathrm{s}",
+        }),
+    }
+}
 
 /// The number of an amplitude of this.
 fn amplitude(of: Excitation) -> Value {

@@ -25,6 +25,8 @@ mod physical;
 mod quantity;
 mod reader;
 mod record;
+mod record_faults;
+mod record_file;
 mod reduced;
 mod restitution;
 mod rewrite;
@@ -57,7 +59,8 @@ pub use modal::{
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;
 pub use quantity::QuantityError;
-pub use record::{RecordSource, Recording};
+pub use record::{ReadRecord, RecordSource, Recording};
+pub use record_file::RecordFormat;
 pub use reduced::Reduced;
 pub use rewrite::{RewriteError, Rewritten, Rounding};
 pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema, schema_of_several};

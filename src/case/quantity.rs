@@ -168,7 +168,8 @@ pub(super) fn unit_in_brackets(
     of: Dimension,
     head: &str,
 ) -> Result<&'static Unit, (String, String)> {
-    let inner = head.trim_end().strip_suffix(')').and_then(|head| head.rsplit_once('('));
+    let between = |[open, close]: [char; 2]| head.trim_end().strip_suffix(close)?.rsplit_once(open);
+    let inner = between(['(', ')']).or_else(|| between(['[', ']']));
     let none = || ("has no unit".to_owned(), of.accepted());
     let Some((_, written)) = inner else { return of.unit_of("").ok_or_else(none) };
     of.unit_of(written).ok_or_else(|| of.unsuitable(written.trim()))

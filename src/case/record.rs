@@ -1,14 +1,16 @@
 //! What a case that is driven by a record says of it, and the samples in its file.
 
+use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 use toml::Spanned;
 use toml::de::DeValue;
 
 use super::error::{CaseError, Problem};
-use super::excitation::ExcitationTable;
-use super::quantity::{number_in, unit_in_brackets};
+use super::excitation::{ExcitationTable, Gaps};
+use super::quantity::unit_in_brackets;
 use super::reader::{Reader, Table};
+use super::record_file::{self, RecordFormat, Wanted};
 use super::{Case, warnings};
 use crate::digest::sha256;
 use crate::excitation::{Record, RecordQuantity, Spectrum};
@@ -35,15 +37,30 @@ impl PartialEq for Recording {
 /// Where the values of a record come from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RecordSource {
-    /// A file of two columns.
+    /// A file.
     File {
         /// Its path, relative to the case file.
         path: String,
-        /// SHA-256 of its text, and its samples in SI; none until [`Case::with_record`] has been given them.
-        read: Option<(String, Record)>,
+        /// What the case says of its columns.
+        format: RecordFormat,
+        /// Where its path stands in the text of the case.
+        span: Range<usize>,
+        /// What it holds; none until [`Case::with_record`] has been given that.
+        read: Option<ReadRecord>,
     },
     /// Random numbers.
     Spectrum(Spectrum),
+}
+
+/// What the file of a record holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadRecord {
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+    /// Its samples in SI.
+    pub record: Record,
+    /// The unit in which its values are written.
+    pub unit: &'static Unit,
 }
 
 impl Recording {
@@ -71,7 +88,7 @@ impl Recording {
     pub fn records(&self) -> &[Record] {
         match &self.source {
             RecordSource::File { read, .. } => {
-                read.as_ref().map_or(&[], |(_, record)| std::slice::from_ref(record))
+                read.as_ref().map_or(&[], |read| std::slice::from_ref(&read.record))
             }
             RecordSource::Spectrum(spectrum) => {
                 self.made.get_or_init(|| spectrum.records(self.quantity).collect())
@@ -89,57 +106,36 @@ impl Case {
     /// The case with the samples of its record; `name`, usually the path of the file, is for messages only. A case
     /// that names no file stays as it is.
     ///
-    /// The text has a head, `time (s),acceleration (m/s²)`, without units beside `[reduced]`, and then a sample a line,
-    /// the times ascending. Lines that begin with `#` are passed over.
+    /// The file is text: a head whose last line names the columns and their units, `time (s),acceleration (g)`, without units
+    /// beside `[reduced]`, and then a sample a line, the times ascending; or one of the PEER database. Columns stand between
+    /// commas, semicolons, tabs or spaces. Lines that begin with `#` or `%` are passed over.
     ///
     /// # Errors
-    /// [`CaseError`] with the lines that are wrong: a head without units or with those of something else, values that
-    /// are no numbers, times that do not ascend.
-    pub fn with_record(mut self, name: &str, text: &str) -> Result<Self, CaseError> {
-        let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if let Some(Recording { quantity, source: RecordSource::File { read, .. }, .. }) =
-            &mut self.recording
+    /// [`CaseError`] with the lines that are wrong: columns without units or with those of something else, values that
+    /// are no numbers, times that do not ascend, gaps.
+    pub fn with_record(mut self, name: &str, file: impl AsRef<[u8]>) -> Result<Self, CaseError> {
+        if let Some(Recording { quantity, source, .. }) = &mut self.recording
+            && let RecordSource::File { format, read, .. } = source
         {
-            let units = self.design.units();
-            let physical = units.physical;
-            let mut record =
-                Record { quantity: *quantity, samples: Vec::new(), base_velocity: 0.0 };
+            let (units, quantity) = (self.design.units(), *quantity);
+            let mut record = Record { quantity, samples: Vec::new(), base_velocity: 0.0 };
             let most = LARGEST / record.reduced(&units, 1.0).abs();
-            record.samples = samples(visible, *quantity, physical, most).map_err(|problems| {
-                let error = CaseError::new(name, visible, problems, 0);
-                match is_record(visible, *quantity, physical) {
-                    true => error,
-                    false => error.without_text(
-                        "a record",
-                        &format!(
-                            "begin it with the line {}; its own is not shown, for it may be another file",
-                            head(*quantity, physical)
-                        ),
-                    ),
-                }
-            })?;
-            *read = Some((sha256(text.as_bytes()), record));
+            let wanted = Wanted { format, quantity, physical: units.physical, most };
+            let found = record_file::read(name, file.as_ref(), &wanted)?;
+            record.samples = found.samples;
+            let sha256 = sha256(file.as_ref());
+            *read = Some(ReadRecord { sha256, record, unit: found.unit });
             self.warnings = warnings::of(&self);
         }
         Ok(self)
     }
 }
 
-fn dimension(of: RecordQuantity) -> Dimension {
+pub(super) fn dimension(of: RecordQuantity) -> Dimension {
     match of {
         RecordQuantity::BaseAcceleration => Dimension::Acceleration,
         RecordQuantity::BaseDisplacement => Dimension::Length,
         RecordQuantity::Force => Dimension::Force,
-    }
-}
-
-/// A head of a file.
-fn head(of: RecordQuantity, physical: bool) -> &'static str {
-    match of {
-        _ if !physical => "time,value",
-        RecordQuantity::BaseAcceleration => "time (s),acceleration (m/s²)",
-        RecordQuantity::BaseDisplacement => "time (s),displacement (mm)",
-        RecordQuantity::Force => "time (s),force (N)",
     }
 }
 
@@ -148,21 +144,8 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = &str> {
     text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// Whether a text is surely meant to be a record, and may be quoted: its head has a unit that fits, or the names that
-/// stand there without units.
-fn is_record(text: &str, quantity: RecordQuantity, physical: bool) -> bool {
-    let Some(head) = lines(text).next() else { return false };
-    let has_unit = |(of, cell): (Dimension, &str)| unit_in_brackets(of, cell).is_ok();
-    let units = cells(head).map(|(time, value)| {
-        [(Dimension::Time, time), (dimension(quantity), value)].into_iter().any(has_unit)
-    });
-    units == Some(true) || !physical && head.replace(' ', "") == self::head(quantity, false)
-}
-
 /// Largest value, dimensionless: beyond it rounding hides the walls whatever the structure.
 const LARGEST: f64 = 1e15;
-/// Problems after which a file is not read further: who took the wrong file has one in every line.
-const MOST_PROBLEMS: usize = 5;
 
 /// A problem with a part of the text.
 pub(super) fn problem(
@@ -174,99 +157,6 @@ pub(super) fn problem(
 ) -> Box<Problem> {
     let start = part.as_ptr() as usize - text.as_ptr() as usize;
     Box::new(Problem::new(text, start..start + part.len(), message, expected).help(help))
-}
-
-/// The two cells of a line.
-fn cells(line: &str) -> Option<(&str, &str)> {
-    line.split_once(',').filter(|(_, value)| !value.contains(','))
-}
-
-fn samples(
-    text: &str,
-    quantity: RecordQuantity,
-    physical: bool,
-    most: f64,
-) -> Result<Vec<[f64; 2]>, Vec<Problem>> {
-    let mut lines = lines(text);
-    // An empty text has no line: its beginning.
-    let head = lines.next().unwrap_or(&text[..0]);
-    let help = format!("begin the file with {}", self::head(quantity, physical));
-    let Some((time, value)) = cells(head) else {
-        let message = "the head of the record does not name two columns".to_owned();
-        return Err(vec![*problem(text, head, message, "expected time and value", &help)]);
-    };
-    let unit = |dimension: Dimension, column: &'static str, cell| {
-        let wrong = |(what, accepted): (String, String)| {
-            let message = format!("the {column} of the record {what}");
-            let (expected, help) = match physical {
-                true => ("expected a unit between brackets", &format!("{accepted}; {help}")),
-                false => ("expected a name without a unit", &help),
-            };
-            problem(text, cell, message, expected, help)
-        };
-        let dimension = if physical { dimension } else { Dimension::Number };
-        unit_in_brackets(dimension, cell).map_err(wrong)
-    };
-    let units = match (
-        unit(Dimension::Time, "time", time),
-        unit(self::dimension(quantity), "value", value),
-    ) {
-        (Ok(time), Ok(value)) => [time, value],
-        (time, value) => {
-            return Err(time.err().into_iter().chain(value.err()).map(|one| *one).collect());
-        }
-    };
-    let (mut samples, mut problems): (Vec<[f64; 2]>, Vec<Problem>) = (Vec::new(), Vec::new());
-    for line in lines {
-        match sample(text, line, units, most, samples.last()) {
-            Ok(sample) => samples.push(sample),
-            Err(found) => problems.push(*found),
-        }
-        if problems.len() >= MOST_PROBLEMS {
-            break;
-        }
-    }
-    if problems.is_empty() && samples.len() < 2 {
-        let message = "the record has fewer than two samples".to_owned();
-        problems.push(*problem(text, head, message, "expected at least two lines below", &help));
-    }
-    if problems.is_empty() { Ok(samples) } else { Err(problems) }
-}
-
-/// A line with a time later than the last one.
-fn sample(
-    text: &str,
-    line: &str,
-    units: [&Unit; 2],
-    most: f64,
-    last: Option<&[f64; 2]>,
-) -> Result<[f64; 2], Box<Problem>> {
-    let Some((time, value)) = cells(line) else {
-        let message = "a line of the record does not have two values".to_owned();
-        let help = "separate two numbers by a comma; the decimal point is a point";
-        return Err(problem(text, line, message, "expected time and value", help));
-    };
-    let number = |cell: &str, unit| {
-        number_in(cell, unit).ok_or_else(|| {
-            let message = format!("\"{}\" is no number", cell.trim());
-            let help = "write numbers such as 0.25 or 2.5e-1";
-            problem(text, cell, message, "expected a number", help)
-        })
-    };
-    let found = [number(time, units[0])?, number(value, units[1])?];
-    match last {
-        Some(last) if last[0] >= found[0] => {
-            let message = "the times of the record do not ascend".to_owned();
-            let help = "sort the lines, and keep one of each time";
-            Err(problem(text, time, message, "expected a later time than above", help))
-        }
-        _ if found[1].abs() > most => {
-            let message = "a value of the record is too large for the case".to_owned();
-            let help = "check its unit, and those of the case: one is many orders of magnitude away from the others";
-            Err(problem(text, value, message, "expected values as a structure meets them", help))
-        }
-        _ => Ok(found),
-    }
 }
 
 /// Records of a spectrum unless the case says how many, the fewest lines that make noise, and the most samples of all
@@ -283,6 +173,44 @@ fn densities<'a>(
     corners.filter_map(|corner| corner.get_ref().as_array()?.get(1))
 }
 
+/// What it says of its file's columns.
+fn format(
+    reader: &mut Reader,
+    table: &Table,
+    excitation: &ExcitationTable,
+    quantity: RecordQuantity,
+) -> Option<RecordFormat> {
+    let mut format = RecordFormat {
+        column: excitation.column.clone(),
+        time_column: excitation.time_column.clone(),
+        rate: excitation.rate,
+        unit: None,
+        linear_gaps: excitation.gaps == Some(Gaps::Linear),
+    };
+    if format.rate.is_some() && format.time_column.is_some() {
+        let message = "`rate` and `time_column` say the same thing twice";
+        let help = "remove one of the two lines: with a rate no times are read";
+        reader.report(table.span_of("time_column"), message, "expected only one of the two", help);
+        return None;
+    }
+    if let Some(written) = &excitation.unit {
+        match unit_in_brackets(dimension(quantity), &format!("({written})")) {
+            Ok(unit) => format.unit = Some(unit),
+            Err((what, accepted)) => {
+                let message = format!("`unit` {what}");
+                reader.report(
+                    table.span_of_value("unit"),
+                    message,
+                    "expected the unit of the values",
+                    accepted,
+                );
+                return None;
+            }
+        }
+    }
+    Some(format)
+}
+
 /// What an excitation of the kind "record" says; none where something was reported.
 pub(super) fn read(
     reader: &mut Reader,
@@ -296,9 +224,19 @@ pub(super) fn read(
             let help = "remove the line: it is for a spectrum";
             reader.report(table.span_of(key), message, "expected a file alone", help);
         }
-        let source = RecordSource::File { path: excitation.file.clone()?, read: None };
+        let path = excitation.file.clone()?;
+        let (format, span) =
+            (format(reader, table, excitation, quantity)?, table.span_of_value("file"));
+        let source = RecordSource::File { path, format, span, read: None };
         return Some(Recording::new(quantity, source));
     };
+    for key in
+        ["column", "time_column", "rate", "unit", "gaps"].into_iter().filter(|key| table.has(key))
+    {
+        let message = format!("`{key}` has no meaning beside `spectrum`");
+        let help = "remove the line: it is for a file";
+        reader.report(table.span_of(key), message, "expected a spectrum alone", help);
+    }
     for key in ["duration", "seed"].into_iter().filter(|key| !table.has(key)) {
         let message = format!("`{key}` is missing beside `spectrum`");
         let help = format!("add the line {}", reader.line(table, key));

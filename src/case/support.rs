@@ -175,7 +175,7 @@ impl Case {
         };
         let damping = damping / sqrt(mass);
         let heavier = System::new(Parameters { damping, ..self.system.parameters() }).ok()?;
-        let moved = driven(&heavier, None, &record.pieces(&slower, Record::LONGEST), true);
+        let moved = driven(&heavier, None, &record.pieces_to_rest(&slower, Record::LONGEST), true);
         Some(moved.shaking?.peak_acceleration / mass)
     }
 

@@ -5,7 +5,7 @@
 use super::error::Problem;
 use super::inputs::Input;
 use super::support::{Orientation, SOFT, is_stiff, metres, static_length};
-use super::{BandOver, BandSettings, Case, Design, Rounding};
+use super::{BandOver, BandSettings, Case, Design, Rounding, record_faults};
 use crate::quantity::numbers::rounded_to;
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
@@ -40,6 +40,7 @@ pub(super) fn of(case: &Case) -> Vec<Problem> {
     if found.is_empty() {
         found.extend(read.support());
     }
+    found.extend(record_faults::of(case));
     found.sort_by_key(|warning| warning.span.start);
     found
 }

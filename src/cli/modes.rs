@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use miette::{IntoDiagnostic, Result};
+use miette::{IntoDiagnostic, Report, Result};
 use vinesink::case::ModesListing;
-use vinesink::case_input::read_modes;
+use vinesink::case_input::{CaseInputError, read_modes};
 use vinesink::program::output;
 use vinesink::report::modal::{listing, listing_text};
 
@@ -32,7 +32,11 @@ Examples:
   vinesink modes mast.csv --format json";
 
 pub fn run(arguments: Arguments) -> Result<bool> {
-    let file = read_modes(&arguments.path)?;
+    let file = read_modes(&arguments.path).map_err(|error| match error {
+        CaseInputError::Case(error) => Report::new(error),
+        CaseInputError::File(error) => Report::new(error),
+        other => Report::msg(other),
+    })?;
     let name = arguments.path.file_name().unwrap_or_default().to_string_lossy();
     let found = ModesListing::of(&file, &name)?;
     match arguments.format {

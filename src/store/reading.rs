@@ -121,24 +121,11 @@ pub fn read_case(path: &Path, reach: Reach) -> Result<CaseText, StoreError> {
     Ok(CaseText { text: text_of(path, read(&file, FileKind::Case)?)?, quotable })
 }
 
-/// Reads the record that a case in `folder` names, with the path that messages give it.
+/// Reads a file that a case in `folder` names, with the path that messages give it: bytes, for what writes records and modes often
+/// writes no UTF-8.
 ///
 /// # Errors
-/// As [`read_text`], and where it is not below the folder.
-pub fn read_record(
-    folder: &Path,
-    name: &str,
-    reach: Reach,
-) -> Result<(PathBuf, String), StoreError> {
-    let (path, bytes) = read_named(folder, name, reach)?;
-    let text = text_of(&path, bytes)?;
-    Ok((path, text))
-}
-
-/// Reads the bytes of a file that a case in `folder` names, with the path that messages give it.
-///
-/// # Errors
-/// [`StoreError`] when it cannot be read, is no regular file, is too large or is not below the folder.
+/// [`StoreError`] when it cannot be read, is no regular file or is too large, and where it is not below the folder.
 pub fn read_named(
     folder: &Path,
     name: &str,

@@ -37,7 +37,7 @@ impl Unsteady {
     /// SHA-256 of the file that drives the structure.
     pub fn digest(&self) -> Option<&str> {
         match &self.recording.as_ref()?.source {
-            RecordSource::File { read, .. } => read.as_ref().map(|(digest, _)| digest.as_str()),
+            RecordSource::File { read, .. } => read.as_ref().map(|read| read.sha256.as_str()),
             RecordSource::Spectrum(_) => None,
         }
     }

@@ -160,7 +160,7 @@ impl Study {
                 let each = study.realisations.iter();
                 each.map(|here| {
                     let damper = || &here.damped as &dyn Run;
-                    one(asked, &|of| here.places.largest(of), &here.bare, &damper)
+                    one(asked, &|of| here.largest(of), &here.bare, &damper)
                 })
                 .collect()
             }

@@ -188,7 +188,7 @@ fn shaken(
 ) -> Option<WithError> {
     let (system, units) = (design.system().ok()?, design.units());
     let of_record = |record: &Record| {
-        let pieces = record.pieces(&units, Record::LONGEST);
+        let pieces = record.pieces_to_rest(&units, Record::LONGEST);
         flown(&system, &pieces, places, case.count_inactive).ok()?.largest(Measure::Peak)
     };
     let each = records.iter().map(of_record).collect::<Option<Vec<WithError>>>()?;

@@ -84,15 +84,16 @@ impl OneFlight {
                 let Some(record) = case.records().first() else {
                     return Some(Err(DrivenError::NoRecord));
                 };
-                let mut pieces = record.pieces(&units, Record::LONGEST);
+                let mut pieces = record.pieces_to_rest(&units, Record::LONGEST);
                 let mut left = periods.map_or(f64::INFINITY, |periods| TAU * periods as f64);
-                pieces.retain(|piece| {
+                pieces.retain_mut(|piece| {
                     let begins = left > 0.0;
+                    piece.rings = piece.rings.min(left);
                     left -= piece.duration;
                     begins
                 });
                 follow_from(&system, &pieces, start, false, told).map(|found| Self {
-                    duration: found.trace.last().map_or(0.0, |at| at[0]),
+                    duration: found.duration,
                     peak: found.peak.max(none.peak),
                     impacts: found.impacts,
                     impact_speed: found.impact_speed,

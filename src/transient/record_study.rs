@@ -122,6 +122,24 @@ impl RecordStudy {
         })
     }
 
+    /// The longest time for which a structure was followed after the end of its record.
+    pub fn rang(&self) -> f64 {
+        self.responses().map(|one| one.rang).fold(0.0, f64::max)
+    }
+
+    /// By how much a displacement of a motion that was given up may become larger: 0 unless nothing takes its energy.
+    pub fn open(&self) -> f64 {
+        self.responses().map(|one| one.open).fold(0.0, f64::max)
+    }
+
+    fn responses(&self) -> impl Iterator<Item = &Response> {
+        fn of_one(one: &Realisation) -> impl Iterator<Item = &Response> {
+            let placed = one.places.all.iter().map(|(_, found)| found);
+            [&one.bare, &one.damped].into_iter().chain(placed)
+        }
+        self.realisations.iter().flat_map(of_one)
+    }
+
     /// What happened under the first record.
     pub fn first(&self) -> Option<&Realisation> {
         self.realisations.first()
@@ -129,6 +147,18 @@ impl RecordStudy {
 }
 
 impl Realisation {
+    /// The largest from any place of the absorber, and by how much others may exceed it: of the displacement also what may
+    /// come of a motion that was given up.
+    pub(super) fn largest(&self, of: Measure) -> Option<WithError> {
+        let [value, error] = self.places.largest(of)?;
+        let more = |(_, found): &(f64, Response)| found.peak + found.open - value;
+        let open = match of {
+            Measure::Peak => self.places.all.iter().map(more).fold(0.0, f64::max),
+            _ => 0.0,
+        };
+        Some([value, error + open])
+    }
+
     /// The place of the absorber with the largest displacement, and what it did from there.
     pub fn worst(&self) -> Option<&(f64, Response)> {
         self.places.worst(Measure::Peak)
@@ -153,7 +183,7 @@ fn realisations(
 ) -> Result<Vec<Realisation>, DrivenError> {
     let damper = TunedMassDamper::den_hartog(system.mass_ratio());
     let pieces: Vec<Vec<Piece>> =
-        records.iter().map(|record| record.pieces(units, Record::LONGEST)).collect();
+        records.iter().map(|record| record.pieces_to_rest(units, Record::LONGEST)).collect();
     let one = |(k, pieces): (usize, &Vec<Piece>)| {
         let found = flown(system, pieces, places, inactive)?;
         let kept = |response: Response| match k {
@@ -200,7 +230,7 @@ fn spectrum_point(
     let places = (FLIGHTS_OF_FREQUENCY / records.len()) as u64;
     let mut sums = [0.0; 3];
     for record in records {
-        let pieces = record.pieces(&units, Record::LONGEST);
+        let pieces = record.pieces_to_rest(&units, Record::LONGEST);
         let mut worst = 0.0_f64;
         for w in even(places) {
             worst = worst.max(follow(system, &pieces, w)?.peak);

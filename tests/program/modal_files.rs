@@ -311,3 +311,42 @@ fn what_cannot_be_meant_is_refused() {
         assert!(told.contains(words) && !told.contains("inf"), "{told}");
     }
 }
+
+/// Semicolons, tabs, decimal commas, units in square brackets and lines above the head: one table, read in one way.
+#[test]
+fn a_table_of_modes_is_read_as_it_is_separated() {
+    for (what, text) in [
+        (
+            "semicolons",
+            "frequency [Hz];damping_ratio [%];mass [kg];tip;middle\n1,1;0,5;30;1;0,34\n6,894;0,5;30;1;-0,714\n",
+        ),
+        (
+            "tabs",
+            "frequency (Hz)\tdamping_ratio (%)\tmass (kg)\ttip\tmiddle\n1.1\t0.5\t30\t1\t0.34\n6.894\t0.5\t30\t1\t-0.714\n",
+        ),
+        (
+            "lines above",
+            "Modal analysis of the mast\nsecond of May\n\nfrequency (Hz), damping_ratio (%), mass (kg), tip, middle\n1.1, 0.5, 30, 1, 0.34\n6.894, 0.5, 30, 1, -0.714\n",
+        ),
+        (
+            "UTF-8 with a mark",
+            "\u{feff}frequency (Hz),damping_ratio (%),mass (kg),tip,middle\r\n1.1,0.5,30,1,0.34\r\n6.894,0.5,30,1,-0.714\r\n",
+        ),
+    ] {
+        let (case, _) =
+            read(COLUMNS, text.as_bytes()).unwrap_or_else(|told| panic!("{what}: {told}"));
+        let hertz: Vec<f64> = case.modes.iter().map(|mode| mode.frequency_hz).collect();
+        assert_eq!(
+            (hertz, case.modes[1].shape.clone(), case.modes[0].damping_ratio),
+            (vec![1.1, 6.894], vec![1.0, -0.714], 0.005),
+            "{what}"
+        );
+    }
+    let wide: Vec<u8> = "frequency (Hz),damping_ratio (%),mass (kg),tip\n1.1,0.5,30,1\n"
+        .encode_utf16()
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    assert_eq!(hertz(COLUMNS, &[&[0xff, 0xfe], &wide[..]].concat()), Ok(vec![1.1]));
+    let told = hertz(COLUMNS, b"PK\x03\x04sheet").expect_err("refused");
+    assert!(told.contains("an Excel workbook") && told.contains("CSV UTF-8"), "{told}");
+}

@@ -48,12 +48,25 @@ pub struct Piece {
     pub shakes: bool,
     /// Velocity of the base at its beginning; 0 under a force.
     pub base: f64,
+    /// 0 while the record lasts. Behind its end nothing drives any more, and the structure rings on in pieces like this one
+    /// until nothing that is measured of it can become larger, for so long at the most.
+    pub rings: f64,
+}
+
+impl Piece {
+    /// Whether nothing drives any more.
+    pub const fn is_rest(&self) -> bool {
+        self.rings > 0.0
+    }
 }
 
 impl Record {
     /// The longest piece: the motion is measured at the ends of pieces, by cubics in between. A piece of `h` leaves
     /// the peak an error of `h^4/384` of itself, and the motion that of [`Piece`]'s flight.
     pub const LONGEST: f64 = 0.2;
+
+    /// Oscillations after the end for which a motion is followed at the most: one that nothing damps goes on for ever.
+    pub const MOST_RINGING: f64 = 1000.0;
 
     /// The record in pieces of at most so long a fast time, each within two samples.
     ///
@@ -83,13 +96,40 @@ impl Record {
                 if displaced {
                     base = slope;
                 }
-                pieces.push(Piece { duration: step, jump, force, shakes, base });
+                pieces.push(Piece { duration: step, jump, force, shakes, base, rings: 0.0 });
                 if shakes && !displaced {
                     base -= step * (force[0] + 0.5 * slope * step);
                 }
             }
             velocity = slope;
         }
+        pieces
+    }
+
+    /// The same, and behind them the piece in which the structure rings on: no force acts, and the base moves evenly as its
+    /// last acceleration left it, or stays where the record of its displacement ends.
+    pub fn pieces_to_rest(&self, scales: &Scales, longest: f64) -> Vec<Piece> {
+        let mut pieces = self.pieces(scales, longest);
+        let displaced = self.quantity == RecordQuantity::BaseDisplacement;
+        let after = pieces.last().map(|last| {
+            let [force, slope] = last.force;
+            let gained = if last.shakes {
+                last.duration * (force + 0.5 * slope * last.duration)
+            } else {
+                0.0
+            };
+            let base = if displaced { 0.0 } else { last.base - gained };
+            let jump = if displaced { last.base } else { 0.0 };
+            Piece {
+                duration: longest,
+                jump,
+                force: [0.0; 2],
+                shakes: last.shakes,
+                base,
+                rings: TAU * Self::MOST_RINGING,
+            }
+        });
+        pieces.extend(after);
         pieces
     }
 

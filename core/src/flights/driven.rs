@@ -9,11 +9,13 @@
 //! `g` is a cubic, of which the nearest straight line (least squares over the piece) is taken: the rest is orthogonal
 //! to straight lines, so that the motion at the end of a piece of length `h` is off by `h^5`.
 
+use std::f64::consts::TAU;
+
 use super::unforced;
 use crate::excitation::Piece;
-use crate::linear::{Meter, Response};
+use crate::linear::{Meter, Response, StillToCome};
 use crate::simulation::{Detail, Impact, Observer, ShakingMeter, Simulation, StartError, Stop};
-use crate::system::{InvalidParameter, State, System};
+use crate::system::{InvalidParameter, Shaking, State, System};
 
 /// Share of the largest displacement from which on rounding of a piece's frame is not passed over.
 const HIDDEN: f64 = 1e-6;
@@ -94,6 +96,8 @@ impl BaseFrame {
 struct ResponseLog<'a> {
     meter: &'a mut Meter,
     piece: Piece,
+    /// Whether the piece is so short that the motion is measured by cubics.
+    short: bool,
     frame: BaseFrame,
     /// Where the motion was measured last: time in the piece, and what was seen from the base.
     last: (f64, State),
@@ -103,7 +107,9 @@ struct ResponseLog<'a> {
 impl ResponseLog<'_> {
     fn seen(&mut self, s: f64, state: &State) -> State {
         let now = self.frame.leave(s, state);
-        self.meter.moved(&self.piece, [self.last.0, s], [&self.last.1, &now]);
+        if self.short {
+            self.meter.moved(&self.piece, [self.last.0, s], [&self.last.1, &now]);
+        }
         now
     }
 }
@@ -156,7 +162,8 @@ pub fn follow(system: &System, pieces: &[Piece], w: f64) -> Result<Response, Dri
 }
 
 /// The same from a state; velocity and acceleration are measured where they are asked for, and `told` hears of every impact as
-/// it is seen from the base, its time that since the start.
+/// it is seen from the base, its time that since the start. Where the pieces end with one of rest the structure rings on
+/// until nothing that is measured can become larger.
 ///
 /// # Errors
 /// As [`follow`].
@@ -167,33 +174,158 @@ pub fn follow_from(
     shaking: bool,
     told: &mut dyn FnMut(&Impact),
 ) -> Result<Response, DrivenError> {
-    let damping = system.mass_ratio() * system.damping();
-    let mut meter = Meter::new(system.mass_ratio(), damping);
-    let (mut state, mut farthest) = (start, 0.0_f64);
-    let mut shakes = shaking.then(|| ShakingMeter::of(system).of_short());
+    let mut flight = DrivenFlight::of(system, start, shaking);
     for piece in pieces {
-        meter.jump(piece, &mut state);
-        let free = unforced(system, piece.duration)?;
-        let frame = BaseFrame::of(piece, damping);
-        farthest = farthest.max(frame.shift.abs());
-        let mut simulation = Simulation::new(&free, frame.enter(&state), 0.0)?;
-        let last = (0.0, state);
-        if let Some(meter) = &mut shakes {
+        let mut next = *piece;
+        flight.meter.jump(&next, &mut flight.state);
+        next.jump = 0.0;
+        match next.is_rest() {
+            true => flight.ring(next, told)?,
+            false => flight.pass(&next, true, told)?,
+        }
+    }
+    flight.finished()
+}
+
+/// Fast time at once in which impacts alone are heard of.
+const OSCILLATION: f64 = TAU;
+/// Of what is left of the work of the excitation impacts take a share that is not looked at; and speeds, over the largest
+/// displacement times `omega0`, at which impacts do nothing.
+const LEFT: f64 = 1e-3;
+/// Relative velocity of what does not slide over the structure's: some roundings.
+const STANDS: f64 = 1e-12;
+
+/// A structure with its absorber under way.
+struct DrivenFlight<'a> {
+    system: &'a System,
+    meter: Meter,
+    state: State,
+    /// Largest distance of a piece's frame.
+    farthest: f64,
+    shakes: Option<ShakingMeter>,
+    /// Mean square velocity and acceleration until nothing drove any more.
+    mean_squares: Option<[f64; 2]>,
+}
+
+impl<'a> DrivenFlight<'a> {
+    fn of(system: &'a System, start: State, shaking: bool) -> Self {
+        Self {
+            system,
+            meter: Meter::new(system.mass_ratio(), system.mass_ratio() * system.damping()),
+            state: start,
+            farthest: 0.0,
+            shakes: shaking.then(|| ShakingMeter::of(system).of_short()),
+            mean_squares: None,
+        }
+    }
+
+    /// Flies a piece at whose beginning nothing jumps; one that is not `short` for its impacts alone.
+    fn pass(
+        &mut self,
+        piece: &Piece,
+        short: bool,
+        told: &mut dyn FnMut(&Impact),
+    ) -> Result<(), DrivenError> {
+        let free = unforced(self.system, piece.duration)?;
+        let frame = BaseFrame::of(piece, self.system.mass_ratio() * self.system.damping());
+        self.farthest = self.farthest.max(frame.shift.abs());
+        let mut simulation = Simulation::new(&free, frame.enter(&self.state), 0.0)?;
+        let last = (0.0, self.state);
+        if let Some(meter) = &mut self.shakes {
             // The unforced system is seen from a frame that moves evenly.
             meter.set_frame(frame.slope + piece.base);
         }
-        let log = ResponseLog { meter: &mut meter, piece: *piece, frame, last, told: &mut *told };
-        let mut observers = (log, &mut shakes);
+        let log = ResponseLog { meter: &mut self.meter, piece: *piece, short, frame, last, told };
+        let mut observers = (log, self.shakes.as_mut().filter(|_| short));
         let stop = simulation.run(1, MOST_IMPACTS, &mut observers);
-        state = observers.0.last.1;
+        self.state = observers.0.last.1;
         if stop != Stop::EndTime {
             return Err(DrivenError::Stopped(stop));
         }
-        meter.passed(piece, &state);
+        match short {
+            true => self.meter.passed(piece, &self.state),
+            false => self.meter.went_by(piece),
+        }
+        Ok(())
     }
-    let found = Response { shaking: shakes.map(|one| one.found()), ..meter.finished() };
-    match farthest * f64::EPSILON > HIDDEN * found.peak {
-        true => Err(DrivenError::Damped),
-        false => Ok(found),
+
+    /// Follows what nothing drives any more until nothing that is measured can become larger: first all of it, then
+    /// impacts alone.
+    fn ring(&mut self, piece: Piece, told: &mut dyn FnMut(&Impact)) -> Result<(), DrivenError> {
+        self.mean_squares = self.shakes.map(|meter| meter.mean_squares());
+        loop {
+            let (energy, bounds) = self.still_to_come(piece.base);
+            let rates = self.shakes.map(|meter| meter.peaks());
+            let moves_less = bounds.is_nothing(&self.meter.found, rates);
+            let is_over = moves_less && self.has_struck(energy);
+            if is_over || self.meter.gives_up(&piece, bounds.displacement) {
+                return Ok(());
+            }
+            let duration = if moves_less { OSCILLATION } else { piece.duration };
+            let duration = duration.min(self.meter.left(&piece));
+            self.pass(&Piece { duration, ..piece }, !moves_less, told)?;
+        }
+    }
+
+    /// The energy that is left, and what it bounds. With gravity `a` along the cavity and the displacement `w` of the
+    /// structure against the absorber it is `(x'^2 + (x - eps a)^2 + eps y'^2)/2 + eps (|a| + a w)`, of which each part
+    /// is 0 or more; nothing adds to it.
+    fn still_to_come(&self, base: f64) -> (f64, StillToCome) {
+        let (eps, cavity) = (self.system.mass_ratio(), self.system.cavity());
+        let (gravity, state) = (cavity.gravity_along, &self.state);
+        let hangs = State { x: state.x - eps * gravity, ..*state };
+        let lifted = match self.is_held(&hangs) {
+            true => 0.0,
+            false => gravity.abs() + gravity * state.relative_displacement(),
+        };
+        let energy = hangs.energy(eps) + eps * lifted.max(0.0);
+        let most = (2.0 * energy).sqrt();
+        let pushed = eps * (gravity.abs() + cavity.friction_acceleration);
+        let damping = eps * self.system.damping();
+        let bounds = StillToCome {
+            displacement: most + eps * gravity.abs(),
+            stroke: 0.0,
+            rates: [base.abs() + most, libm::hypot(1.0, damping) * most + pushed],
+        };
+        (energy, bounds)
+    }
+
+    /// Whether friction holds the absorber in the cavity from now on: it does not slide, and the structure that carries it
+    /// cannot accelerate as much.
+    fn is_held(&self, hangs: &State) -> bool {
+        let (eps, cavity) = (self.system.mass_ratio(), self.system.cavity());
+        let slides = (hangs.x_velocity - hangs.y_velocity).abs();
+        let swings = libm::hypot(hangs.x, hangs.x_velocity);
+        let acceleration = libm::hypot(1.0, eps * self.system.damping()) * (1.0 + eps) * swings;
+        slides <= STANDS * swings
+            && cavity.friction_acceleration > cavity.gravity_along.abs() + acceleration
+    }
+
+    /// Whether impacts to come are none, no faster than those before, and take no share of the energy that counts. A relative
+    /// velocity `u` has an energy of `u^2/(1 + 1/eps)/2` at least.
+    fn has_struck(&self, energy: f64) -> bool {
+        let (eps, found) = (self.system.mass_ratio(), &self.meter.found);
+        let speed = (2.0 * energy * (1.0 + 1.0 / eps)).sqrt();
+        let slow = StillToCome::is_below(speed, found.impact_speed.max(LEFT * found.peak));
+        slow && energy <= LEFT * found.work.abs() || self.rests_within()
+    }
+
+    /// Whether the absorber rests where the structure never reaches it with a wall.
+    fn rests_within(&self) -> bool {
+        let State { x, x_velocity, y, y_velocity } = self.state;
+        let reach = libm::hypot(x, x_velocity) + y.abs();
+        y_velocity == 0.0 && !self.system.cavity().moves_absorber() && reach < 1.0
+    }
+
+    fn finished(self) -> Result<Response, DrivenError> {
+        let means = self.mean_squares;
+        let shaken = |meter: ShakingMeter| {
+            Shaking::of(meter.peaks(), means.unwrap_or_else(|| meter.mean_squares()))
+        };
+        let found = Response { shaking: self.shakes.map(shaken), ..self.meter.finished() };
+        match self.farthest * f64::EPSILON > HIDDEN * found.peak {
+            true => Err(DrivenError::Damped),
+            false => Ok(found),
+        }
     }
 }

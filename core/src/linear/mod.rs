@@ -21,6 +21,7 @@ pub use motion::{Linear, driven, released, released_between, swept};
 pub use passage::Passage;
 pub use response::Meter;
 pub use response::Response;
+pub(crate) use response::StillToCome;
 pub use settling::STEPS;
 pub use settling::Settling;
 

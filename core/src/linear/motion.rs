@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{Meter, Passage, Response, STEPS, Settling, TunedMassDamper};
+use super::{Meter, Passage, Response, STEPS, Settling, StillToCome, TunedMassDamper};
 use crate::excitation::{Piece, SineSweep, amplitude};
 use crate::numerics::extremes::{Cubic, RateSums};
 use crate::system::{Scales, Shaking, State, System};
@@ -109,37 +109,115 @@ fn stopped(
 
 /// The structure with a damper, or alone, at rest until it is driven. A straight line of the excitation is a state
 /// of its own, with which a step is a matrix exponential. Velocity and acceleration are measured where they are asked for.
+/// Where the pieces end with one of rest it rings on until none of it can become larger.
 pub fn driven(
     system: &System,
     damper: Option<&TunedMassDamper>,
     pieces: &[Piece],
     shaking: bool,
 ) -> Response {
-    let mass_ratio = damper.map_or(0.0, |_| system.mass_ratio());
-    let mut meter = Meter::new(mass_ratio, system.mass_ratio() * system.damping());
-    let mut state = State::AT_REST;
-    // Even times of a record are rounded, so that its pieces have a few durations.
-    let mut steps = HashMap::<u64, Square>::new();
-    let mut rates = matrix(system, damper);
-    rates.fixed_columns_mut::<2>(4).fill(0.0);
-    // The force acts on the structure, that of a base which shakes on both masses; and it grows.
-    rates[(1, 4)] = 1.0;
-    rates[(3, 4)] = f64::from(u8::from(pieces.first().is_some_and(|piece| piece.shakes)));
-    rates[(4, 5)] = 1.0;
-    let mut shakes = shaking.then(RateSums::default);
+    let mut motion = Driven::of(system, damper, pieces, shaking);
     for piece in pieces {
-        meter.jump(piece, &mut state);
-        if steps.len() > MOST_STEPS {
-            steps.clear();
+        let mut next = *piece;
+        motion.meter.jump(&next, &mut motion.state);
+        next.jump = 0.0;
+        if !next.is_rest() {
+            motion.pass(&next);
+            continue;
         }
-        let step = steps
+        motion.mean_squares = motion.shakes.map(|sums| sums.mean_squares());
+        loop {
+            let bounds = still_to_come(system, damper, &motion.state, next.base);
+            let rates = motion.shakes.map(|sums| sums.peaks);
+            if bounds.is_nothing(&motion.meter.found, rates)
+                || motion.meter.gives_up(&next, bounds.displacement)
+            {
+                break;
+            }
+            motion.pass(&next);
+        }
+    }
+    let Driven { meter, shakes, mean_squares, .. } = motion;
+    let shaken = |sums: RateSums| {
+        Shaking::of(sums.peaks, mean_squares.unwrap_or_else(|| sums.mean_squares()))
+    };
+    Response { shaking: shakes.map(shaken), ..meter.finished() }
+}
+
+/// What a linear structure can still reach that nothing drives any more, by the energy of it and its damper:
+/// `E = (x'^2 + x^2 + mu y'^2 + mu f^2 (x - y)^2)/2` falls, and each of its parts is at most all of it.
+fn still_to_come(
+    system: &System,
+    damper: Option<&TunedMassDamper>,
+    state: &State,
+    base: f64,
+) -> StillToCome {
+    let mu = damper.map_or(0.0, |_| system.mass_ratio());
+    let [tuning, damping_ratio] =
+        damper.map_or([0.0; 2], |damper| [damper.tuning, damper.damping_ratio]);
+    let stretched = tuning * state.relative_displacement();
+    let most = (2.0 * state.energy(mu) + mu * stretched * stretched).sqrt();
+    // x'' = -x - eps lambda x' - mu f^2 (x - y) - 2 mu zeta f (x' - y').
+    let pull = tuning * mu.sqrt() + 2.0 * damping_ratio * tuning * (mu * (1.0 + mu)).sqrt();
+    let acceleration = libm::hypot(1.0, system.mass_ratio() * system.damping()) + pull;
+    StillToCome {
+        displacement: most,
+        stroke: if mu > 0.0 { most / (tuning * mu.sqrt()) } else { 0.0 },
+        rates: [base.abs() + most, acceleration * most],
+    }
+}
+
+/// A linear structure under way.
+struct Driven {
+    meter: Meter,
+    state: State,
+    rates: Square,
+    /// Even times of a record are rounded, so that its pieces have a few durations.
+    steps: HashMap<u64, Square>,
+    shakes: Option<RateSums>,
+    /// Mean square velocity and acceleration until nothing drove any more.
+    mean_squares: Option<[f64; 2]>,
+}
+
+impl Driven {
+    fn of(
+        system: &System,
+        damper: Option<&TunedMassDamper>,
+        pieces: &[Piece],
+        shaking: bool,
+    ) -> Self {
+        let mass_ratio = damper.map_or(0.0, |_| system.mass_ratio());
+        let mut rates = matrix(system, damper);
+        rates.fixed_columns_mut::<2>(4).fill(0.0);
+        // The force acts on the structure, that of a base which shakes on both masses; and it grows.
+        rates[(1, 4)] = 1.0;
+        rates[(3, 4)] = f64::from(u8::from(pieces.first().is_some_and(|piece| piece.shakes)));
+        rates[(4, 5)] = 1.0;
+        Self {
+            meter: Meter::new(mass_ratio, system.mass_ratio() * system.damping()),
+            state: State::AT_REST,
+            rates,
+            steps: HashMap::new(),
+            shakes: shaking.then(RateSums::default),
+            mean_squares: None,
+        }
+    }
+
+    /// Goes through a piece, at whose beginning nothing jumps.
+    fn pass(&mut self, piece: &Piece) {
+        if self.steps.len() > MOST_STEPS {
+            self.steps.clear();
+        }
+        let rates = self.rates;
+        let step = self
+            .steps
             .entry(piece.duration.to_bits())
             .or_insert_with(|| exponential(rates * piece.duration));
-        let State { x, x_velocity, y, y_velocity } = state;
+        let State { x, x_velocity, y, y_velocity } = self.state;
         let [force, slope] = piece.force;
         let begin = LinearState::from([x, x_velocity, y, y_velocity, force, slope]);
         let at_end = *step * begin;
-        if let Some(sums) = &mut shakes {
+        if let Some(sums) = &mut self.shakes {
             // The base, which moves by as much as the force is its inertia.
             let base = f64::from(u8::from(piece.shakes));
             let absolute = |at: &LinearState, s: f64| {
@@ -152,13 +230,9 @@ pub fn driven(
         }
         let end =
             State { x: at_end[0], x_velocity: at_end[1], y: at_end[2], y_velocity: at_end[3] };
-        meter.moved(piece, [0.0, piece.duration], [&state, &end]);
-        meter.passed(piece, &end);
-        state = end;
-    }
-    Response {
-        shaking: shakes.map(|sums| Shaking::of(sums.peaks, sums.mean_squares())),
-        ..meter.finished()
+        self.meter.moved(piece, [0.0, piece.duration], [&self.state, &end]);
+        self.meter.passed(piece, &end);
+        self.state = end;
     }
 }
 

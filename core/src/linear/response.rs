@@ -16,7 +16,7 @@ use crate::system::{Shaking, State};
 pub struct Response {
     /// Largest displacement of the structure.
     pub peak: f64,
-    /// Root mean square displacement over the whole record.
+    /// Root mean square displacement over the record, without what comes after its end.
     pub rms: f64,
     /// Largest displacement of absorber or damper against the structure.
     pub stroke: f64,
@@ -26,17 +26,59 @@ pub struct Response {
     pub impact_speed: f64,
     /// Work of the excitation.
     pub work: f64,
-    /// Energy that the structure's own damping took.
+    /// Energy that the structure's own damping took until the record's end.
     pub damping_loss: f64,
     /// Energy that impacts took.
     pub impact_loss: f64,
-    /// Energy of structure and absorber, or mass of the damper, at the end; its spring's not included.
+    /// Energy of structure and absorber, or mass of the damper, at the record's end; its spring's not included.
     pub stored: f64,
-    /// Time and displacement at the end of every piece.
+    /// Time and displacement at the end of every piece, after the record's end for as long as the displacement could still
+    /// become larger.
     pub trace: Vec<[f64; 2]>,
-    /// Velocity and acceleration of the structure with an absorber over the whole record, absolute: that of the base is added.
-    /// None where they were not asked for.
+    /// Velocity and acceleration of the structure, absolute: that of the base is added. Root mean squares are those over the
+    /// record. None where they were not asked for.
     pub shaking: Option<Shaking>,
+    /// How long the motion was followed, and of it after the record's end.
+    pub duration: f64,
+    /// See [`Self::duration`].
+    pub rang: f64,
+    /// By how much the largest displacement may exceed [`Self::peak`]: 0 unless nothing takes the energy that is left.
+    pub open: f64,
+}
+
+/// Largest values that a motion which nothing drives any more can still reach, by the energy that is left.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StillToCome {
+    /// Displacement of the structure.
+    pub displacement: f64,
+    /// Displacement of a damper's mass against the structure; 0 of an absorber, whose walls bound it.
+    pub stroke: f64,
+    /// Velocity and acceleration of the structure, absolute.
+    pub rates: [f64; 2],
+}
+
+impl StillToCome {
+    /// By how much a largest value may be passed over: twice what cubics leave out in a piece of
+    /// [`Record::LONGEST`](crate::excitation::Record::LONGEST).
+    const SAME: f64 = 1e-5;
+
+    /// Whether a value of which so much can still come stays the largest.
+    pub(crate) fn is_below(bound: f64, largest: f64) -> bool {
+        bound <= largest * (1.0 + Self::SAME)
+    }
+
+    /// Whether nothing that was measured can become larger: of velocity and acceleration where they are.
+    pub(crate) fn is_nothing(&self, found: &Response, rates: Option<[f64; 2]>) -> bool {
+        let rates = rates.is_none_or(|largest| {
+            self.rates
+                .into_iter()
+                .zip(largest)
+                .all(|(bound, largest)| Self::is_below(bound, largest))
+        });
+        Self::is_below(self.displacement, found.peak)
+            && Self::is_below(self.stroke, found.stroke)
+            && rates
+    }
 }
 
 /// Measures a motion between states that are so near that it is a cubic in between.
@@ -46,8 +88,10 @@ pub struct Meter {
     /// Mass of the absorber or damper over the structure's, and `eps lambda`.
     mass_ratio: f64,
     damping: f64,
-    /// Fast time that has passed.
+    /// Fast time that has passed, and of it during the record and after its end.
     pub time: f64,
+    driven: f64,
+    after: f64,
     square: f64,
 }
 
@@ -56,7 +100,7 @@ impl Meter {
     pub fn new(mass_ratio: f64, damping: f64) -> Self {
         let mut found = Response::default();
         found.trace.push([0.0, 0.0]);
-        Self { found, mass_ratio, damping, time: 0.0, square: 0.0 }
+        Self { found, mass_ratio, damping, time: 0.0, driven: 0.0, after: 0.0, square: 0.0 }
     }
 
     /// The base changes its velocity.
@@ -77,6 +121,9 @@ impl Meter {
         let found = &mut self.found;
         found.peak = found.peak.max(x.largest());
         found.stroke = found.stroke.max(w.largest());
+        if piece.is_rest() {
+            return;
+        }
         self.square += x.square();
         found.damping_loss += self.damping * x.square_of_slope();
         // The integral of f q', by parts.
@@ -92,14 +139,39 @@ impl Meter {
 
     /// A piece has come to its end.
     pub fn passed(&mut self, piece: &Piece, state: &State) {
-        self.time += piece.duration;
+        self.went_by(piece);
         self.found.trace.push([self.time, state.x]);
-        self.found.stored = state.energy(self.mass_ratio);
+        if !piece.is_rest() {
+            self.found.stored = state.energy(self.mass_ratio);
+        }
+    }
+
+    /// The same of a piece in which no displacement was looked at.
+    pub(crate) fn went_by(&mut self, piece: &Piece) {
+        self.time += piece.duration;
+        let of = if piece.is_rest() { &mut self.after } else { &mut self.driven };
+        *of += piece.duration;
+    }
+
+    /// How much longer a motion may be followed that goes on in such pieces.
+    pub(crate) fn left(&self, piece: &Piece) -> f64 {
+        piece.rings - self.after
+    }
+
+    /// Whether that is no longer; then `displacement` is what it may still reach.
+    pub(crate) fn gives_up(&mut self, piece: &Piece, displacement: f64) -> bool {
+        let given_up = self.left(piece) <= 0.0;
+        if given_up && !StillToCome::is_below(displacement, self.found.peak) {
+            self.found.open = displacement - self.found.peak;
+        }
+        given_up
     }
 
     /// What was measured.
     pub fn finished(mut self) -> Response {
-        self.found.rms = if self.time > 0.0 { (self.square / self.time).sqrt() } else { 0.0 };
+        let mean = self.square / self.driven;
+        self.found.rms = if self.driven > 0.0 { mean.sqrt() } else { 0.0 };
+        (self.found.duration, self.found.rang) = (self.time, self.after);
         self.found
     }
 }

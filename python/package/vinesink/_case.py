@@ -138,7 +138,8 @@ class Case:
       `inclination`, `friction`;
     - excitation: `kind` ("base-displacement", "force", "free", "impulse", "sine-sweep", "record") and the keys of
       that kind: `amplitude`, `frequency`; `displacement`, `velocity`; `impulse`; `of`, `start` (`from` in a file), `to`,
-      `rate`; `quantity`, and `file` or `spectrum`, `duration`, `seed`, `realisations`.
+      `rate`; `quantity`, and `file`, `column`, `time_column`, `rate`, `unit`, `gaps`, or `spectrum`, `duration`, `seed`,
+      `realisations`.
 
     Reduced, with pure numbers: `mass_ratio`, `damping`, `restitution`, `clearance`, `forcing`, `frequency_ratio` or
     `detuning`, `gravity_along`, `friction_acceleration`, and `kind`.

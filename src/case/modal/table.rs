@@ -5,8 +5,9 @@ use std::collections::HashSet;
 use super::StructuralMode;
 use super::universal::{self, line_of};
 use crate::case::error::{CaseError, Problem};
-use crate::case::quantity::{number_in, unit_in_brackets};
+use crate::case::quantity::unit_in_brackets;
 use crate::case::record::{lines, problem};
+use crate::case::record_file::{Reading, RecordTable, text_of};
 use crate::quantity::Dimension;
 use crate::quantity::unit::Unit;
 use crate::system::LARGEST_DAMPING_RATIO;
@@ -23,11 +24,14 @@ pub struct ModesFile {
 impl ModesFile {
     /// That of the bytes of a file. What is no UTF-8 is taken for Latin-1, which may stand in titles and comments; of a Universal File
     /// the bytes of binary data sets, which hold no modes, are left out.
-    pub fn of_bytes(name: &str, bytes: &[u8]) -> Self {
+    ///
+    /// # Errors
+    /// [`CaseError`] where it is no text.
+    pub fn of_bytes(name: &str, bytes: &[u8]) -> Result<Self, CaseError> {
         let bytes = universal::without_binary(bytes);
-        let latin = |bytes: Vec<u8>| bytes.into_iter().map(char::from).collect();
-        let text = String::from_utf8(bytes).unwrap_or_else(|error| latin(error.into_bytes()));
-        Self { name: name.to_owned(), text }
+        let text = text_of(name, "a file of modes", &bytes)
+            .map_err(|(message, help)| CaseError::of_file(name, message, &help))?;
+        Ok(Self { name: name.to_owned(), text: text.into_owned() })
     }
 
     /// Its text without a byte order mark.
@@ -99,26 +103,43 @@ pub(super) fn read(
     named: Option<&[(String, String)]>,
 ) -> Result<Columns, CaseError> {
     let text = file.text();
-    let mut lines = lines(text);
-    let head = lines.next().unwrap_or(&text[..0]);
     let refused = |problems| CaseError::new(&file.name, text, problems, 0);
+    let found = RecordTable::of(text, false);
+    // Its head is the first line that has names of a head; what stands above it is not read.
+    let has_names = |reading: Reading, line: &str| {
+        let cells = reading.cells(line);
+        KNOWN.iter().filter(|(name, ..)| cells.iter().any(|cell| name_of(cell) == *name)).count()
+            > 1
+    };
+    let fits = |(reading, count): &(Reading, usize)| {
+        lines(text).any(|line| has_names(*reading, line) && reading.cells(line).len() == *count)
+    };
+    let all = [(found.reading, found.count)].into_iter().chain(found.rivals.iter().copied());
+    let fitting: Vec<(Reading, usize)> = all.filter(fits).collect();
+    let reading = fitting.first().map_or(Reading::PLAIN, |one| one.0);
+    let is_head = |line: &str| has_names(reading, line);
+    let all: Vec<&str> = lines(text).collect();
+    let at = all.iter().position(|line| is_head(line));
+    let head = all.get(at.unwrap_or(0)).copied().unwrap_or(&text[..0]);
+    let mut lines = all.iter().copied().skip(at.unwrap_or(0) + 1);
     // A file whose head is another one may be anything, and is not shown.
-    let known =
-        KNOWN.iter().filter(|(name, ..)| head.split(',').any(|cell| name_of(cell) == *name));
-    let is_table = known.count() > 1;
-    let columns = columns(text, head, named).map_err(|problem| {
+    let is_table = at.is_some();
+    if fitting.len() > 1 {
+        found.must_be_one().map_err(|problem| refused(vec![*problem]))?;
+    }
+    let columns = columns(text, head, reading, named).map_err(|problem| {
         let help = format!("{HEAD}; {}", problem.message);
         let error = refused(vec![*problem]);
         if is_table { error } else { error.without_text("a table of modes", &help) }
     })?;
-    let lines: Vec<&str> = lines.collect();
+    let lines: Vec<&str> = lines.by_ref().collect();
     if lines.is_empty() {
         let message = "the file has no mode".to_owned();
         let expected = "expected a line for each mode below the head";
         return Err(refused(vec![*problem(text, head, message, expected, "add the modes")]));
     }
     let (modes, problems): (Vec<_>, Vec<_>) =
-        lines.iter().map(|line| mode(text, line, &columns)).partition(Result::is_ok);
+        lines.iter().map(|line| mode(text, line, reading, &columns)).partition(Result::is_ok);
     let problems: Vec<Problem> =
         problems.into_iter().filter_map(Result::err).map(|one| *one).collect();
     if !problems.is_empty() {
@@ -189,7 +210,7 @@ fn counts(name: &str, modes: &[StructuralMode], place: usize) -> bool {
 
 /// The name in a cell of the head, without its unit.
 fn name_of(cell: &str) -> &str {
-    cell.split('(').next().unwrap_or(cell).trim()
+    cell.split(['(', '[']).next().unwrap_or(cell).trim()
 }
 
 /// A key of TOML.
@@ -202,10 +223,11 @@ fn bare(name: &str) -> String {
 fn columns<'t>(
     text: &str,
     head: &'t str,
+    reading: Reading,
     named: Option<&[(String, String)]>,
 ) -> Result<Vec<Column<'t>>, Box<Problem>> {
     let (mut columns, mut names): (Vec<Column>, HashSet<&str>) = (Vec::new(), HashSet::new());
-    for cell in head.split(',') {
+    for cell in reading.cells(head) {
         let name = name_of(cell);
         let wrong = |message: String, help: &str| {
             problem(text, cell, message, "expected the columns of a table of modes", help)
@@ -251,13 +273,18 @@ fn columns<'t>(
 }
 
 /// The mode of a line.
-fn mode(text: &str, line: &str, columns: &[Column]) -> Result<StructuralMode, Box<Problem>> {
-    let cells: Vec<&str> = line.split(',').collect();
+fn mode(
+    text: &str,
+    line: &str,
+    reading: Reading,
+    columns: &[Column],
+) -> Result<StructuralMode, Box<Problem>> {
+    let cells = reading.cells(line);
     if cells.len() != columns.len() {
         let message = format!("the line has {} values", cells.len());
         let expected = format!("expected {}, as the head", columns.len());
-        let help = "separate numbers by commas; the decimal point is a point";
-        return Err(problem(text, line, message, &expected, help));
+        let help = format!("write {}", reading.words(columns.len()));
+        return Err(problem(text, line, message, &expected, &help));
     }
     let (mut values, mut shape) = ([0.0, 0.0, 0.0, f64::NAN], Vec::new());
     for (cell, column) in cells.iter().zip(columns) {
@@ -266,7 +293,7 @@ fn mode(text: &str, line: &str, columns: &[Column]) -> Result<StructuralMode, Bo
             problem(text, cell, message, expected, "write numbers such as 0.25 or 2.5e-1")
         };
         let Some(unit) = column.unit else { continue };
-        let number = number_in(cell, unit).ok_or_else(|| wrong("expected a number"))?;
+        let number = reading.number(cell, unit).ok_or_else(|| wrong("expected a number"))?;
         match column.is {
             Is::Other => {}
             Is::Place => shape.push(number),

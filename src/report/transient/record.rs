@@ -56,8 +56,8 @@ pub(super) fn add(case: &Case, all: &Study, study: &RecordStudy, facts: &mut Val
 /// What drives the structure.
 fn input(case: &Case, study: &RecordStudy) -> Value {
     let source = case.recording.as_ref().map(|recording| match &recording.source {
-        RecordSource::File { path, read } => {
-            json!({ "file": path, "sha256": read.as_ref().map(|(digest, _)| digest) })
+        RecordSource::File { path, read, .. } => {
+            json!({ "file": path, "sha256": read.as_ref().map(|read| &read.sha256) })
         }
         RecordSource::Spectrum(spectrum) => json!({
             "corners": spectrum.corners,
@@ -78,6 +78,9 @@ fn input(case: &Case, study: &RecordStudy) -> Value {
         "peak": Quantity::new(kind, peak, Method::Given),
         "duration": Quantity::new(&of::TIME, study.length.0, Method::Given),
         "samples": study.length.1,
+        // After the end of a record; and what may come where a motion was given up.
+        "followed": case.units().quantity(&of::TIME, study.rang(), Method::Simulation),
+        "open": (study.open() > 0.0).then(|| case.units().quantity(&of::PEAK, study.open(), Method::Simulation)),
     })
 }
 

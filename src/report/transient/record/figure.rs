@@ -27,7 +27,7 @@ fn history(case: &Case, study: &RecordStudy) -> Option<Figure> {
     let shown = |kind| AxisOf::dimensionless(case.units(), kind);
     let first = study.first()?;
     let (_, worst) = first.worst()?;
-    let end = first.bare.trace.last()?[0];
+    let end = first.bare.trace.last()?[0].max(worst.trace.last()?[0]);
     let largest = [first.bare.peak, first.damped.peak, worst.peak].into_iter().fold(0.0, f64::max);
     let line = |trace: &[[f64; 2]]| -> Vec<[f64; 2]> {
         let ends = trace.chunks(trace.len() / STRETCHES + 1).flat_map(|stretch| {
