@@ -46,6 +46,8 @@ pub(super) struct Found {
 const MOST_PROBLEMS: usize = 5;
 /// Median steps above which samples are missing.
 const GAP: f64 = 3.0;
+/// Relative difference of rates that are one: some are nominal.
+const SAME_RATE: f64 = 0.01;
 /// Rounding of steps.
 const ROUNDING: f64 = 1e-6;
 /// Lines of numbers that surely are a table, and may be quoted.
@@ -767,10 +769,38 @@ fn samples(
         let message = "the record has fewer than two samples".to_owned();
         return Err(table.refused(message, "expected at least two lines below", "add them"));
     }
+    if problems.is_empty() {
+        problems.extend(other_rate(table, columns, chosen.value.0, wanted));
+    }
     if problems.is_empty() && !wanted.format.linear_gaps {
         problems = gaps(table, &samples, chosen.time.as_ref().map_or(0, |time| time.0));
     }
     if problems.is_empty() { Ok(Found { samples, unit: value_unit }) } else { Err(problems) }
+}
+
+/// That the rate of the case is not that of the times which the file has all the same.
+fn other_rate(
+    table: &RecordTable,
+    columns: &[Column],
+    value: usize,
+    wanted: &Wanted,
+) -> Option<Problem> {
+    let rate = wanted.format.rate?;
+    let unit = |column: &Column| column.unit(Dimension::Time).ok().filter(|_| wanted.physical);
+    let (column, unit) = columns.iter().enumerate().find_map(|(k, one)| Some((k, unit(one)?)))?;
+    let time =
+        |row: Option<&&str>| table.reading.number(table.reading.cells(row?).get(column)?, unit);
+    let lasts = time(table.rows.last())? - time(table.rows.first())?;
+    let own = (table.rows.len() - 1) as f64 / lasts;
+    if column == value || (own / rate - 1.0).abs() < SAME_RATE {
+        return None;
+    }
+    let message = format!(
+        "the times of the record are those of {} samples in a second, not of `rate`",
+        short(own)
+    );
+    let help = "remove `rate`, or the column of times where it is wrong";
+    Some(*problem(table.text, columns[column].cell, message, "expected the rate of the case", help))
 }
 
 /// A line with a time later than the last one.
