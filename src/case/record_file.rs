@@ -311,6 +311,9 @@ struct RecordTable<'t> {
     sure: bool,
 }
 
+/// A reading, what most lines are like in it, and the numbers in the first of those.
+type Tried = (Reading, Signature, Vec<Vec<Option<f64>>>);
+
 fn is_comment(line: &str) -> bool {
     line.starts_with(['#', '%'])
 }
@@ -373,7 +376,7 @@ impl<'t> RecordTable<'t> {
                 })
                 .collect()
         };
-        let mut chosen: Vec<(Reading, Signature, Vec<Vec<Option<f64>>>)> = Vec::new();
+        let mut chosen: Vec<Tried> = Vec::new();
         for (reading, _, signature) in readings {
             let rows = first_rows(reading, signature);
             if !chosen.iter().any(|(.., known)| *known == rows) {
@@ -386,12 +389,11 @@ impl<'t> RecordTable<'t> {
         if chosen.len() > 1 {
             let before = begins(first, signature).and_then(|at| at.checked_sub(1));
             let head = before.map(|at| lines[at].trim_start_matches(['#', '%']).trim());
-            let named = |one: &(Reading, Signature, _)| {
+            let named = |one: &Tried| {
                 head.is_some_and(|head| one.0.names(head, one.1.count).len() == one.1.count)
             };
-            let ascends = |one: &(Reading, Signature, Vec<Vec<Option<f64>>>)| {
-                one.1.count > 1 && one.2.windows(2).all(|two| two[0][0] < two[1][0])
-            };
+            let ascends =
+                |one: &Tried| one.1.count > 1 && one.2.windows(2).all(|two| two[0][0] < two[1][0]);
             keep(&mut chosen, named);
             if has_times {
                 keep(&mut chosen, ascends);
@@ -423,9 +425,9 @@ impl<'t> RecordTable<'t> {
         };
         let plain = self.head.iter().rev().filter(|line| !is_comment(line));
         let comments = self.head.iter().rev().filter(|line| is_comment(line));
-        let mut rows: Vec<Vec<&'t str>> = plain.map_while(|line| named(&line)).take(2).collect();
+        let mut rows: Vec<Vec<&'t str>> = plain.map_while(&named).take(2).collect();
         if rows.is_empty() {
-            rows.extend(comments.map_while(|line| named(&line)).take(1));
+            rows.extend(comments.map_while(&named).take(1));
         }
         let units =
             rows.first().filter(|row| rows.len() > 1 && row.iter().all(|cell| is_unit(cell)));
@@ -985,7 +987,9 @@ fn peer(text: &str, wanted: &Wanted) -> Option<Result<Found, Vec<Problem>>> {
             return refused(place, format!("the value of the record {message}"), &accepted);
         }
     };
-    if !(step > 0.0) || wanted.format.rate.is_some_and(|rate| (rate * step - 1.0).abs() > ROUNDING)
+    if step.is_nan()
+        || step <= 0.0
+        || wanted.format.rate.is_some_and(|rate| (rate * step - 1.0).abs() > ROUNDING)
     {
         let message = format!("the step of the samples is {step} s by the head");
         return refused(lines[last], message, "remove `rate`, or give that of the file");
