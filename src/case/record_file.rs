@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use super::error::{CaseError, Problem};
-use super::quantity::{number_in, unit_in_brackets};
+use super::quantity::{leading_number, number_in, unit_in_brackets};
 use super::record::{dimension, problem};
 use crate::excitation::RecordQuantity;
 use crate::quantity::Dimension;
@@ -46,10 +46,14 @@ pub(super) struct Found {
 const MOST_PROBLEMS: usize = 5;
 /// Median steps above which samples are missing.
 const GAP: f64 = 3.0;
+/// Relative difference of rates that are one: some are nominal.
+const SAME_RATE: f64 = 0.01;
 /// Rounding of steps.
 const ROUNDING: f64 = 1e-6;
 /// Lines of numbers that surely are a table, and may be quoted.
 const SURELY: usize = 3;
+/// Lines in which it is looked for what most are like.
+const SURVEYED: usize = 20_000;
 /// Lines by which readings are told apart.
 const COMPARED: usize = 100;
 /// Lines of a head that a message shows, and characters of each.
@@ -162,8 +166,10 @@ impl Reading {
         let mut all: Vec<Self> =
             there.chain([Spaces]).map(|separator| Self { separator, comma: false }).collect();
         if text.contains(',') {
-            let with_commas = [Tab, Semicolon, CommaAndSpace, Spaces];
-            all.extend(with_commas.map(|separator| Self { separator, comma: true }));
+            let there = [("\t", Tab), (";", Semicolon), (", ", CommaAndSpace), (" ", Spaces)];
+            let there =
+                there.into_iter().filter(|(mark, one)| *one == Spaces || text.contains(mark));
+            all.extend(there.map(|(_, separator)| Self { separator, comma: true }));
         }
         all.into_iter()
     }
@@ -225,10 +231,19 @@ impl Reading {
         number_in(&self.plain(cell)?, unit)
     }
 
-    /// Which cells of a line are numbers.
-    fn signature(self, line: &str) -> Vec<bool> {
-        let pure = pure();
-        self.cells(line).into_iter().map(|cell| self.number(cell, pure).is_some()).collect()
+    /// How many cells a line has, and which of them are numbers.
+    fn signature(self, line: &str) -> Signature {
+        let is_number = |cell: &str| {
+            let plain = self.plain(cell);
+            plain.is_some_and(|cell| {
+                let unsigned = cell.strip_prefix('-').unwrap_or(&cell);
+                leading_number(unsigned) == Some(0..unsigned.len())
+            })
+        };
+        let cells = self.cells(line);
+        let numbers = cells.iter().enumerate().filter(|(_, cell)| is_number(cell));
+        let numbers = numbers.fold(0, |all, (k, _)| all | 1 << k.min(Signature::MOST));
+        Signature { count: cells.len(), numbers }
     }
 
     /// How it reads lines of so many columns.
@@ -245,6 +260,23 @@ impl Reading {
             Separator::Spaces => "spaces",
         };
         format!("{count} columns between {separator}, with decimal {mark}")
+    }
+}
+
+/// What a line is like.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Signature {
+    count: usize,
+    /// A bit for each cell that is a number; the last stands for all further ones.
+    numbers: u128,
+}
+
+impl Signature {
+    const MOST: usize = 127;
+
+    /// The share of its cells that are numbers.
+    fn share(self) -> f64 {
+        f64::from(self.numbers.count_ones()) / self.count.clamp(1, Self::MOST + 1) as f64
     }
 }
 
@@ -284,16 +316,19 @@ pub(super) struct RecordTable<'t> {
     sure: bool,
 }
 
+/// A reading, what most lines are like in it, and the numbers in the first of those.
+type Tried = (Reading, Signature, Vec<Vec<Option<f64>>>);
+
 fn is_comment(line: &str) -> bool {
     line.starts_with(['#', '%'])
 }
 
 /// What most lines that have numbers are like in a reading: how many they are, and which of their cells are numbers.
-fn usual(reading: Reading, lines: &[&str]) -> (usize, Vec<bool>) {
-    let mut found: Vec<(usize, Vec<bool>)> = Vec::new();
+fn usual(reading: Reading, lines: &[&str]) -> (usize, Signature) {
+    let mut found: Vec<(usize, Signature)> = Vec::new();
     for line in lines.iter().filter(|line| !is_comment(line)) {
         let signature = reading.signature(line);
-        if !signature.contains(&true) {
+        if signature.numbers == 0 {
             continue;
         }
         if let Some((count, _)) = found.iter_mut().find(|(_, known)| *known == signature) {
@@ -305,25 +340,22 @@ fn usual(reading: Reading, lines: &[&str]) -> (usize, Vec<bool>) {
     found.into_iter().max_by_key(|(count, _)| *count).unwrap_or_default()
 }
 
-fn share(signature: &[bool]) -> f64 {
-    signature.iter().filter(|is| **is).count() as f64 / signature.len().max(1) as f64
-}
-
 impl<'t> RecordTable<'t> {
     pub(super) fn of(text: &'t str, has_times: bool) -> Self {
         let lines: Vec<&str> =
             text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-        let mut readings: Vec<(Reading, usize, Vec<bool>)> = Reading::all(text)
+        let surveyed = &lines[..lines.len().min(SURVEYED)];
+        let mut readings: Vec<(Reading, usize, Signature)> = Reading::all(text)
             .map(|reading| {
-                let (count, signature) = usual(reading, &lines);
+                let (count, signature) = usual(reading, surveyed);
                 (reading, count, signature)
             })
             .collect();
         let most = readings.iter().map(|one| one.1).max().unwrap_or(0);
         readings.retain(|one| one.1 == most && most > 0);
-        let best = readings.iter().map(|one| share(&one.2)).fold(0.0, f64::max);
-        readings.retain(|one| share(&one.2) >= best);
-        let Some((first, _, signature)) = readings.first().cloned() else {
+        let best = readings.iter().map(|one| one.2.share()).fold(0.0, f64::max);
+        readings.retain(|one| one.2.share() >= best);
+        let Some((first, _, signature)) = readings.first().copied() else {
             let head: Vec<&str> =
                 lines.iter().copied().take_while(|line| is_comment(line)).collect();
             let (head, rows) = lines.split_at((head.len() + 1).min(lines.len()));
@@ -340,7 +372,7 @@ impl<'t> RecordTable<'t> {
             };
         };
         // Readings by which the numbers are the same are one.
-        let first_rows = |reading: Reading, signature: &[bool]| -> Vec<Vec<Option<f64>>> {
+        let first_rows = |reading: Reading, signature: Signature| -> Vec<Vec<Option<f64>>> {
             let of_kind = lines.iter().filter(|line| reading.signature(line) == signature);
             of_kind
                 .take(COMPARED)
@@ -349,42 +381,43 @@ impl<'t> RecordTable<'t> {
                 })
                 .collect()
         };
-        let mut chosen: Vec<(Reading, Vec<bool>, Vec<Vec<Option<f64>>>)> = Vec::new();
+        let mut chosen: Vec<Tried> = Vec::new();
         for (reading, _, signature) in readings {
-            let rows = first_rows(reading, &signature);
+            let rows = first_rows(reading, signature);
             if !chosen.iter().any(|(.., known)| *known == rows) {
                 chosen.push((reading, signature, rows));
             }
         }
-        let begins = |reading: Reading, signature: &[bool]| {
+        let begins = |reading: Reading, signature: Signature| {
             lines.iter().position(|line| !is_comment(line) && reading.signature(line) == signature)
         };
         if chosen.len() > 1 {
-            let before = begins(first, &signature).and_then(|at| at.checked_sub(1));
+            let before = begins(first, signature).and_then(|at| at.checked_sub(1));
             let head = before.map(|at| lines[at].trim_start_matches(['#', '%']).trim());
-            let named = |one: &(Reading, Vec<bool>, _)| {
-                head.is_some_and(|head| one.0.names(head, one.1.len()).len() == one.1.len())
+            let named = |one: &Tried| {
+                head.is_some_and(|head| one.0.names(head, one.1.count).len() == one.1.count)
             };
-            let ascends = |one: &(Reading, Vec<bool>, Vec<Vec<Option<f64>>>)| {
-                one.1.len() > 1 && one.2.windows(2).all(|two| two[0][0] < two[1][0])
-            };
+            let ascends =
+                |one: &Tried| one.1.count > 1 && one.2.windows(2).all(|two| two[0][0] < two[1][0]);
             keep(&mut chosen, named);
             if has_times {
                 keep(&mut chosen, ascends);
             }
         }
         let (reading, signature, _) = chosen.remove(0);
-        let start = begins(reading, &signature).unwrap_or(0);
+        let start = begins(reading, signature).unwrap_or(0);
         let rows: Vec<&str> =
             lines[start..].iter().copied().filter(|line| !is_comment(line)).collect();
-        let sure = most >= SURELY && share(&signature) == 1.0 && 10 * most >= 9 * rows.len();
+        let sure = most >= SURELY
+            && signature.share() == 1.0
+            && 10 * most >= 9 * rows.len().min(SURVEYED - start);
         Self {
             text,
             head: lines[..start].to_vec(),
             rows,
             reading,
-            rivals: chosen.into_iter().map(|one| (one.0, one.1.len())).collect(),
-            count: signature.len(),
+            rivals: chosen.into_iter().map(|one| (one.0, one.1.count)).collect(),
+            count: signature.count,
             sure,
         }
     }
@@ -397,9 +430,9 @@ impl<'t> RecordTable<'t> {
         };
         let plain = self.head.iter().rev().filter(|line| !is_comment(line));
         let comments = self.head.iter().rev().filter(|line| is_comment(line));
-        let mut rows: Vec<Vec<&'t str>> = plain.map_while(|line| named(&line)).take(2).collect();
+        let mut rows: Vec<Vec<&'t str>> = plain.map_while(&named).take(2).collect();
         if rows.is_empty() {
-            rows.extend(comments.map_while(|line| named(&line)).take(1));
+            rows.extend(comments.map_while(&named).take(1));
         }
         let units =
             rows.first().filter(|row| rows.len() > 1 && row.iter().all(|cell| is_unit(cell)));
@@ -767,10 +800,38 @@ fn samples(
         let message = "the record has fewer than two samples".to_owned();
         return Err(table.refused(message, "expected at least two lines below", "add them"));
     }
+    if problems.is_empty() {
+        problems.extend(other_rate(table, columns, chosen.value.0, wanted));
+    }
     if problems.is_empty() && !wanted.format.linear_gaps {
         problems = gaps(table, &samples, chosen.time.as_ref().map_or(0, |time| time.0));
     }
     if problems.is_empty() { Ok(Found { samples, unit: value_unit }) } else { Err(problems) }
+}
+
+/// That the rate of the case is not that of the times which the file has all the same.
+fn other_rate(
+    table: &RecordTable,
+    columns: &[Column],
+    value: usize,
+    wanted: &Wanted,
+) -> Option<Problem> {
+    let rate = wanted.format.rate?;
+    let unit = |column: &Column| column.unit(Dimension::Time).ok().filter(|_| wanted.physical);
+    let (column, unit) = columns.iter().enumerate().find_map(|(k, one)| Some((k, unit(one)?)))?;
+    let time =
+        |row: Option<&&str>| table.reading.number(table.reading.cells(row?).get(column)?, unit);
+    let lasts = time(table.rows.last())? - time(table.rows.first())?;
+    let own = (table.rows.len() - 1) as f64 / lasts;
+    if column == value || (own / rate - 1.0).abs() < SAME_RATE {
+        return None;
+    }
+    let message = format!(
+        "the times of the record are those of {} samples in a second, not of `rate`",
+        short(own)
+    );
+    let help = "remove `rate`, or the column of times where it is wrong";
+    Some(*problem(table.text, columns[column].cell, message, "expected the rate of the case", help))
 }
 
 /// A line with a time later than the last one.
@@ -926,7 +987,9 @@ fn peer(text: &str, wanted: &Wanted) -> Option<Result<Found, Vec<Problem>>> {
             return refused(place, format!("the value of the record {message}"), &accepted);
         }
     };
-    if !(step > 0.0) || wanted.format.rate.is_some_and(|rate| (rate * step - 1.0).abs() > ROUNDING)
+    if step.is_nan()
+        || step <= 0.0
+        || wanted.format.rate.is_some_and(|rate| (rate * step - 1.0).abs() > ROUNDING)
     {
         let message = format!("the step of the samples is {step} s by the head");
         return refused(lines[last], message, "remove `rate`, or give that of the file");

@@ -161,11 +161,8 @@ fn a_record_is_the_same_without_units() {
             (0..200).map(|k| format!("{:?},{:?}\n", time * f64::from(k), value(k))).collect()
         };
         let [one, other] = [
-            one.with_record(
-                "record.csv",
-                &format!("time (s),{column}\n{}", samples(0.125, factor)),
-            ),
-            other.with_record("record.csv", &format!("time,value\n{}", samples(0.25, 1.0))),
+            one.with_record("record.csv", format!("time (s),{column}\n{}", samples(0.125, factor))),
+            other.with_record("record.csv", format!("time,value\n{}", samples(0.25, 1.0))),
         ]
         .map(|case| case.expect("a record"));
         let flown = |case: &Case| {

@@ -437,6 +437,10 @@ fn a_help_shows_the_files_own_head_and_guesses_no_unit() {
     assert!(help.contains("semicolons"), "{help}");
     // A head decides.
     assert_eq!(samples_of(with_lines(""), format!("t (s),a (g)\n{either}").as_bytes()).len(), 49);
+    // A rate beside times that say another one.
+    let timed = table("time (s),acceleration (g)\n", ",", ".");
+    let (message, _) = problem_of(with_lines("rate = \"40 Hz\""), timed.as_bytes());
+    assert!(message.contains("20 samples in a second, not of `rate`"), "{message}");
     let of_file = |lines: &str| {
         let text = CASE.replace("quantity =", &format!("{lines}\nquantity ="));
         let error = Case::parse("tower.toml", &text).expect_err("wrong");
@@ -445,6 +449,50 @@ fn a_help_shows_the_files_own_head_and_guesses_no_unit() {
     assert!(of_file("unit = \"mm\"").contains("`mm` is the unit of a length"));
     assert!(of_file("rate = \"2 Hz/s\"").contains("`rate` is a frequency"));
     assert!(of_file("rate = \"2 Hz\"\ntime_column = \"t\"").contains("say the same thing twice"));
+}
+
+/// Records with a few bytes changed, by a generator of random numbers: read, or refused, whatever they are.
+#[test]
+fn any_bytes_are_read_or_refused() {
+    let several = "Hz: 20\ntime (s)\tNorth (g)\tEast (g)\n0,0\t1,5\t2\n0,1\t-1\t3,5e-1\n0,2\t1\t4\n0,3\t2\t1\n";
+    let peer = "PEER\nx\nIN UNITS OF G\nNPTS= 6, DT= .01 SEC\n 1E-1 2E-1 3E-1\n 4E-1 5E-1 6E-1\n";
+    let begins = [
+        "time (s), acceleration (g)\n0,1\n1,2\n2;5\n",
+        several,
+        peer,
+        "# t [s]  \"a\" (g)\n1 2\n2 3\n3 4\n",
+    ];
+    let cases = ["", "rate = \"9 Hz\"\nunit = \"g\"", "column = \"East (g)\"\ngaps = \"linear\""]
+        .map(with_lines);
+    let mut random = 7_u64;
+    let mut next = |below: usize| {
+        random =
+            random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (random >> 33) as usize % below
+    };
+    let bytes = b"\0\t\n\r \"#%(),-.;=[]0159EeGT\xb2\xc3\xff\xfe";
+    let (mut read, mut refused) = (0, 0);
+    for round in 0..3000 {
+        let mut file = begins[round % begins.len()].as_bytes().to_vec();
+        for _ in 0..=next(4) {
+            let at = next(file.len());
+            match next(3) {
+                0 => file[at] = bytes[next(bytes.len())],
+                1 => file.insert(at, bytes[next(bytes.len())]),
+                _ => drop(file.remove(at)),
+            }
+        }
+        for case in &cases {
+            match case.clone().with_record("a.csv", &file) {
+                Ok(_) => read += 1,
+                Err(error) => {
+                    refused += 1;
+                    assert!(!format!("{:?}", miette::Report::new(error)).is_empty());
+                }
+            }
+        }
+    }
+    assert!(read > 500 && refused > 500, "{read} {refused}");
 }
 
 /// Another file than a record is not quoted, and one that is no text says how to make one of it.

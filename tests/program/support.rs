@@ -241,7 +241,7 @@ fn an_absorber_lies_on_its_floor_where_the_structure_accelerates_by_less_than_gr
         let unread = parsed(&case("file = \"sudden.csv\"\n"));
         assert!(unread.warnings().is_empty(), "nobody has seen the record");
         let sudden = format!("time (s),force (N)\n0,{force}\n1,{force}\n");
-        let read = unread.with_record("sudden.csv", &sudden).expect("a record");
+        let read = unread.with_record("sudden.csv", sudden).expect("a record");
         assert_eq!(read.warnings().len(), warnings, "{force} N");
     }
     let noise = "spectrum = [[1, 1.0], [4, 1.0]]\nduration = \"20 s\"\nseed = 1\n";

@@ -187,10 +187,10 @@ pub fn follow_from(
     flight.finished()
 }
 
-/// Fast time at once in which impacts alone are heard of.
+/// A piece in which impacts alone are heard of.
 const OSCILLATION: f64 = TAU;
-/// Of what is left of the work of the excitation impacts take a share that is not looked at; and speeds, over the largest
-/// displacement times `omega0`, at which impacts do nothing.
+/// What is small enough after a record's end: energy over the work of the excitation, of which impacts might still take a
+/// share, and a speed of impacts over that of the largest displacement.
 const LEFT: f64 = 1e-3;
 /// Relative velocity of what does not slide over the structure's: some roundings.
 const STANDS: f64 = 1e-12;
