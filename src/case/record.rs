@@ -10,7 +10,7 @@ use super::excitation::ExcitationTable;
 use super::quantity::{number_in, unit_in_brackets};
 use super::reader::{Reader, Table};
 use super::{Case, warnings};
-use crate::digest::sha256;
+use crate::digest::text_sha256;
 use crate::excitation::{Record, RecordQuantity, Spectrum};
 use crate::quantity::Dimension;
 use crate::quantity::unit::Unit;
@@ -39,7 +39,7 @@ pub enum RecordSource {
     File {
         /// Its path, relative to the case file.
         path: String,
-        /// SHA-256 of its text, and its samples in SI; none until [`Case::with_record`] has been given them.
+        /// SHA-256 of its text as of a case's, and its samples in SI; none until [`Case::with_record`] has been given them.
         read: Option<(String, Record)>,
     },
     /// Random numbers.
@@ -118,7 +118,7 @@ impl Case {
                     ),
                 }
             })?;
-            *read = Some((sha256(text.as_bytes()), record));
+            *read = Some((text_sha256(text), record));
             self.warnings = warnings::of(&self);
         }
         Ok(self)

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde_json::{Value, json};
 
 use super::moved::{Moved, ROUNDING, alike, is_quantity, kind, moved};
+use super::document::Given;
 use super::reader::{label, sorted, without_elements};
 use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::motions::wilson;
@@ -13,8 +14,9 @@ use crate::motions::wilson;
 const MANY: usize = 8;
 
 /// What has a way of its own; all else is compared value by value. Of these it is compared which fields there are.
-const APART: [&str; 10] = [
+const APART: [&str; 11] = [
     "asked",
+    "case",
     "criteria",
     "format",
     "inputs",
@@ -116,22 +118,31 @@ fn change(path: &str, old: &Value, new: &Value) -> Change {
     }
 }
 
-/// Inputs that are not the same, in the new case's order.
+/// Inputs that are not the same, in the new case's order; each name once, for what the case says may be known in two ways.
 fn inputs(old: &Document, new: &Document) -> Vec<Change> {
-    let (old, new) = (old.inputs(), new.inputs());
-    let value = |inputs: &[(String, Value)], name: &str| {
-        let found = inputs.iter().find(|(found, _)| found == name);
-        found.map_or(Value::Null, |(_, value)| value.clone())
+    let whole = old.has_whole_case() && new.has_whole_case();
+    let [old, new] = [old, new].map(|document| document.inputs(whole));
+    let values = |of: &[Given]| -> BTreeMap<String, Value> {
+        of.iter().map(|one| (one.path.clone(), one.value.clone())).collect()
     };
-    let gone = old.iter().filter(|(name, _)| value(&new, name).is_null());
-    let all = new.iter().chain(gone).map(|(name, _)| {
-        let change = change("inputs", &value(&old, name), &value(&new, name));
-        Change { what: name.clone(), ..change }
-    });
-    let same = |one: &Change| {
-        one.old == one.new || is_given(&one.old) && moved(&one.old, &one.new) == Moved::Within
+    let [before, after] = [values(&old), values(&new)];
+    let gone = old.iter().filter(|one| !after.contains_key(&one.path));
+    let same = |old: &Value, new: &Value| {
+        is_same(old, new) || is_given(old) && moved(old, new) == Moved::Within
     };
-    all.filter(|change| !same(change)).collect()
+    let mut told = BTreeSet::new();
+    let change = |one: &Given| {
+        let [old, new] = [&before, &after].map(|of| of.get(&one.path).unwrap_or(&Value::Null));
+        let differs = !same(old, new) && told.insert(one.name.clone());
+        // As a case file has it: true, not yes.
+        let shown = |value: &Value| match value {
+            Value::Bool(_) | Value::Number(_) | Value::Array(_) => json!(value.to_string()),
+            other => other.clone(),
+        };
+        let change = || change(&one.path, &shown(old), &shown(new));
+        differs.then(|| Change { what: one.name.clone(), ..change() })
+    };
+    new.iter().chain(gone).filter_map(change).collect()
 }
 
 /// The regime of the motion that most starts lead to, where it is another one.
@@ -175,6 +186,8 @@ impl Comparator<'_> {
     /// Of what has a way of its own, the fields that are on one side only; all else value by value.
     fn fields(&mut self, path: &str, old: &Value, new: &Value) {
         match (old, new) {
+            // Each of its keys is an input.
+            _ if path == "case" => {}
             (Value::Object(before), Value::Object(after)) => {
                 let keys: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
                 for key in keys {
@@ -184,8 +197,8 @@ impl Comparator<'_> {
                             self.fields(&at, a, b);
                         }
                         (Some(a), Some(b)) => self.values(&at, new, a, b),
-                        // The format of before does not say it.
-                        _ if at == "asked" => {}
+                        // The format of before does not say it; files are inputs.
+                        _ if ["asked", "provenance/files"].contains(&at.as_str()) => {}
                         (a, b) => self.on_one_side(&at, a, b),
                     }
                 }
@@ -412,6 +425,9 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 
 /// Whether two values are the same but for rounding.
 fn is_same(old: &Value, new: &Value) -> bool {
+    if let (Value::Array(old), Value::Array(new)) = (old, new) {
+        return old.len() == new.len() && old.iter().zip(new).all(|(old, new)| is_same(old, new));
+    }
     let rounds = |(a, b): (f64, f64)| (a - b).abs() <= ROUNDING * a.abs().max(b.abs());
     old == new || old.as_f64().zip(new.as_f64()).is_some_and(rounds)
 }

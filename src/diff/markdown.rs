@@ -86,6 +86,9 @@ fn head(difference: &Difference, changed: usize) -> Result<String, RenderError> 
         "changed": changed,
         "compared": difference.compared,
         "stale": difference.stale,
+        "checked": difference.checked,
+        "diverged": difference.diverged,
+        "unreported": difference.unreported,
         "added": difference.added,
         "removed": difference.removed,
         "counts": {

@@ -12,12 +12,12 @@ pub mod markdown;
 mod moved;
 mod reader;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-pub use document::{CurrentCase, Document, Remedy};
+pub use document::{Cases, CurrentCase, Document, ListedCase, Remedy};
 
 /// Reports of one side, by the name of their folder.
 pub type Reports = BTreeMap<String, Document>;
@@ -36,6 +36,12 @@ pub struct Difference {
     pub stale: Vec<Value>,
     /// How many reports are on both sides and could be compared.
     pub compared: usize,
+    /// How many reports the new side has, and how many of them were held to the text of their case.
+    pub checked: [usize; 2],
+    /// Whether the old side has commits that the new one lacks, so that they appear taken back.
+    pub diverged: bool,
+    /// Cases of the new side without a report, by the place of each.
+    pub unreported: Vec<String>,
     /// Those of them that are not the same, by name.
     pub reports: Vec<ReportDifference>,
     /// Reports on the new side only: name and answer.
@@ -146,6 +152,43 @@ impl Difference {
         if found.is_significant() || !found.figures.is_empty() || found.folded != nothing {
             self.reports.push(found);
         }
+    }
+
+    /// Holds the new side to its cases: a report has one, and a case that came or changed has a report. Where no case of
+    /// either side is known, nothing is.
+    /// `had` are the reports whose case the old side has.
+    pub fn hold_to_cases(
+        &mut self,
+        (had, old_cases): (&BTreeSet<String>, &Cases),
+        (reports, cases): (&Reports, &Cases),
+    ) {
+        let found = reports.values().filter(|report| report.case.is_some()).count();
+        self.checked = [reports.len(), found];
+        let mut renamed = Vec::new();
+        for (name, report) in reports.iter().filter(|(_, report)| report.case.is_none()) {
+            if found == 0 && cases.is_empty() && !had.contains(name) {
+                continue;
+            }
+            let digest = report.report["provenance"]["case_sha256"].as_str();
+            let same = cases.iter().find(|(_, case)| Some(&*case.sha256) == digest);
+            let remedy = same.map_or(&report.remedy, |(_, case)| &case.remedy);
+            let mut stale = remedy.stale("new", &report.place, "no-case");
+            stale["name"] = json!(report.name());
+            stale["case"] = json!(same.map(|(_, case)| &case.place));
+            renamed.extend(same.map(|(name, _)| name));
+            self.stale.push(stale);
+        }
+        let is_reported = |name: &String| {
+            renamed.contains(&name) || reports.values().any(|report| report.name() == name)
+        };
+        for (name, case) in cases.iter().filter(|(name, _)| !is_reported(name)) {
+            self.unreported.push(case.place.clone());
+            let before = old_cases.get(name).map(|case| &case.sha256);
+            if !old_cases.is_empty() && before != Some(&case.sha256) {
+                self.stale.push(case.remedy.stale("new", &case.place, "no-report"));
+            }
+        }
+        self.stale.sort_by_key(document::reason);
     }
 
     /// Whether anything changed or is out of date that a reviewer must know: not figures alone, nor wording.
