@@ -39,7 +39,10 @@ pub fn one_line_end(text: &[u8]) -> Cow<'_, [u8]> {
         return Cow::Borrowed(text);
     }
     let next = text.iter().skip(1).map(Some).chain([None]);
-    let kept = text.iter().zip(next).filter(|(byte, next)| (**byte, next.copied()) != (b'\r', Some(b'\n')));
+    let kept = text
+        .iter()
+        .zip(next)
+        .filter(|(byte, next)| (**byte, next.copied()) != (b'\r', Some(b'\n')));
     Cow::Owned(kept.map(|(byte, _)| *byte).collect())
 }
 

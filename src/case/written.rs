@@ -55,7 +55,8 @@ fn value(of: &DeValue) -> Value {
         DeValue::Boolean(flag) => json!(flag),
         DeValue::Integer(number) => {
             let radix = number.radix();
-            i64::from_str_radix(number.as_str(), radix).map_or(json!(number.as_str()), |it| json!(it))
+            i64::from_str_radix(number.as_str(), radix)
+                .map_or(json!(number.as_str()), |it| json!(it))
         }
         DeValue::Float(number) => {
             let read = number.as_str().parse::<f64>().ok().and_then(serde_json::Number::from_f64);

@@ -81,7 +81,8 @@ struct Compared {
 /// The two sides of a command line; of `main...HEAD` the old one is the commit at which HEAD left main.
 fn compared(old: &str, new: Option<&str>) -> Result<Compared> {
     if let Some((base, branch)) = old.split_once("...").filter(|_| !Path::new(old).exists()) {
-        let or_head = |name: &str| if name.is_empty() { "HEAD".to_owned() } else { name.to_owned() };
+        let or_head =
+            |name: &str| if name.is_empty() { "HEAD".to_owned() } else { name.to_owned() };
         let [base, branch] = [base, branch].map(or_head);
         let from = store::branch_point(&base, &branch)?;
         let new = new.map_or(branch.clone(), str::to_owned);
@@ -98,8 +99,8 @@ fn compared(old: &str, new: Option<&str>) -> Result<Compared> {
     let is_below = cases::project(Path::new(new)).is_some_and(|root| root == Path::new(""));
     let against = if is_newer { Some(new) } else { Some("HEAD").filter(|_| is_below) };
     let commit = |name: &str| name.split(':').next().unwrap_or(name).to_owned();
-    let diverged = is_revision
-        && against.is_some_and(|new| !store::is_ancestor(&commit(old), &commit(new)));
+    let diverged =
+        is_revision && against.is_some_and(|new| !store::is_ancestor(&commit(old), &commit(new)));
     Ok(Compared { names: [old, new].map(str::to_owned), from: old.to_owned(), diverged })
 }
 

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
-use super::moved::{Moved, ROUNDING, alike, is_quantity, kind, moved};
 use super::document::Given;
-use super::reader::{label, sorted, without_elements};
+use super::moved::{Moved, ROUNDING, alike, is_quantity, kind, moved};
+use super::reader::{label, over, sorted, without_elements};
 use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::motions::wilson;
 
@@ -49,11 +49,12 @@ fn explains(path: &str, key: &str) -> bool {
 }
 
 /// What names an element of a list, by the list's key; elements of others are numbered.
-const NATURAL_KEYS: [(&str, &[&str]); 11] = [
+const NATURAL_KEYS: [(&str, &[&str]); 12] = [
     ("alternatives", &["which", "drift"]),
     ("answers", &["question"]),
     ("boundaries", &["kind", "branch"]),
     ("claims", &["id"]),
+    ("derived", &["name"]),
     ("doubts", &["kind"]),
     ("figures", &["name"]),
     ("holds_for", &["parameter"]),
@@ -78,6 +79,7 @@ const COUNTED: [&str; 7] = [
 /// What changed in a report that is on both sides.
 pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDifference {
     let (criteria, agreeing) = criteria::changes(old, new);
+    let failing = agreeing.iter().filter(|one| one["holds"] == false).cloned().collect();
     let clearance = &new.report["quantities"]["clearance"]["value"];
     let said = |document: &Document| {
         let verdict = &document.report["verdict"];
@@ -93,13 +95,28 @@ pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDif
         criteria,
         states: main_motion(old, new).into_iter().collect(),
         figures: figures(old, new),
-        folded: Folded { same: agreeing, ..Folded::default() },
+        failing,
+        motion: deciding_motion(old, new),
+        folded: Folded { same: agreeing.len(), ..Folded::default() },
         ..ReportDifference::default()
     };
     let [given, renumbered] = [Vec::new(), Vec::new()];
     let mut comparison = Comparator { old, new, found, given, renumbered };
     comparison.fields("", &old.report, &new.report);
-    sorted(comparison.ended())
+    let mut found = sorted(comparison.ended());
+    // What a criterion is over is a part of its name.
+    let has_band = new.report["band"].is_object();
+    let sides = found.criteria.iter_mut().flat_map(|one| {
+        let sides = one.as_object_mut().into_iter().flat_map(|one| one.iter_mut());
+        sides.filter(|(side, _)| *side == "old" || *side == "new").map(|(_, one)| one)
+    });
+    for one in sides.chain(&mut found.failing).filter(|one| one.is_object()) {
+        one["over_band"] = json!(has_band);
+    }
+    for one in found.numbers.iter_mut().chain(&mut found.states) {
+        one.what += over(&one.path, &new.report);
+    }
+    found
 }
 
 fn change(path: &str, old: &Value, new: &Value) -> Change {
@@ -152,6 +169,23 @@ fn main_motion(old: &Document, new: &Document) -> Option<Change> {
         document.report["motions"].get(main as usize).map_or(&Value::Null, |one| &one["regime"])
     });
     (old != new).then(|| change("main", old, new))
+}
+
+/// Another kind of motion that decides: the worst over a band or of all loads; else the main one.
+fn deciding_motion(old: &Document, new: &Document) -> Option<Change> {
+    let [before, after] = [old, new].map(|document| {
+        let report = &document.report;
+        match &report["worst"]["rests"] {
+            Value::Bool(true) => json!("every absorber at rest"),
+            Value::Bool(false) => json!("an absorber that hits its walls"),
+            _ => report["band"]["worst"]["regime"].clone(),
+        }
+    });
+    let has_both = !before.is_null() && !after.is_null();
+    let what =
+        if new.report["band"].is_object() { "worst motion over the band" } else { "worst motion" };
+    let worst = || Change { what: what.to_owned(), ..change("worst", &before, &after) };
+    if has_both { (before != after).then(worst) } else { main_motion(old, new) }
 }
 
 /// Drawings that are not the same, in the order of the report.
@@ -277,6 +311,9 @@ impl Comparator<'_> {
             return;
         }
         let key = path.rsplit('/').next().unwrap_or(path);
+        if path == "places" {
+            return self.motions_along(old, new);
+        }
         // What one side did not look at is one thing that came or went.
         if old.is_empty() != new.is_empty() && old.len() + new.len() >= MANY {
             let count = |of: &[Value]| match of.len() {
@@ -303,6 +340,24 @@ impl Comparator<'_> {
         let added = new.iter().filter(|(name, _)| !old.contains_key(*name) && !is_told(name));
         for (name, after) in added {
             self.element(&format!("{path}[{name}]"), &Value::Null, after);
+        }
+    }
+
+    /// Motions at the frequencies of a band, which are many: how many frequencies have others.
+    fn motions_along(&mut self, old: &[Value], new: &[Value]) {
+        let kinds = |place: &Value| -> BTreeSet<String> {
+            let motions = place["motions"].as_array().into_iter().flatten();
+            motions.map(|one| format!("{} {}", one["regime"], one["counts"])).collect()
+        };
+        let at = |place: &Value| place["at"].to_string();
+        let before: BTreeMap<String, &Value> = old.iter().map(|one| (at(one), one)).collect();
+        let both = || new.iter().filter_map(|one| Some((*before.get(&at(one))?, one)));
+        let others = both().filter(|(old, new)| kinds(old) != kinds(new)).count();
+        let folded = &mut self.found.folded;
+        *(if old == new { &mut folded.same } else { &mut folded.unjudged }) += 1;
+        if others > 0 {
+            let told = json!(format!("others at {others} of {} frequencies", both().count()));
+            self.found.states.push(change("places", &Value::Null, &told));
         }
     }
 

@@ -135,19 +135,27 @@ impl Document {
         let provenance = |field: &str| self.report["provenance"][field].as_str();
         let case = self.case.as_ref();
         let old_format = self.report["format"].as_str().filter(|_| self.has_old_format());
-        let of_case = provenance("case_sha256").zip(case).map(|(old, case)| (old, json!(case.sha256)));
-        let of_files = self.files().filter_map(|(name, old)| Some((name, old, case?.files.get(name)?)));
+        let of_case =
+            provenance("case_sha256").zip(case).map(|(old, case)| (old, json!(case.sha256)));
+        let of_files =
+            self.files().filter_map(|(name, old)| Some((name, old, case?.files.get(name)?)));
         let sides = [
             ("case-text", None, of_case),
-            ("program-version", None, provenance("version").map(|it| (it, json!(env!("CARGO_PKG_VERSION"))))),
+            (
+                "program-version",
+                None,
+                provenance("version").map(|it| (it, json!(env!("CARGO_PKG_VERSION")))),
+            ),
             ("format", None, old_format.map(|it| (it, json!(FORMAT)))),
         ];
-        let of_files = of_files.map(|(name, old, now)| ("file", Some(name), Some((old, json!(now)))));
+        let of_files =
+            of_files.map(|(name, old, now)| ("file", Some(name), Some((old, json!(now)))));
         let differing = sides.into_iter().chain(of_files).filter_map(|(reason, name, both)| {
             let (reported, current) = both.filter(|(old, new)| old != new)?;
             let mut stale = self.remedy.stale(side, &self.place, reason);
             // The case file that has another text, or that reads what has another one.
-            stale["case"] = json!(case.filter(|_| ["case-text", "file"].contains(&reason)).map(|it| &it.place));
+            stale["case"] =
+                json!(case.filter(|_| ["case-text", "file"].contains(&reason)).map(|it| &it.place));
             stale["name"] = json!(name);
             stale["reported"] = json!(reported);
             stale["current"] = current;
@@ -190,13 +198,16 @@ impl Document {
         let places = self.list("/places_of_shapes");
         for (k, mode) in self.list("/modes").iter().enumerate() {
             let (path, name) = (format!("modes[{}]", k + 1), format!("mode {}", k + 1));
-            for (key, value) in mode.as_object().into_iter().flatten().filter(|(key, _)| *key != "shape") {
+            for (key, value) in
+                mode.as_object().into_iter().flatten().filter(|(key, _)| *key != "shape")
+            {
                 found.push(Given::new(format!("{path}/{key}"), &format!("{name} {key}"), value));
             }
             let shape = mode["shape"].as_array().into_iter().flatten().zip(places);
             for (value, place) in shape {
                 let place = place.as_str().unwrap_or("");
-                let [path, name] = [format!("{path}/shape[{place}]"), format!("{name} shape {place}")];
+                let [path, name] =
+                    [format!("{path}/shape[{place}]"), format!("{name} shape {place}")];
                 found.push(Given::new(path, &name, value));
             }
         }

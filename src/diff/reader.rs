@@ -10,10 +10,13 @@ use crate::quantity::Kind;
 use crate::quantity::catalogue::Dimension;
 
 /// Quantities that a reviewer looks at first, by path, the most important first.
-const HEADLINES: [&str; 29] = [
+const HEADLINES: [&str; 32] = [
     "absorbers",
     "band/worst/peak",
+    "band/worst/most",
+    "band/worst/change",
     "loads/worst/peak",
+    "loads/worst/most",
     "quantities/decay_time",
     "quantities/active_decay_time",
     "quantities/peak_displacement",
@@ -42,6 +45,9 @@ const HEADLINES: [&str; 29] = [
     "motions/peak",
 ];
 
+/// Those before this one are of the structure with its absorber.
+const FURTHER_HEADLINES: usize = 17;
+
 /// The same of what has no size. Those before [`FURTHER_STATES`] are told before the fold.
 const STATES: [&str; 9] = [
     "choice/winner",
@@ -58,10 +64,11 @@ const STATES: [&str; 9] = [
 const FURTHER_STATES: usize = 6;
 
 /// What a reader calls the keys of a document; others are called as they are.
-const WORDS: [(&str, &str); 22] = [
+const WORDS: [(&str, &str); 25] = [
     ("absorbers", "absorber"),
     ("alternatives", ""),
     ("answers", "answer"),
+    ("band", ""),
     ("boundaries", "boundary"),
     ("choice", ""),
     ("claims", "claim"),
@@ -71,9 +78,11 @@ const WORDS: [(&str, &str); 22] = [
     ("forces", ""),
     ("loads", "load"),
     ("main", "main motion"),
+    ("most", "largest possible"),
     ("motions", "motion"),
     ("off", "natural frequencies off"),
     ("orbits", "exact orbit"),
+    ("places", "motions"),
     ("quantities", ""),
     ("ranges", "range of"),
     ("rows", ""),
@@ -109,7 +118,46 @@ pub(super) fn sorted(mut found: ReportDifference) -> ReportDifference {
     found
 }
 
+/// What the numbers at a path are over, where a report has the same of something else too: a band beside the case's own
+/// frequency, or several loads.
+pub(super) fn over(path: &str, report: &Value) -> &'static str {
+    let begins = |with: &[&str]| with.iter().any(|first| path.starts_with(first));
+    let has_band = report["band"].is_object();
+    match () {
+        () if begins(&["band/", "places"]) => " over the band",
+        () if has_band && begins(&["quantities/", "motions", "main", "inactive"]) => {
+            " at its own frequency"
+        }
+        () if report["loads"].is_array() && begins(&["quantities/"]) => " over all loads",
+        () => "",
+    }
+}
+
+/// Quantities of which less is better.
+const LESS_IS_BETTER: [&str; 5] =
+    ["peak_displacement", "rms_displacement", "change_db", "impact_speed", "decay_time"];
+
 impl Change {
+    /// Whether a number is one of those that a reviewer looks at first.
+    pub(super) fn is_headline(&self) -> bool {
+        let key = without_elements(&self.path);
+        HEADLINES.iter().any(|first| key.starts_with(first))
+    }
+
+    /// By which share of before a vibration of the structure has grown, of those that a reviewer looks at first.
+    pub(super) fn worse_by(&self) -> Option<f64> {
+        let key = without_elements(&self.path);
+        let is_headline = HEADLINES[..FURTHER_HEADLINES].iter().any(|first| key.starts_with(first));
+        let id = self.new["id"].as_str().filter(|id| LESS_IS_BETTER.contains(id) && is_headline)?;
+        let (old, new) = (self.old["value"].as_f64()?, self.new["value"].as_f64()?);
+        // A level is a ratio already: 20 dB are a factor of ten.
+        let by = match id {
+            "change_db" => libm::exp10((new - old) / 20.0) - 1.0,
+            _ => new / old - 1.0,
+        };
+        (by > 0.0 && by.is_finite()).then_some(by)
+    }
+
     /// Whether a state is one of the first that a reviewer asks for.
     pub(super) fn is_key_state(&self) -> bool {
         STATES[..FURTHER_STATES].contains(&without_elements(&self.path).as_str())
@@ -126,6 +174,10 @@ pub(super) fn label(path: &str, kind: Option<&Kind>) -> String {
     let mut words: Vec<String> = Vec::new();
     for segment in path.split('/') {
         let (key, element) = segment.split_once('[').unwrap_or((segment, ""));
+        // Over a band the worst is meant, unless it is said otherwise.
+        if key == "worst" && kind.is_some() && path.starts_with("band/") {
+            continue;
+        }
         let known = WORDS.iter().find(|(name, _)| *name == key);
         words.push(known.map_or_else(|| key.replace('_', " "), |(_, word)| (*word).to_owned()));
         words.push(element.trim_end_matches(']').replace("][", " "));

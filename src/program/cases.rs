@@ -30,8 +30,7 @@ pub fn folders(report: &Path, named: Option<&str>) -> Vec<PathBuf> {
 /// Where else it may be, with the files of the folders in it: the working folder where the reports are in it, else the
 /// repository that they are in; none where that is not known.
 pub fn project(reports: &Path) -> Option<PathBuf> {
-    let is_below =
-        |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
+    let is_below = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
     if reports.components().all(is_below) {
         return Some(PathBuf::new());
     }

@@ -67,7 +67,8 @@ fn resolve(name: &str) -> Result<Option<String>, String> {
 /// The full name of a branch, a tag or `HEAD`, such as `refs/heads/main`; none where git knows none of that name, or nobody
 /// can ask it.
 pub fn name_of_ref(name: &str) -> Option<String> {
-    let how = ["rev-parse", "--symbolic-full-name", "--verify", "--quiet", "--end-of-options", name];
+    let how =
+        ["rev-parse", "--symbolic-full-name", "--verify", "--quiet", "--end-of-options", name];
     let output = run(&how, None).ok().filter(|output| output.status.success())?;
     let found = String::from_utf8_lossy(&output.stdout).trim().to_owned();
     (!found.is_empty()).then_some(found)

@@ -37,7 +37,8 @@ impl ComparedSide {
         {
             let written = if argument == "HEAD" { "HEAD^0" } else { &name };
             return Err(miette!(
-                help = format!("write ./{argument} for what is there, or {written} for the revision"),
+                help =
+                    format!("write ./{argument} for what is there, or {written} for the revision"),
                 "`{argument}` is a file or folder here, and a revision that git knows"
             ));
         }
