@@ -8,6 +8,7 @@ use vinesink::diff::Difference;
 use vinesink::diff::markdown::markdown;
 use vinesink::program::case_file::Reading;
 use vinesink::program::{cases, output};
+use vinesink::report::escape::url_path;
 use vinesink::store;
 
 use side::ComparedSide;
@@ -146,8 +147,10 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     match format {
         DiffFormat::Json => output::print_json(&difference)?,
         DiffFormat::Markdown => {
-            let old = arguments.old_url.or(old.address);
-            let new = arguments.new_url.or(new.address);
+            // A folder is no address yet.
+            let encoded = |folder: Option<String>| folder.map(|folder| url_path(&folder));
+            let old = arguments.old_url.or(encoded(old.address));
+            let new = arguments.new_url.or(encoded(new.address));
             let addresses = [old.as_deref(), new.as_deref()];
             let text = markdown(&difference, addresses).into_diagnostic();
             output::print(text.wrap_err("a report is damaged, or not one of this version")?)?;

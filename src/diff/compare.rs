@@ -345,14 +345,10 @@ impl Comparator<'_> {
 
     /// Motions at the frequencies of a band, which are many: how many frequencies have others.
     fn motions_along(&mut self, old: &[Value], new: &[Value]) {
-        let kinds = |place: &Value| -> BTreeSet<String> {
-            let motions = place["motions"].as_array().into_iter().flatten();
-            motions.map(|one| format!("{} {}", one["regime"], one["counts"])).collect()
-        };
-        let at = |place: &Value| place["at"].to_string();
+        let at = |place: &Value| format!("{:.9e}", place["at"].as_f64().unwrap_or(f64::NAN));
         let before: BTreeMap<String, &Value> = old.iter().map(|one| (at(one), one)).collect();
         let both = || new.iter().filter_map(|one| Some((*before.get(&at(one))?, one)));
-        let others = both().filter(|(old, new)| kinds(old) != kinds(new)).count();
+        let others = both().filter(|(old, new)| in_words(old) != in_words(new)).count();
         let folded = &mut self.found.folded;
         *(if old == new { &mut folded.same } else { &mut folded.unjudged }) += 1;
         if others > 0 {
@@ -491,6 +487,16 @@ fn is_same(old: &Value, new: &Value) -> bool {
 fn without_numbers(text: &str) -> String {
     let kept = |letter: &char| !text.contains(' ') || letter.is_alphabetic() || *letter == ' ';
     text.chars().filter(kept).collect()
+}
+
+/// A value without its numbers.
+fn in_words(value: &Value) -> Value {
+    match value {
+        Value::Object(all) => all.iter().map(|(key, one)| (key.clone(), in_words(one))).collect(),
+        Value::Array(all) => all.iter().map(in_words).collect(),
+        Value::Number(_) => Value::Null,
+        other => other.clone(),
+    }
 }
 
 /// Whether a quantity is of the case file.

@@ -179,11 +179,20 @@ fn units(report: &ReportDifference) -> Units {
 /// Inputs that are named in the first lines.
 const NAMED: usize = 3;
 
-/// What the first lines say of the cause: the first inputs but title and source, and how many more there are.
+/// What the first lines say: criteria that failed before too, and as the cause the first inputs but title and source, and how
+/// many more there are.
 fn lead(report: &ReportDifference) -> Value {
     let says = |one: &&Change| !["title", "source"].contains(&one.what.as_str());
     let inputs: Vec<&Change> = report.inputs.iter().filter(says).collect();
-    json!({ "inputs": inputs[..inputs.len().min(NAMED)], "more": inputs.len().saturating_sub(NAMED) })
+    let fails = |one: &&Value| {
+        one["flipped"] == false && one["old"].is_object() && one["new"]["holds"] == false
+    };
+    let moved = report.criteria.iter().filter(fails).map(|one| &one["new"]);
+    json!({
+        "inputs": inputs[..inputs.len().min(NAMED)],
+        "more": inputs.len().saturating_sub(NAMED),
+        "failing": moved.chain(&report.failing).collect::<Vec<_>>(),
+    })
 }
 
 fn url(address: Option<&str>) -> Option<&str> {

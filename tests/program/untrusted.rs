@@ -326,7 +326,7 @@ fn reviewed(old: &str, new: &str) -> Option<(String, bool)> {
 
 fn indexed(report: &str) -> Option<(String, String)> {
     let summary = Summary::read("c/report.json", report).ok()?;
-    let case = IndexedReport { name: "c".to_owned(), summary, files: Vec::new() };
+    let case = IndexedReport { name: "c".to_owned(), summary, files: Vec::new(), orphan: false };
     let files = index::files(vec![case], Vec::new()).ok()?;
     let file = |name: &str| text(&files[&PathBuf::from(name)]);
     Some((file(index::MARKDOWN), file(index::HTML)))
