@@ -37,6 +37,9 @@ pub fn markdown(difference: &Difference, addresses: Addresses) -> Result<String,
 /// Characters of a head that leave room for a notice.
 const MOST_OF_HEAD: usize = LIMIT - 1000;
 
+/// The same of the names in it: an escape may be longer than its character.
+const MOST_OF_NAMES: usize = LIMIT / 2;
+
 /// How much a head says of each report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -62,13 +65,6 @@ fn cut(sections: &[String]) -> String {
     let room = LIMIT - notice(sections.len()).chars().count();
     let mut text = String::new();
     let mut length = 0;
-    // More names than a comment holds: what is missing of a head is said as well.
-    if let Some(head) = sections.first().filter(|head| head.chars().count() > room) {
-        let begin: String = head.chars().take(room).collect();
-        let end = begin.rfind(", ").unwrap_or(begin.len());
-        let left = head[end..].matches(", ").count();
-        return format!("{} and {left} more names.\n", &begin[..end]) + &notice(sections.len() - 1);
-    }
     for (index, section) in sections.iter().enumerate() {
         length += section.chars().count();
         if length > room {
@@ -116,7 +112,15 @@ fn head(difference: &Difference, brief: Brief) -> Result<String, RenderError> {
             Ok(json!(line.trim_end()))
         }
     });
-    let flips = flips.collect::<Result<Vec<_>, RenderError>>()?;
+    let mut flips = flips.collect::<Result<Vec<_>, RenderError>>()?;
+    let flipped_reports = flips.len();
+    if brief == Brief::Names {
+        let mut room = MOST_OF_NAMES;
+        flips.retain(|name| {
+            room = room.saturating_sub(2 + name.as_str().map_or(0, |name| name.chars().count()));
+            room > 0
+        });
+    }
     let sum = |count: &dyn Fn(&ReportDifference) -> usize| reports.iter().map(count).sum::<usize>();
     let flipped =
         |one: &ReportDifference| one.criteria.iter().filter(|one| one["flipped"] == true).count();
@@ -127,6 +131,7 @@ fn head(difference: &Difference, brief: Brief) -> Result<String, RenderError> {
         "changed": changed,
         "compared": difference.compared,
         "brief": brief,
+        "flipping": flipped_reports,
         "flips": flips,
         "failing": difference.failing,
         "stale": difference.stale,

@@ -125,7 +125,7 @@ pub(super) fn over(path: &str, report: &Value) -> &'static str {
     let has_band = report["band"].is_object();
     match () {
         () if begins(&["band/", "places"]) => " over the band",
-        () if has_band && begins(&["quantities/", "motions", "main", "inactive"]) => {
+        () if has_band && begins(&["quantities/", "motions", "inactive"]) => {
             " at its own frequency"
         }
         () if report["loads"].is_array() && begins(&["quantities/"]) => " over all loads",
