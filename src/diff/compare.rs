@@ -345,14 +345,17 @@ impl Comparator<'_> {
 
     /// Motions at the frequencies of a band, which are many: how many frequencies have others.
     fn motions_along(&mut self, old: &[Value], new: &[Value]) {
-        let at = |place: &Value| format!("{:.9e}", place["at"].as_f64().unwrap_or(f64::NAN));
+        let at = |place: &Value| place["at"].to_string();
         let before: BTreeMap<String, &Value> = old.iter().map(|one| (at(one), one)).collect();
-        let both = || new.iter().filter_map(|one| Some((*before.get(&at(one))?, one)));
-        let others = both().filter(|(old, new)| in_words(old) != in_words(new)).count();
+        let pairs: Vec<(&Value, &Value)> = match old.len() == new.len() {
+            true => old.iter().zip(new).collect(),
+            false => new.iter().filter_map(|one| Some((*before.get(&at(one))?, one))).collect(),
+        };
+        let others = pairs.iter().filter(|(old, new)| in_words(old) != in_words(new)).count();
         let folded = &mut self.found.folded;
         *(if old == new { &mut folded.same } else { &mut folded.unjudged }) += 1;
         if others > 0 {
-            let told = json!(format!("others at {others} of {} frequencies", both().count()));
+            let told = json!(format!("others at {others} of {} frequencies", pairs.len()));
             self.found.states.push(change("places", &Value::Null, &told));
         }
     }
