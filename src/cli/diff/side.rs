@@ -203,7 +203,8 @@ impl ComparedSide {
         let Some((commit, before)) = &self.revision else {
             let root = match named {
                 Some(named) => Some(PathBuf::from(named)),
-                None => cases::project(&self.folder),
+                // Reports that are elsewhere, as a review writes them, may be of the cases here.
+                None => Some(cases::project(&self.folder).unwrap_or_default()),
             };
             return Ok(root.map_or(Vec::new(), |root| cases::below(&root)));
         };
