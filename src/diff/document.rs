@@ -164,6 +164,11 @@ impl Document {
         differing.collect()
     }
 
+    /// The SHA-256 of the text of the case that it was made from.
+    pub fn case_digest(&self) -> Option<&str> {
+        self.report["provenance"]["case_sha256"].as_str()
+    }
+
     /// The names of the files that its case read beside its own text.
     pub fn files_read(&self) -> Vec<String> {
         self.files().map(|(name, _)| name.to_owned()).collect()

@@ -196,7 +196,7 @@ impl Difference {
             if found == 0 && cases.is_empty() && !had.contains(name) {
                 continue;
             }
-            let digest = report.report["provenance"]["case_sha256"].as_str();
+            let digest = report.case_digest();
             let same = cases.iter().find(|(_, case)| Some(&*case.sha256) == digest);
             let remedy = same.map_or(&report.remedy, |(_, case)| &case.remedy);
             let mut stale = remedy.stale("new", &report.place, "no-case");

@@ -10,13 +10,11 @@ use crate::quantity::Kind;
 use crate::quantity::catalogue::Dimension;
 
 /// Quantities that a reviewer looks at first, by path, the most important first.
-const HEADLINES: [&str; 32] = [
+const HEADLINES: [&str; 30] = [
     "absorbers",
     "band/worst/peak",
-    "band/worst/most",
     "band/worst/change",
     "loads/worst/peak",
-    "loads/worst/most",
     "quantities/decay_time",
     "quantities/active_decay_time",
     "quantities/peak_displacement",
@@ -46,7 +44,7 @@ const HEADLINES: [&str; 32] = [
 ];
 
 /// Those before this one are of the structure with its absorber.
-const FURTHER_HEADLINES: usize = 17;
+const FURTHER_HEADLINES: usize = 15;
 
 /// The same of what has no size. Those before [`FURTHER_STATES`] are told before the fold.
 const STATES: [&str; 9] = [
@@ -92,15 +90,17 @@ const WORDS: [(&str, &str); 25] = [
     ("worst_off", "natural frequencies off, worst"),
 ];
 
+/// The place of a path in an order, by itself or by what holds it; after the end where it has none.
+fn rank(order: &[&str], path: &str) -> usize {
+    let key = without_elements(path);
+    let inside = |first: &&str| {
+        key.strip_prefix(first).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    };
+    order.iter().position(inside).unwrap_or(order.len())
+}
+
 /// The most important first; a number that stands in several places is told once.
 pub(super) fn sorted(mut found: ReportDifference) -> ReportDifference {
-    let rank = |order: &[&str], path: &str| {
-        let key = without_elements(path);
-        let inside = |first: &&str| {
-            key.strip_prefix(first).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-        };
-        order.iter().position(inside).unwrap_or(order.len())
-    };
     // What no headline names: theory explains, and its phases come last.
     let is_phase =
         |one: &Change| kind(&one.new).is_some_and(|kind| kind.dimension == Dimension::Angle);
@@ -140,14 +140,12 @@ const LESS_IS_BETTER: [&str; 5] =
 impl Change {
     /// Whether a number is one of those that a reviewer looks at first.
     pub(super) fn is_headline(&self) -> bool {
-        let key = without_elements(&self.path);
-        HEADLINES.iter().any(|first| key.starts_with(first))
+        rank(&HEADLINES, &self.path) < HEADLINES.len()
     }
 
     /// By which share of before a vibration of the structure has grown, of those that a reviewer looks at first.
     pub(super) fn worse_by(&self) -> Option<f64> {
-        let key = without_elements(&self.path);
-        let is_headline = HEADLINES[..FURTHER_HEADLINES].iter().any(|first| key.starts_with(first));
+        let is_headline = rank(&HEADLINES, &self.path) < FURTHER_HEADLINES;
         let id = self.new["id"].as_str().filter(|id| LESS_IS_BETTER.contains(id) && is_headline)?;
         let (old, new) = (self.old["value"].as_f64()?, self.new["value"].as_f64()?);
         // A level is a ratio already: 20 dB are a factor of ten.

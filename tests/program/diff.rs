@@ -809,7 +809,7 @@ fn keys_of(schema: &Value, at: &[String], found: &mut Vec<Vec<String>>) {
     match table.filter(|_| schema["examples"].is_null()) {
         Some(table) => {
             for (key, one) in table["properties"].as_object().expect("properties") {
-                keys_of(one, &[at, &[key.clone()]].concat(), found);
+                keys_of(one, &[at, std::slice::from_ref(key)].concat(), found);
             }
         }
         None => found.push(at.to_vec()),
@@ -961,6 +961,7 @@ fn every_flip_is_named() {
         };
         (0..count).map(report).collect()
     };
+    let more = Regex::new(r"and (\d+) more names").expect("valid");
     for (count, part) in [
         (3, "before HOLDS. Peak"),
         (150, "before HOLDS. Peak"),
@@ -979,7 +980,7 @@ fn every_flip_is_named() {
             &printed[..400]
         );
         let named = (0..count).filter(|k| printed.contains(&format!("case-{k:04}"))).count();
-        let left = Regex::new(r"and (\d+) more names").expect("valid").captures(&printed);
+        let left = more.captures(&printed);
         let left = left.map_or(0, |found| found[1].parse().expect("a number"));
         assert_eq!(named + left, count);
         assert!(count > 1500 || left == 0, "{count}: {left}");

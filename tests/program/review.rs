@@ -583,7 +583,7 @@ starts = 2
 
 fn record(scale: f64) -> String {
     let line =
-        |k: u32| format!("{},{:.6}\n", 0.25 * f64::from(k), scale * (0.2 * f64::from(k)).sin());
+        |k: u32| format!("{},{:.6}\n", 0.25 * f64::from(k), scale * libm::sin(0.2 * f64::from(k)));
     (0..120).fold("time,value\n".to_owned(), |text, k| text + &line(k))
 }
 
@@ -723,6 +723,16 @@ fn cases_and_reports_that_lost_each_other_are_named() {
             named.contains(&format!("was made from another text of `HEAD:./{damper}`")),
             "{folder}: {named}"
         );
+        // A copy of before hides nothing.
+        repository.write("a/archive/damper.toml", CASE);
+        repository.commit("A copy");
+        for arguments in [["main", "HEAD"], ["main", "reports"]] {
+            let named = repository.diff(&arguments, 1);
+            assert!(
+                named.contains("report.json` was made from another text of"),
+                "{folder}: {named}"
+            );
+        }
         repository.git(&["reset", "--quiet", "--hard", "main"]);
         // Deleted.
         repository.git(&["rm", "--quiet", damper]);

@@ -100,7 +100,7 @@ impl ComparedSide {
                 wanted.push((name.clone(), folder.join(&file)));
             }
         }
-        self.take_cases(wanted)?;
+        self.take_cases(wanted, false)?;
         let project = self.toml_files(named)?;
         for everywhere in [false, true] {
             let mut wanted = Vec::new();
@@ -114,7 +114,7 @@ impl ComparedSide {
                 let own = own.filter(|path| everywhere || usual(path));
                 wanted.extend(own.map(|path| (name.clone(), path.clone())));
             }
-            self.take_cases(wanted)?;
+            self.take_cases(wanted, true)?;
         }
         for (name, report) in self.reports.iter_mut().filter(|(_, one)| one.case.is_none()) {
             let case = Path::new(named.unwrap_or(CASES)).join(format!("{}.toml", report.name()));
@@ -124,11 +124,18 @@ impl ComparedSide {
         self.list_cases(named, &project)
     }
 
-    /// Gives reports without a case the first of theirs that is there.
-    fn take_cases(&mut self, wanted: Vec<(String, PathBuf)>) -> Result<()> {
+    /// Gives reports without a case the first of theirs that is there; of several of equal rank, as those `anywhere` are, one of
+    /// another text than the report's if there is any: nobody knows which is meant, and a copy of before must hide no change.
+    fn take_cases(&mut self, wanted: Vec<(String, PathBuf)>, anywhere: bool) -> Result<()> {
         let texts = self.read_files(wanted.iter().map(|(_, path)| path))?;
         let digests = texts.into_iter().map(|text| text.map(|text| digest_of(&text)));
-        for ((name, path), digest) in wanted.into_iter().zip(digests) {
+        let mut found: Vec<_> = wanted.into_iter().zip(digests).collect();
+        if anywhere {
+            found.sort_by_key(|((name, _), digest)| {
+                self.reports[name].case_digest() == digest.as_deref()
+            });
+        }
+        for ((name, path), digest) in found {
             let place = self.object(&path);
             let Some(report) = self.reports.get_mut(&name) else { continue };
             if let (Some(digest), None) = (digest, &report.case) {
@@ -224,7 +231,9 @@ impl ComparedSide {
         wanted: impl Iterator<Item = &'p PathBuf>,
     ) -> Result<Vec<Option<Vec<u8>>>> {
         if self.revision.is_some() {
-            let names: Vec<String> = wanted.map(|path| self.object(path)).collect();
+            // A line end within a name would begin another one.
+            let name = |path: &PathBuf| self.object(path).replace('\n', "\u{fffd}");
+            let names: Vec<String> = wanted.map(name).collect();
             return Ok(store::read_files_at(&names)?);
         }
         let read = |path: &PathBuf| Ok(store::read_text_if_there(path)?.map(String::into_bytes));
