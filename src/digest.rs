@@ -2,6 +2,7 @@
 //!
 //! For the program itself: this module may change at any time.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use sha2::{Digest as _, Sha256};
@@ -18,6 +19,36 @@ pub fn sha256(bytes: &[u8]) -> String {
         let _ = write!(text, "{byte:02x}");
         text
     })
+}
+
+/// The SHA-256 of a text whose lines end alike: a checkout that ends them with a carriage return too (`core.autocrlf`) has
+/// the same text. A byte order mark counts: no checkout adds one.
+///
+/// ```
+/// use vinesink::digest::{sha256, text_sha256};
+///
+/// assert_eq!(text_sha256("a\r\nb\r\n"), sha256(b"a\nb\n"));
+/// ```
+pub fn text_sha256(text: &str) -> String {
+    file_sha256(text.as_bytes())
+}
+
+/// The same of the bytes of a file.
+pub fn file_sha256(bytes: &[u8]) -> String {
+    sha256(&one_line_end(bytes))
+}
+
+/// A text with line ends of one kind; bytes that have no others as they are.
+pub fn one_line_end(text: &[u8]) -> Cow<'_, [u8]> {
+    if !text.windows(2).any(|two| two == b"\r\n") {
+        return Cow::Borrowed(text);
+    }
+    let next = text.iter().skip(1).map(Some).chain([None]);
+    let kept = text
+        .iter()
+        .zip(next)
+        .filter(|(byte, next)| (**byte, next.copied()) != (b'\r', Some(b'\n')));
+    Cow::Owned(kept.map(|(byte, _)| *byte).collect())
 }
 
 #[cfg(test)]

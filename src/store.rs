@@ -19,7 +19,9 @@ use error::refused;
 
 pub use error::StoreError;
 pub use folder::{Output, folder_below, read_folder, replace_folder};
-pub use git::{read_files_at, read_reports_at};
+pub use git::{
+    branch_point, is_ancestor, name_of_ref, read_files_at, read_reports_at, toml_files_at,
+};
 pub use growing::Growing;
 pub use reading::{CaseText, Reach, open, read_case, read_named, read_text};
 pub use reports::{StoredReport, StoredReports, read_reports};

@@ -74,7 +74,7 @@ cat "$work/check"
     echo "<!-- vinesink-review -->"
     if [ "$criteria" = fail ]; then
         failed=1
-        printf '**A criterion fails**; the log says which.\n\n'
+        printf '**A criterion fails**; the log says which, and below stands whether it failed before too.\n\n'
     fi
     if [ -s "$work/stale" ]; then
         printf '**Reports are not up to date**; commit what `vinesink report` writes. Compared is what it would write.\n\n'

@@ -42,4 +42,4 @@ pub use layers::{Fill, Hatch, Label, Layer, MarkedPoint, Rule};
 pub use limits::inliers;
 pub use palette::{Color, Dash, Marker, Role, Shape, Style};
 pub use render::{Drawing, FigureError, LIMIT, PlacedPanel, PlacedText, draw, render};
-pub use text::escape;
+pub use text::{escape, is_control};

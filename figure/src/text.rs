@@ -151,11 +151,29 @@ pub(super) fn tenths(pixels: f64) -> i32 {
     (pixels * 10.0).round() as i32
 }
 
-/// Text with nothing in it that XML forbids; such characters become U+FFFD.
+/// Whether a character acts instead of being seen: on a terminal, on a parser, on the direction of a line; or is not seen at
+/// all, so that two texts which differ look alike.
+pub fn is_control(letter: char) -> bool {
+    let is_format = matches!(letter,
+        '\u{ad}' | '\u{600}'..='\u{605}' | '\u{61c}' | '\u{6dd}' | '\u{70f}' | '\u{890}'..='\u{891}'
+        | '\u{8e2}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{202a}'..='\u{202e}'
+        | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{110bd}' | '\u{110cd}'
+        | '\u{13430}'..='\u{1343f}' | '\u{1bca0}'..='\u{1bca3}' | '\u{1d173}'..='\u{1d17a}'
+        | '\u{e0000}'..='\u{e0fff}');
+    // Fillers of Hangul, joiners and variations of Mongolian and others are drawn as nothing, too.
+    let is_blank = matches!(
+        letter,
+        '\u{34f}' | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'
+            ..='\u{180f}' | '\u{2028}' | '\u{2029}' | '\u{2800}' | '\u{3164}' | '\u{ffa0}'
+    );
+    letter.is_control() || is_format || is_blank
+}
+
+/// Text with nothing in it that XML forbids or that acts instead of being seen; such characters become U+FFFD.
 pub(super) fn legal(text: &str) -> String {
     let replaced = |c: char| match c {
         '\n' | '\t' => ' ',
-        c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => '\u{fffd}',
+        c if is_control(c) || matches!(c, '\u{fffe}' | '\u{ffff}') => '\u{fffd}',
         c => c,
     };
     text.chars().map(replaced).collect()

@@ -39,6 +39,7 @@ mod uncertainty;
 mod value;
 mod variant;
 mod warnings;
+mod written;
 
 use std::sync::Arc;
 
@@ -74,7 +75,7 @@ pub use sweep::{Recorded, SweepAxis, SweepSettings};
 pub use uncertainty::{Distribution, Uncertainty};
 pub use value::nearest;
 
-use crate::digest::sha256;
+use crate::digest::text_sha256;
 use crate::excitation::Scene;
 use crate::motions::{BandEffort, Effort};
 use crate::quantity::Units;
@@ -118,7 +119,7 @@ pub struct Case {
     pub title: String,
     /// Where its numbers come from.
     pub source: String,
-    /// SHA-256 of the file's text, in hexadecimal.
+    /// SHA-256 of the file's text with line ends of one kind, in hexadecimal.
     pub text_hash: String,
     /// The design.
     pub design: Design,
@@ -238,7 +239,7 @@ impl Case {
         let refused = |problems, more| CaseError::new(name, visible, problems, more);
         let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
         let mut reader = Reader::of(visible);
-        match read(&mut reader, &document, sha256(text.as_bytes())) {
+        match read(&mut reader, &document, text_sha256(text)) {
             Some(mut case) if reader.problems.is_empty() => {
                 case.text = Arc::from(visible);
                 case.warnings = warnings::of(&case);

@@ -12,7 +12,7 @@ use super::quantity::unit_in_brackets;
 use super::reader::{Reader, Table};
 use super::record_file::{self, RecordFormat, Wanted};
 use super::{Case, warnings};
-use crate::digest::sha256;
+use crate::digest::file_sha256;
 use crate::excitation::{Record, RecordQuantity, Spectrum};
 use crate::quantity::Dimension;
 use crate::quantity::unit::Unit;
@@ -123,7 +123,7 @@ impl Case {
             let wanted = Wanted { format, quantity, physical: units.physical, most };
             let found = record_file::read(name, file.as_ref(), &wanted)?;
             record.samples = found.samples;
-            let sha256 = sha256(file.as_ref());
+            let sha256 = file_sha256(file.as_ref());
             *read = Some(ReadRecord { sha256, record, unit: found.unit });
             self.warnings = warnings::of(&self);
         }

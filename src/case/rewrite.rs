@@ -3,7 +3,6 @@
 use super::comment;
 use super::inputs::Input;
 use super::{Case, CaseError, Design};
-use crate::digest::sha256;
 use crate::quantity::Dimension;
 use crate::system::Parameter;
 
@@ -133,7 +132,9 @@ impl Case {
         design: &Design,
         clearance: Rounding,
     ) -> Result<Rewritten, RewriteError> {
-        if sha256(text.as_bytes()) != self.text_hash {
+        let mut text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
+        // Places are those of this very text, line ends included.
+        if *text != *self.text {
             return Err(RewriteError::OtherText);
         }
         let step = if clearance == Rounding::Exact { Rounding::Exact } else { Rounding::Nearest };
@@ -145,7 +146,6 @@ impl Case {
             let changed = self.design.value(parameter) != Some(value);
             changed.then(|| written(input, value, difference, rounding))
         };
-        let mut text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
         let mut inputs: Vec<&Input> = self.inputs.iter().collect();
         // From the end of the text, so that what is before stays in its place.
         inputs.sort_by_key(|input| std::cmp::Reverse(input.span.start));

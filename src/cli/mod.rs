@@ -44,7 +44,7 @@ Examples:
   vinesink report damper.toml                   the design report, in reports/damper
   vinesink check damper.toml                    whether it meets its criteria
   vinesink index                                all reports of a folder on one page
-  vinesink diff main HEAD                       what changed in the reports since main
+  vinesink diff main...HEAD                     what changed in the reports since main
   vinesink tradeoff damper.toml                 how much accuracy for how much work
   vinesink optimize damper.toml                 the clearance that serves it best
   vinesink sweep damper.toml                    a map over its parameters, as Parquet

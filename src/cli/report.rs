@@ -9,13 +9,14 @@ use vinesink::answer::{Asked, Decided};
 use vinesink::case::{Case, ModalCase};
 use vinesink::case_input::AnyCase;
 use vinesink::case_report::Report;
+use vinesink::digest::{one_line_end, text_sha256};
 use vinesink::excitation::Scene;
 use vinesink::method::Method;
 use vinesink::program::case_file::{self, Reading};
 use vinesink::program::parallel::Parallel;
-use vinesink::program::{output, reports};
-use vinesink::report::live;
+use vinesink::program::{cases, output, reports};
 use vinesink::report::render::{self, Files};
+use vinesink::report::{live, stored};
 use vinesink::store::{self, Output};
 use vinesink::study::fidelity::LayerPlan;
 
@@ -40,8 +41,8 @@ pub struct Arguments {
     /// without it all of them, and simulation decides]
     #[arg(long, value_parser = one_case::layer(), value_name = "LAYER")]
     fidelity: Option<Method>,
-    /// Write nothing; say which files in OUT are not as this would write them, and exit with 1 if any.
-    /// report.html is not looked at: it is the same report once more
+    /// Write nothing; say which files in OUT are not as this would write them, which reports in OUT have no case any more, and
+    /// exit with 1 if any. report.html is not looked at: it is the same report once more
     #[arg(long)]
     check: bool,
     /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program,
@@ -72,14 +73,22 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     let names = names(&arguments.cases)?;
     let mut failures = Vec::new();
     let mut holds = true;
-    for (path, name) in arguments.cases.iter().zip(names) {
-        let folder = arguments.out.join(&name);
+    for (path, name) in arguments.cases.iter().zip(&names) {
+        let folder = arguments.out.join(name);
         let done = match arguments.check {
-            false => write(path, &name, &folder, &arguments),
-            true => check(path, &name, &folder, &arguments),
+            false => write(path, name, &arguments),
+            true => check(path, name, &folder, &arguments),
         };
         match done {
-            Ok(one) => holds &= one,
+            Ok(one) if arguments.check => holds &= one,
+            Ok(one) => {
+                holds &= one;
+                let page = folder.join("report.md");
+                // It is there, whether anybody is told or not.
+                let told = output::print_path(&page);
+                let told = told.wrap_err_with(|| format!("{} was written", page.display()));
+                failures.extend(told.err());
+            }
             Err(error) => {
                 let not_done = if arguments.check { "checked" } else { "written" };
                 let which = format!("no report was {not_done} for {}", path.display());
@@ -87,12 +96,67 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             }
         }
     }
-    if !arguments.check {
+    if arguments.check {
+        match without_case(&arguments, &names) {
+            Ok((count, orphans)) => {
+                orphans.iter().try_for_each(output::print)?;
+                holds &= orphans.is_empty();
+                let cases = counted(names.len(), "case");
+                let (reports, out) = (counted(count, "report"), output::place(&arguments.out));
+                output::complain(&format!("{cases} compared with {reports} in {out}"));
+            }
+            Err(error) => failures.push(error),
+        }
+    } else {
         reports::refresh(&arguments.out).unwrap_or_else(|error| failures.push(error));
     }
     // One bad case does not keep the others from being written; each is named.
     output::last_of(failures)?;
     Ok(holds)
+}
+
+fn counted(count: usize, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
+}
+
+/// How many reports there are, and a line for each whose case is neither among those that are checked, which have these
+/// names, nor anywhere else.
+fn without_case(arguments: &Arguments, names: &[String]) -> Result<(usize, Vec<String>)> {
+    let out = &arguments.out;
+    if !out.is_dir() {
+        return Ok((0, Vec::new()));
+    }
+    let stored = store::read_reports(out, arguments.reading.reach())?;
+    let project = cases::project(out).map_or(Vec::new(), |root| cases::below(&root));
+    let beside = |name: &str| {
+        let own = arguments.cases.iter().map(|path| path.with_file_name(format!("{name}.toml")));
+        own.into_iter().any(|path| path.is_file())
+    };
+    let digest = |path: &PathBuf| {
+        let text = store::read_text_if_there(path).ok().flatten();
+        text.map(|text| text_sha256(&text))
+    };
+    let mut orphans = Vec::new();
+    for (folder, report) in &stored {
+        let name = folder.rsplit('/').next().unwrap_or(folder);
+        let place = out.join(folder);
+        if names.iter().any(|own| own == name)
+            || beside(name)
+            || cases::of_report(&place, name, &project).is_some()
+        {
+            continue;
+        }
+        let made_from = stored::read(&report.place, &report.json)?;
+        let made_from = made_from["provenance"]["case_sha256"].as_str().map(str::to_owned);
+        let renamed =
+            arguments.cases.iter().find(|path| made_from.is_some() && digest(path) == made_from);
+        let why = match renamed {
+            Some(path) => format!("its case is now called {}", output::place(path)),
+            None => format!("its case {name}.toml is gone"),
+        };
+        orphans.push(format!("{}: {why}; remove the folder\n", output::place(&place)));
+    }
+    Ok((stored.len(), orphans))
 }
 
 /// The folder's name for each case; two cases must not share one.
@@ -108,12 +172,13 @@ fn names(cases: &[PathBuf]) -> Result<Vec<String>> {
         }
         names.push(name);
     }
+    reports::warn_of_letter_case(&names);
     Ok(names)
 }
 
 /// Writes one report; what was asked of accuracy does not hold where a layer that was insisted on, or
 /// the longest simulation, is not exact enough.
-fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Result<bool> {
+fn write(path: &Path, name: &str, arguments: &Arguments) -> Result<bool> {
     let (case, text) = case_file::read_any(path, arguments.reading)?;
     let case = match case {
         AnyCase::One(case) => *case,
@@ -124,7 +189,6 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
             let mut files = arguments.of_several(path, name, &case)?;
             with_live(&mut files, live, &text)?;
             Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
-            output::print_path(&folder.join("report.md"))?;
             return Ok(true);
         }
     };
@@ -133,7 +197,6 @@ fn write(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
     let (mut files, holds) = rendered(path, name, &case, arguments)?;
     with_live(&mut files, live, &text)?;
     Output::open(&arguments.out)?.replace(name, &files, render::is_of_report)?;
-    output::print_path(&folder.join("report.md"))?;
     Ok(holds)
 }
 
@@ -201,7 +264,9 @@ fn check(path: &Path, name: &str, folder: &Path, arguments: &Arguments) -> Resul
         AnyCase::Several(case) => arguments.of_several(path, name, &case)?,
     };
     files.retain(|file, _| is_checked(file));
-    let there = store::read_folder(folder, is_checked)?;
+    let mut there = store::read_folder(folder, is_checked)?;
+    // A checkout may end lines otherwise.
+    there.values_mut().for_each(|bytes| *bytes = one_line_end(bytes).into_owned());
     if there.is_empty() {
         output::print(format!("{}: there is no report\n", output::place(folder)))?;
         return Ok(false);

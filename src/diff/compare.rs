@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
+use super::document::Given;
 use super::moved::{Moved, ROUNDING, alike, is_quantity, kind, moved};
-use super::reader::{label, sorted, without_elements};
+use super::reader::{label, over, sorted, without_elements};
 use super::{Change, Document, Folded, ReportDifference, criteria};
 use crate::motions::wilson;
 
@@ -13,8 +14,9 @@ use crate::motions::wilson;
 const MANY: usize = 8;
 
 /// What has a way of its own; all else is compared value by value. Of these it is compared which fields there are.
-const APART: [&str; 10] = [
+const APART: [&str; 11] = [
     "asked",
+    "case",
     "criteria",
     "format",
     "inputs",
@@ -47,11 +49,12 @@ fn explains(path: &str, key: &str) -> bool {
 }
 
 /// What names an element of a list, by the list's key; elements of others are numbered.
-const NATURAL_KEYS: [(&str, &[&str]); 11] = [
+const NATURAL_KEYS: [(&str, &[&str]); 12] = [
     ("alternatives", &["which", "drift"]),
     ("answers", &["question"]),
     ("boundaries", &["kind", "branch"]),
     ("claims", &["id"]),
+    ("derived", &["name"]),
     ("doubts", &["kind"]),
     ("figures", &["name"]),
     ("holds_for", &["parameter"]),
@@ -76,6 +79,7 @@ const COUNTED: [&str; 7] = [
 /// What changed in a report that is on both sides.
 pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDifference {
     let (criteria, agreeing) = criteria::changes(old, new);
+    let failing = agreeing.iter().filter(|one| one["holds"] == false).cloned().collect();
     let clearance = &new.report["quantities"]["clearance"]["value"];
     let said = |document: &Document| {
         let verdict = &document.report["verdict"];
@@ -91,13 +95,28 @@ pub(super) fn reports(old: &Document, new: &Document, folder: &str) -> ReportDif
         criteria,
         states: main_motion(old, new).into_iter().collect(),
         figures: figures(old, new),
-        folded: Folded { same: agreeing, ..Folded::default() },
+        failing,
+        motion: deciding_motion(old, new),
+        folded: Folded { same: agreeing.len(), ..Folded::default() },
         ..ReportDifference::default()
     };
     let [given, renumbered] = [Vec::new(), Vec::new()];
     let mut comparison = Comparator { old, new, found, given, renumbered };
     comparison.fields("", &old.report, &new.report);
-    sorted(comparison.ended())
+    let mut found = sorted(comparison.ended());
+    // What a criterion is over is a part of its name.
+    let has_band = new.report["band"].is_object();
+    let sides = found.criteria.iter_mut().flat_map(|one| {
+        let sides = one.as_object_mut().into_iter().flat_map(|one| one.iter_mut());
+        sides.filter(|(side, _)| *side == "old" || *side == "new").map(|(_, one)| one)
+    });
+    for one in sides.chain(&mut found.failing).filter(|one| one.is_object()) {
+        one["over_band"] = json!(has_band);
+    }
+    for one in found.numbers.iter_mut().chain(&mut found.states) {
+        one.what += over(&one.path, &new.report);
+    }
+    found
 }
 
 fn change(path: &str, old: &Value, new: &Value) -> Change {
@@ -116,22 +135,31 @@ fn change(path: &str, old: &Value, new: &Value) -> Change {
     }
 }
 
-/// Inputs that are not the same, in the new case's order.
+/// Inputs that are not the same, in the new case's order; each name once, for what the case says may be known in two ways.
 fn inputs(old: &Document, new: &Document) -> Vec<Change> {
-    let (old, new) = (old.inputs(), new.inputs());
-    let value = |inputs: &[(String, Value)], name: &str| {
-        let found = inputs.iter().find(|(found, _)| found == name);
-        found.map_or(Value::Null, |(_, value)| value.clone())
+    let whole = old.has_whole_case() && new.has_whole_case();
+    let [old, new] = [old, new].map(|document| document.inputs(whole));
+    let values = |of: &[Given]| -> BTreeMap<String, Value> {
+        of.iter().map(|one| (one.path.clone(), one.value.clone())).collect()
     };
-    let gone = old.iter().filter(|(name, _)| value(&new, name).is_null());
-    let all = new.iter().chain(gone).map(|(name, _)| {
-        let change = change("inputs", &value(&old, name), &value(&new, name));
-        Change { what: name.clone(), ..change }
-    });
-    let same = |one: &Change| {
-        one.old == one.new || is_given(&one.old) && moved(&one.old, &one.new) == Moved::Within
+    let [before, after] = [values(&old), values(&new)];
+    let gone = old.iter().filter(|one| !after.contains_key(&one.path));
+    let same = |old: &Value, new: &Value| {
+        is_same(old, new) || is_given(old) && moved(old, new) == Moved::Within
     };
-    all.filter(|change| !same(change)).collect()
+    let mut told = BTreeSet::new();
+    let change = |one: &Given| {
+        let [old, new] = [&before, &after].map(|of| of.get(&one.path).unwrap_or(&Value::Null));
+        let differs = !same(old, new) && told.insert(one.name.clone());
+        // As a case file has it: true, not yes.
+        let shown = |value: &Value| match value {
+            Value::Bool(_) | Value::Number(_) | Value::Array(_) => json!(value.to_string()),
+            other => other.clone(),
+        };
+        let change = || change(&one.path, &shown(old), &shown(new));
+        differs.then(|| Change { what: one.name.clone(), ..change() })
+    };
+    new.iter().chain(gone).filter_map(change).collect()
 }
 
 /// The regime of the motion that most starts lead to, where it is another one.
@@ -141,6 +169,23 @@ fn main_motion(old: &Document, new: &Document) -> Option<Change> {
         document.report["motions"].get(main as usize).map_or(&Value::Null, |one| &one["regime"])
     });
     (old != new).then(|| change("main", old, new))
+}
+
+/// Another kind of motion that decides: the worst over a band or of all loads; else the main one.
+fn deciding_motion(old: &Document, new: &Document) -> Option<Change> {
+    let [before, after] = [old, new].map(|document| {
+        let report = &document.report;
+        match &report["worst"]["rests"] {
+            Value::Bool(true) => json!("every absorber at rest"),
+            Value::Bool(false) => json!("an absorber that hits its walls"),
+            _ => report["band"]["worst"]["regime"].clone(),
+        }
+    });
+    let has_both = !before.is_null() && !after.is_null();
+    let what =
+        if new.report["band"].is_object() { "worst motion over the band" } else { "worst motion" };
+    let worst = || Change { what: what.to_owned(), ..change("worst", &before, &after) };
+    if has_both { (before != after).then(worst) } else { main_motion(old, new) }
 }
 
 /// Drawings that are not the same, in the order of the report.
@@ -175,6 +220,8 @@ impl Comparator<'_> {
     /// Of what has a way of its own, the fields that are on one side only; all else value by value.
     fn fields(&mut self, path: &str, old: &Value, new: &Value) {
         match (old, new) {
+            // Each of its keys is an input.
+            _ if path == "case" => {}
             (Value::Object(before), Value::Object(after)) => {
                 let keys: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
                 for key in keys {
@@ -184,8 +231,8 @@ impl Comparator<'_> {
                             self.fields(&at, a, b);
                         }
                         (Some(a), Some(b)) => self.values(&at, new, a, b),
-                        // The format of before does not say it.
-                        _ if at == "asked" => {}
+                        // The format of before does not say it; files are inputs.
+                        _ if ["asked", "provenance/files"].contains(&at.as_str()) => {}
                         (a, b) => self.on_one_side(&at, a, b),
                     }
                 }
@@ -264,6 +311,9 @@ impl Comparator<'_> {
             return;
         }
         let key = path.rsplit('/').next().unwrap_or(path);
+        if path == "places" {
+            return self.motions_along(old, new);
+        }
         // What one side did not look at is one thing that came or went.
         if old.is_empty() != new.is_empty() && old.len() + new.len() >= MANY {
             let count = |of: &[Value]| match of.len() {
@@ -290,6 +340,23 @@ impl Comparator<'_> {
         let added = new.iter().filter(|(name, _)| !old.contains_key(*name) && !is_told(name));
         for (name, after) in added {
             self.element(&format!("{path}[{name}]"), &Value::Null, after);
+        }
+    }
+
+    /// Motions at the frequencies of a band, which are many: how many frequencies have others.
+    fn motions_along(&mut self, old: &[Value], new: &[Value]) {
+        let at = |place: &Value| place["at"].to_string();
+        let before: BTreeMap<String, &Value> = old.iter().map(|one| (at(one), one)).collect();
+        let pairs: Vec<(&Value, &Value)> = match old.len() == new.len() {
+            true => old.iter().zip(new).collect(),
+            false => new.iter().filter_map(|one| Some((*before.get(&at(one))?, one))).collect(),
+        };
+        let others = pairs.iter().filter(|(old, new)| in_words(old) != in_words(new)).count();
+        let folded = &mut self.found.folded;
+        *(if old == new { &mut folded.same } else { &mut folded.unjudged }) += 1;
+        if others > 0 {
+            let told = json!(format!("others at {others} of {} frequencies", pairs.len()));
+            self.found.states.push(change("places", &Value::Null, &told));
         }
     }
 
@@ -412,6 +479,9 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 
 /// Whether two values are the same but for rounding.
 fn is_same(old: &Value, new: &Value) -> bool {
+    if let (Value::Array(old), Value::Array(new)) = (old, new) {
+        return old.len() == new.len() && old.iter().zip(new).all(|(old, new)| is_same(old, new));
+    }
     let rounds = |(a, b): (f64, f64)| (a - b).abs() <= ROUNDING * a.abs().max(b.abs());
     old == new || old.as_f64().zip(new.as_f64()).is_some_and(rounds)
 }
@@ -420,6 +490,16 @@ fn is_same(old: &Value, new: &Value) -> bool {
 fn without_numbers(text: &str) -> String {
     let kept = |letter: &char| !text.contains(' ') || letter.is_alphabetic() || *letter == ' ';
     text.chars().filter(kept).collect()
+}
+
+/// A value without its numbers.
+fn in_words(value: &Value) -> Value {
+    match value {
+        Value::Object(all) => all.iter().map(|(key, one)| (key.clone(), in_words(one))).collect(),
+        Value::Array(all) => all.iter().map(in_words).collect(),
+        Value::Number(_) => Value::Null,
+        other => other.clone(),
+    }
 }
 
 /// Whether a quantity is of the case file.

@@ -12,9 +12,21 @@ fn agree(old: &Value, new: &Value) -> bool {
     found && same("asked") && alike(old, new)
 }
 
-/// Criteria that do not agree, as they are on either side and null where there is none, flipped ones first; and
-/// how many do agree.
-pub(super) fn changes(old: &Document, new: &Document) -> (Vec<Value>, usize) {
+/// By which share of before what a criterion limits has moved towards its limit or beyond; none where it has not.
+pub(super) fn worse_by(change: &Value) -> Option<f64> {
+    let [old, new] = ["old", "new"].map(|side| change[side]["found"]["value"].as_f64());
+    let sign = match change["new"]["relation"].as_str()? {
+        "at-most" => 1.0,
+        "at-least" => -1.0,
+        _ => return None,
+    };
+    let by = sign * (new? - old?) / old?.abs();
+    (by > 0.0 && by.is_finite()).then_some(by)
+}
+
+/// Criteria that do not agree, as they are on either side and null where there is none, flipped ones first, then those that
+/// fail; and those of the new side that do agree.
+pub(super) fn changes(old: &Document, new: &Document) -> (Vec<Value>, Vec<Value>) {
     let [old, new] = [old, new].map(|document| document.list("/criteria/all"));
     let same = |list: &[Value], wanted: &Value| {
         let found =
@@ -32,6 +44,6 @@ pub(super) fn changes(old: &Document, new: &Document) -> (Vec<Value>, usize) {
         json!({ "name": name, "flipped": flipped, "old": old, "new": new })
     };
     let mut changes: Vec<Value> = differing.into_iter().map(change).collect();
-    changes.sort_by_key(|change| change["flipped"] == false);
-    (changes, agreeing.len())
+    changes.sort_by_key(|change| (change["flipped"] == false, change["new"]["holds"] != false));
+    (changes, agreeing.into_iter().map(|(_, new)| new).collect())
 }

@@ -23,12 +23,28 @@ pub struct Document {
 }
 
 /// A case file as it is now.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CurrentCase {
     /// Where it was read from.
     pub place: String,
-    /// SHA-256 of its text.
+    /// SHA-256 of its text with line ends of one kind.
     pub sha256: String,
+    /// The same of the files that the report was made from beside it, by name; none of one that is not there.
+    pub files: BTreeMap<String, Option<String>>,
+}
+
+/// Cases by name, whether they have a report or not.
+pub type Cases = BTreeMap<String, ListedCase>;
+
+/// A case file that is there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ListedCase {
+    /// Where it was read from.
+    pub place: String,
+    /// SHA-256 of its text with line ends of one kind.
+    pub sha256: String,
+    /// What writes its report.
+    pub remedy: Remedy,
 }
 
 /// What writes a report again.
@@ -40,11 +56,28 @@ pub struct Remedy {
     pub revision: Option<String>,
 }
 
+impl Remedy {
+    /// What is out of date of a file, and what to do.
+    pub(super) fn stale(&self, side: &str, file: &str, reason: &str) -> Value {
+        json!({
+            "side": side,
+            "file": file,
+            "reason": reason,
+            "case": null,
+            "reported": null,
+            "current": null,
+            "command": self.command,
+            "revision": self.revision,
+        })
+    }
+}
+
 /// The format of version 0.1's first reports, whose numbers have neither identifiers nor errors.
 const OLD_FORMAT: &str = "vinesink/report@1";
 
 /// Why a report is out of date, in the order in which reports are named.
-const REASONS: [&str; 3] = ["case-text", "program-version", "format"];
+const REASONS: [&str; 6] =
+    ["case-text", "file", "no-case", "no-report", "program-version", "format"];
 
 /// The place of a stale report's reason among [`REASONS`].
 pub(super) fn reason(stale: &Value) -> Option<usize> {
@@ -95,31 +128,50 @@ impl Document {
         })
     }
 
-    /// What is out of date about it: it was made from another text of its case, by another version of the program,
-    /// or has an old format and is not compared. `reported` is what it was made from, `current` the same now.
+    /// What is out of date about it: it was made from another text of its case or of a file that the case reads, by another
+    /// version of the program, or has an old format and is not compared. `reported` is what it was made from, `current` the
+    /// same now.
     pub(super) fn stale(&self, side: &str) -> Vec<Value> {
         let provenance = |field: &str| self.report["provenance"][field].as_str();
         let case = self.case.as_ref();
+        let old_format = self.report["format"].as_str().filter(|_| self.has_old_format());
+        let of_case =
+            provenance("case_sha256").zip(case).map(|(old, case)| (old, json!(case.sha256)));
+        let of_files =
+            self.files().filter_map(|(name, old)| Some((name, old, case?.files.get(name)?)));
         let sides = [
-            (provenance("case_sha256"), case.map(|case| case.sha256.as_str())),
-            (provenance("version"), Some(env!("CARGO_PKG_VERSION"))),
-            (self.report["format"].as_str().filter(|_| self.has_old_format()), Some(FORMAT)),
+            ("case-text", None, of_case),
+            (
+                "program-version",
+                None,
+                provenance("version").map(|it| (it, json!(env!("CARGO_PKG_VERSION")))),
+            ),
+            ("format", None, old_format.map(|it| (it, json!(FORMAT)))),
         ];
-        let differing = REASONS.iter().zip(sides).filter_map(|(reason, (reported, current))| {
-            let (reported, current) = reported.zip(current).filter(|(old, new)| old != new)?;
-            Some(json!({
-                "side": side,
-                "file": self.place,
-                "reason": reason,
-                // The case file that has another text.
-                "case": case.filter(|_| *reason == "case-text").map(|case| &case.place),
-                "reported": reported,
-                "current": current,
-                "command": self.remedy.command,
-                "revision": self.remedy.revision,
-            }))
+        let of_files =
+            of_files.map(|(name, old, now)| ("file", Some(name), Some((old, json!(now)))));
+        let differing = sides.into_iter().chain(of_files).filter_map(|(reason, name, both)| {
+            let (reported, current) = both.filter(|(old, new)| old != new)?;
+            let mut stale = self.remedy.stale(side, &self.place, reason);
+            // The case file that has another text, or that reads what has another one.
+            stale["case"] =
+                json!(case.filter(|_| ["case-text", "file"].contains(&reason)).map(|it| &it.place));
+            stale["name"] = json!(name);
+            stale["reported"] = json!(reported);
+            stale["current"] = current;
+            Some(stale)
         });
         differing.collect()
+    }
+
+    /// The SHA-256 of the text of the case that it was made from.
+    pub fn case_digest(&self) -> Option<&str> {
+        self.report["provenance"]["case_sha256"].as_str()
+    }
+
+    /// The names of the files that its case read beside its own text.
+    pub fn files_read(&self) -> Vec<String> {
+        self.files().map(|(name, _)| name.to_owned()).collect()
     }
 
     /// A text of the document, empty where there is none.
@@ -133,25 +185,102 @@ impl Document {
         list.map_or(&[], Vec::as_slice)
     }
 
-    /// What the case says, name and value as written, in its order; and how thoroughly it was simulated.
-    pub(super) fn inputs(&self) -> Vec<(String, Value)> {
-        let mut found: Vec<(String, Value)> =
-            ["title", "source"].map(|field| (field.to_owned(), json!(self.text(field)))).into();
-        for input in self.list("/inputs") {
-            let word = |key: &str| input[key].as_str().unwrap_or("").replace('_', " ");
-            found
-                .push((format!("{} {}", word("table"), word("name")), input["as_written"].clone()));
+    /// What the case says, value by value: its numbers in its order, every other key, the modes of a structure of several,
+    /// the files that it reads; and how thoroughly it was simulated. `whole` where every key of both sides is known.
+    pub(super) fn inputs(&self, whole: bool) -> Vec<Given> {
+        let mut found = Vec::new();
+        for field in ["title", "source"] {
+            found.push(Given::new(field.to_owned(), field, &json!(self.text(field))));
         }
-        let band = ["from", "to"].map(|end| (end, &self.report["band"][end]));
-        for (end, place) in band.into_iter().filter(|(_, place)| place.is_object()) {
-            found.push((format!("band {end}"), place.clone()));
+        for input in self.list("/inputs") {
+            let word = |key: &str| input[key].as_str().unwrap_or("");
+            let name = format!("{} {}", word("table"), word("name"));
+            found.push(Given::new(format!("inputs[{name}]"), &name, &input["as_written"]));
+        }
+        if whole {
+            leaves("case", "", &self.report["case"], &mut found);
+        }
+        let places = self.list("/places_of_shapes");
+        for (k, mode) in self.list("/modes").iter().enumerate() {
+            let (path, name) = (format!("modes[{}]", k + 1), format!("mode {}", k + 1));
+            for (key, value) in
+                mode.as_object().into_iter().flatten().filter(|(key, _)| *key != "shape")
+            {
+                found.push(Given::new(format!("{path}/{key}"), &format!("{name} {key}"), value));
+            }
+            let shape = mode["shape"].as_array().into_iter().flatten().zip(places);
+            for (value, place) in shape {
+                let place = place.as_str().unwrap_or("");
+                let [path, name] =
+                    [format!("{path}/shape[{place}]"), format!("{name} shape {place}")];
+                found.push(Given::new(path, &name, value));
+            }
+        }
+        for (file, digest) in self.files() {
+            let (path, name) = (format!("provenance/files[{file}]"), format!("content of {file}"));
+            let begin: String = digest.chars().take(8).collect();
+            let given = Given::new(path, &name, &json!(format!("SHA-256 {begin}…")));
+            found.push(Given { name, ..given });
+        }
+        for end in ["from", "to"] {
+            let place = &self.report["band"][end];
+            if place.is_object() {
+                found.push(Given::new(format!("band/{end}"), &format!("band {end}"), place));
+            }
         }
         for (of, at) in [("simulation", "/provenance/effort"), ("accuracy", "/answers/demand")] {
             let values = self.report.pointer(at).and_then(Value::as_object);
             for (name, value) in values.into_iter().flatten() {
-                found.push((format!("{of}: {}", name.replace('_', " ")), json!(value.to_string())));
+                let path = format!("{}/{name}", &at[1..]);
+                found.push(Given::new(path, &format!("{of} {name}"), &json!(value.to_string())));
             }
         }
         found
+    }
+
+    /// Whether it says every key of its case: one of an earlier version says its numbers alone.
+    pub(super) fn has_whole_case(&self) -> bool {
+        self.report["case"].is_object()
+    }
+
+    /// The files that its case read, by name, and the SHA-256 of each.
+    pub(super) fn files(&self) -> impl Iterator<Item = (&str, &str)> {
+        let files = self.report["provenance"]["files"].as_object();
+        files.into_iter().flatten().filter_map(|(name, it)| Some((name.as_str(), it.as_str()?)))
+    }
+}
+
+/// Something that is given.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Given {
+    /// Where it stands in the document.
+    pub(super) path: String,
+    /// What a reader calls it.
+    pub(super) name: String,
+    /// As written, or a quantity.
+    pub(super) value: Value,
+}
+
+impl Given {
+    /// Of a name with the points and underscores of a file.
+    fn new(path: String, name: &str, value: &Value) -> Self {
+        Self { path, name: name.replace(['_', '.'], " ").trim().to_owned(), value: value.clone() }
+    }
+}
+
+/// The values of a table and of those in it; a list of tables is numbered, any other is one value.
+fn leaves(path: &str, name: &str, of: &Value, found: &mut Vec<Given>) {
+    match of {
+        Value::Object(entries) => {
+            for (key, value) in entries {
+                leaves(&format!("{path}/{key}"), &format!("{name} {key}"), value, found);
+            }
+        }
+        Value::Array(items) if !items.is_empty() && items.iter().all(Value::is_object) => {
+            for (k, item) in items.iter().enumerate() {
+                leaves(&format!("{path}[{}]", k + 1), &format!("{name} {}", k + 1), item, found);
+            }
+        }
+        value => found.push(Given::new(path.to_owned(), name, value)),
     }
 }

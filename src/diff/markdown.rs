@@ -1,9 +1,10 @@
 //! A difference as Markdown for a comment on GitHub, from `templates/diff.md.tera` and, for each report,
 //! `templates/diff_report.md.tera`. What moved within its error never appears.
 
+use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Difference, ReportDifference};
+use super::{Change, Difference, ReportDifference};
 use crate::quantity::Units;
 use crate::report::render::RenderError;
 use crate::report::template::render;
@@ -14,8 +15,8 @@ pub const LIMIT: usize = 60_000;
 /// the reports. Without one they are named and not shown.
 pub type Addresses<'a> = [Option<&'a str>; 2];
 
-/// The whole difference, of at most [`LIMIT`] characters: folded tables go first, then whole reports from
-/// the end. One line where there is nothing to look at.
+/// The whole difference, of at most [`LIMIT`] characters: folded tables go first, then whole reports from the end, which are
+/// the least important, then words of the head. Every verdict that flips is in the head.
 ///
 /// # Errors
 /// [`RenderError::Template`] if a template does not fit.
@@ -24,7 +25,31 @@ pub fn markdown(difference: &Difference, addresses: Addresses) -> Result<String,
     if whole.chars().count() <= LIMIT {
         return Ok(whole);
     }
-    Ok(cut(&sections(difference, addresses, false)?))
+    let mut sections = sections(difference, addresses, false)?;
+    for brief in [Brief::Words, Brief::Names] {
+        if sections[0].chars().count() > MOST_OF_HEAD {
+            sections[0] = head(difference, brief)?;
+        }
+    }
+    Ok(cut(&sections))
+}
+
+/// Characters of a head that leave room for a notice.
+const MOST_OF_HEAD: usize = LIMIT - 1000;
+
+/// The same of the names in it: an escape may be longer than its character.
+const MOST_OF_NAMES: usize = LIMIT / 2;
+
+/// How much a head says of each report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum Brief {
+    /// Words, criteria and causes.
+    Whole,
+    /// The words of both sides; of other lists the first few.
+    Words,
+    /// Names alone.
+    Names,
 }
 
 const NO_TABLES: &str = "\n_The folded tables are left out: with them this would be longer than a comment may be. `vinesink diff --format json` has them._\n";
@@ -62,7 +87,7 @@ fn sections(
     let figures: usize = drawn.iter().map(|report| report.figures.len()).sum();
     // Before the first of those of which nothing but figures changed.
     let heading = json!({"reports": drawn.len(), "figures": figures});
-    let mut sections = vec![head(difference, changed.len())?];
+    let mut sections = vec![head(difference, Brief::Whole)?];
     for report in changed {
         sections.push(section(report, addresses, tables, &Value::Null)?);
     }
@@ -74,8 +99,28 @@ fn sections(
 }
 
 /// The answer in a line, and what has nothing to be compared with.
-fn head(difference: &Difference, changed: usize) -> Result<String, RenderError> {
+fn head(difference: &Difference, brief: Brief) -> Result<String, RenderError> {
     let reports = &difference.reports;
+    let changed = reports.iter().filter(|one| one.is_significant()).count();
+    let flips = reports.iter().filter(|one| one.flips());
+    // A length is told in the unit of its own report.
+    let flips = flips.map(|report| match brief {
+        Brief::Names => Ok(report.new["name"].clone()),
+        _ => {
+            let facts = json!({ "report": report, "lead": lead(report), "brief": brief });
+            let line = render("diff_flip.md", &units(report), &facts)?;
+            Ok(json!(line.trim_end()))
+        }
+    });
+    let mut flips = flips.collect::<Result<Vec<_>, RenderError>>()?;
+    let flipped_reports = flips.len();
+    if brief == Brief::Names {
+        let mut room = MOST_OF_NAMES;
+        flips.retain(|name| {
+            room = room.saturating_sub(2 + name.as_str().map_or(0, |name| name.chars().count()));
+            room > 0
+        });
+    }
     let sum = |count: &dyn Fn(&ReportDifference) -> usize| reports.iter().map(count).sum::<usize>();
     let flipped =
         |one: &ReportDifference| one.criteria.iter().filter(|one| one["flipped"] == true).count();
@@ -85,7 +130,14 @@ fn head(difference: &Difference, changed: usize) -> Result<String, RenderError> 
         "significant": difference.is_significant(),
         "changed": changed,
         "compared": difference.compared,
+        "brief": brief,
+        "flipping": flipped_reports,
+        "flips": flips,
+        "failing": difference.failing,
         "stale": difference.stale,
+        "checked": difference.checked,
+        "diverged": difference.diverged,
+        "unreported": difference.unreported,
         "added": difference.added,
         "removed": difference.removed,
         "counts": {
@@ -110,18 +162,42 @@ fn section(
     tables: bool,
     heading: &Value,
 ) -> Result<String, RenderError> {
-    let units = report.clearance_m.map_or(Units::reduced(), Units::physical);
     let facts = json!({
         "report": report,
+        "lead": lead(report),
         "significant": report.is_significant(),
         "key_states": report.states.iter().filter(|one| one.is_key_state()).count(),
+        "headlines": report.numbers.iter().filter(|one| one.is_headline()).count(),
         "same": report.folded.same + report.folded.within,
         "old_url": url(addresses[0]),
         "new_url": url(addresses[1]),
         "tables": tables,
         "heading": heading,
     });
-    Ok(format!("\n{}", render("diff_report.md", &units, &facts)?))
+    Ok(format!("\n{}", render("diff_report.md", &units(report), &facts)?))
+}
+
+fn units(report: &ReportDifference) -> Units {
+    report.clearance_m.map_or(Units::reduced(), Units::physical)
+}
+
+/// Inputs that are named in the first lines.
+const NAMED: usize = 3;
+
+/// What the first lines say: criteria that failed before too, and as the cause the first inputs but title and source, and how
+/// many more there are.
+fn lead(report: &ReportDifference) -> Value {
+    let says = |one: &&Change| !["title", "source"].contains(&one.what.as_str());
+    let inputs: Vec<&Change> = report.inputs.iter().filter(says).collect();
+    let fails = |one: &&Value| {
+        one["flipped"] == false && one["old"].is_object() && one["new"]["holds"] == false
+    };
+    let moved = report.criteria.iter().filter(fails).map(|one| &one["new"]);
+    json!({
+        "inputs": inputs[..inputs.len().min(NAMED)],
+        "more": inputs.len().saturating_sub(NAMED),
+        "failing": moved.chain(&report.failing).collect::<Vec<_>>(),
+    })
 }
 
 fn url(address: Option<&str>) -> Option<&str> {

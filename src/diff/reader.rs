@@ -10,9 +10,10 @@ use crate::quantity::Kind;
 use crate::quantity::catalogue::Dimension;
 
 /// Quantities that a reviewer looks at first, by path, the most important first.
-const HEADLINES: [&str; 29] = [
+const HEADLINES: [&str; 30] = [
     "absorbers",
     "band/worst/peak",
+    "band/worst/change",
     "loads/worst/peak",
     "quantities/decay_time",
     "quantities/active_decay_time",
@@ -42,6 +43,9 @@ const HEADLINES: [&str; 29] = [
     "motions/peak",
 ];
 
+/// Those before this one are of the structure with its absorber.
+const FURTHER_HEADLINES: usize = 15;
+
 /// The same of what has no size. Those before [`FURTHER_STATES`] are told before the fold.
 const STATES: [&str; 9] = [
     "choice/winner",
@@ -58,10 +62,11 @@ const STATES: [&str; 9] = [
 const FURTHER_STATES: usize = 6;
 
 /// What a reader calls the keys of a document; others are called as they are.
-const WORDS: [(&str, &str); 22] = [
+const WORDS: [(&str, &str); 25] = [
     ("absorbers", "absorber"),
     ("alternatives", ""),
     ("answers", "answer"),
+    ("band", ""),
     ("boundaries", "boundary"),
     ("choice", ""),
     ("claims", "claim"),
@@ -71,9 +76,11 @@ const WORDS: [(&str, &str); 22] = [
     ("forces", ""),
     ("loads", "load"),
     ("main", "main motion"),
+    ("most", "largest possible"),
     ("motions", "motion"),
     ("off", "natural frequencies off"),
     ("orbits", "exact orbit"),
+    ("places", "motions"),
     ("quantities", ""),
     ("ranges", "range of"),
     ("rows", ""),
@@ -83,15 +90,17 @@ const WORDS: [(&str, &str); 22] = [
     ("worst_off", "natural frequencies off, worst"),
 ];
 
+/// The place of a path in an order, by itself or by what holds it; after the end where it has none.
+fn rank(order: &[&str], path: &str) -> usize {
+    let key = without_elements(path);
+    let inside = |first: &&str| {
+        key.strip_prefix(first).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+    };
+    order.iter().position(inside).unwrap_or(order.len())
+}
+
 /// The most important first; a number that stands in several places is told once.
 pub(super) fn sorted(mut found: ReportDifference) -> ReportDifference {
-    let rank = |order: &[&str], path: &str| {
-        let key = without_elements(path);
-        let inside = |first: &&str| {
-            key.strip_prefix(first).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
-        };
-        order.iter().position(inside).unwrap_or(order.len())
-    };
     // What no headline names: theory explains, and its phases come last.
     let is_phase =
         |one: &Change| kind(&one.new).is_some_and(|kind| kind.dimension == Dimension::Angle);
@@ -109,7 +118,44 @@ pub(super) fn sorted(mut found: ReportDifference) -> ReportDifference {
     found
 }
 
+/// What the numbers at a path are over, where a report has the same of something else too: a band beside the case's own
+/// frequency, or several loads.
+pub(super) fn over(path: &str, report: &Value) -> &'static str {
+    let begins = |with: &[&str]| with.iter().any(|first| path.starts_with(first));
+    let has_band = report["band"].is_object();
+    match () {
+        () if begins(&["band/", "places"]) => " over the band",
+        () if has_band && begins(&["quantities/", "motions", "inactive"]) => {
+            " at its own frequency"
+        }
+        () if report["loads"].is_array() && begins(&["quantities/"]) => " over all loads",
+        () => "",
+    }
+}
+
+/// Quantities of which less is better.
+const LESS_IS_BETTER: [&str; 5] =
+    ["peak_displacement", "rms_displacement", "change_db", "impact_speed", "decay_time"];
+
 impl Change {
+    /// Whether a number is one of those that a reviewer looks at first.
+    pub(super) fn is_headline(&self) -> bool {
+        rank(&HEADLINES, &self.path) < HEADLINES.len()
+    }
+
+    /// By which share of before a vibration of the structure has grown, of those that a reviewer looks at first.
+    pub(super) fn worse_by(&self) -> Option<f64> {
+        let is_headline = rank(&HEADLINES, &self.path) < FURTHER_HEADLINES;
+        let id = self.new["id"].as_str().filter(|id| LESS_IS_BETTER.contains(id) && is_headline)?;
+        let (old, new) = (self.old["value"].as_f64()?, self.new["value"].as_f64()?);
+        // A level is a ratio already: 20 dB are a factor of ten.
+        let by = match id {
+            "change_db" => libm::exp10((new - old) / 20.0) - 1.0,
+            _ => new / old - 1.0,
+        };
+        (by > 0.0 && by.is_finite()).then_some(by)
+    }
+
     /// Whether a state is one of the first that a reviewer asks for.
     pub(super) fn is_key_state(&self) -> bool {
         STATES[..FURTHER_STATES].contains(&without_elements(&self.path).as_str())
@@ -126,6 +172,10 @@ pub(super) fn label(path: &str, kind: Option<&Kind>) -> String {
     let mut words: Vec<String> = Vec::new();
     for segment in path.split('/') {
         let (key, element) = segment.split_once('[').unwrap_or((segment, ""));
+        // Over a band the worst is meant, unless it is said otherwise.
+        if key == "worst" && kind.is_some() && path.starts_with("band/") {
+            continue;
+        }
         let known = WORDS.iter().find(|(name, _)| *name == key);
         words.push(known.map_or_else(|| key.replace('_', " "), |(_, word)| (*word).to_owned()));
         words.push(element.trim_end_matches(']').replace("][", " "));

@@ -4,6 +4,7 @@
 //! For the programs themselves, `vinesink` and those that are built on it: this module may change at any time.
 
 pub mod case_file;
+pub mod cases;
 pub mod output;
 pub mod parallel;
 pub mod progress;

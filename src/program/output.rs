@@ -94,7 +94,9 @@ pub fn harmless(text: &str) -> String {
                 other => is_control(other),
             };
             if acts {
-                out += &format!("\\u{:04x}", u32::from(letter));
+                for unit in letter.encode_utf16(&mut [0; 2]) {
+                    out += &format!("\\u{unit:04x}");
+                }
             } else {
                 out.push(letter);
             }
@@ -113,6 +115,7 @@ mod tests {
             ("b = 7.5 mm: 1:1\n\t## A\n", "b = 7.5 mm: 1:1\n\t## A\n"),
             ("a\u{1b}[31m\0\u{9b}2J\r", "a\\u001b[31m\\u0000\\u009b2J\\u000d"),
             ("\u{202e}a", "\\u202ea"),
+            ("a\u{200b}\u{e0041}\u{61c}", "a\\u200b\\udb40\\udc41\\u061c"),
             ("::error::a\n  ::b\na::c", "\\u003a:error::a\n  \\u003a:b\na::c"),
             ("a ##[error]b ##vso[c]", "a \\u0023#[error]b \\u0023#vso[c]"),
         ] {

@@ -1,10 +1,11 @@
 //! A folder of reports: what is written into it, and the index that is kept up to date beside them.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use miette::{IntoDiagnostic, Result, WrapErr, miette};
 
-use super::{case_file, output};
+use super::{case_file, cases, output};
 use crate::report::index::{self, IndexedReport, OtherPage, Summary};
 use crate::report::render::Files;
 use crate::store::{self, Listing, Output, Reach};
@@ -59,6 +60,7 @@ fn write(folder: &Path, reach: Reach) -> Result<()> {
     let output = Output::open(folder)?;
     let Listing { files, folders } = store::list(folder)?;
     let members = members(folder, folders, reach)?;
+    warn_of_letter_case(&members.iter().map(|one| one.name.clone()).collect::<Vec<_>>());
     if members.is_empty() {
         return Err(miette!(
             help = format!("write one with `vinesink report CASE --out {}`", folder.display()),
@@ -78,15 +80,32 @@ fn write(folder: &Path, reach: Reach) -> Result<()> {
     Ok(output.add("", &files)?)
 }
 
+/// Says of names that differ by letter case alone: where files are not told apart by it, they are one folder.
+pub fn warn_of_letter_case(names: &[String]) {
+    let mut seen: BTreeMap<String, &String> = BTreeMap::new();
+    for name in names {
+        if let Some(other) = seen.insert(name.to_lowercase(), name) {
+            output::complain(&format!(
+                "`{other}` and `{name}` differ by letter case alone: on Windows and macOS one report overwrites the other; rename one"
+            ));
+        }
+    }
+}
+
 /// The reports among some folders; a folder without one is something else.
 fn members(folder: &Path, names: Vec<String>, reach: Reach) -> Result<Vec<IndexedReport>> {
     let mut members = Vec::new();
+    let project = cases::project(folder).map_or(Vec::new(), |root| cases::below(&root));
     for name in names {
         let path = Path::new(&name).join("report.json");
         let Some(text) = store::read_text_below(folder, &path, reach)? else { continue };
         let summary = Summary::read(&folder.join(path).display().to_string(), &text)?;
         let files = store::list(&folder.join(&name))?.files;
-        members.push(IndexedReport { name, summary, files });
+        let orphan = cases::of_report(&folder.join(&name), &name, &project).is_none();
+        members.push(IndexedReport { name, summary, files, orphan });
     }
+    // Where no case is found, they are somewhere else.
+    let is_known = members.iter().any(|one| !one.orphan);
+    members.iter_mut().for_each(|one| one.orphan &= is_known);
     Ok(members)
 }

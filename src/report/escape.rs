@@ -33,14 +33,7 @@ fn escaped(escape: EscapeFn, text: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// Whether a character acts instead of being seen: on a terminal, on a parser, or on the direction of a line.
-pub fn is_control(letter: char) -> bool {
-    let direction = ['\u{200e}', '\u{200f}', '\u{2028}', '\u{2029}'];
-    letter.is_control()
-        || direction.contains(&letter)
-        || ('\u{202a}'..='\u{202e}').contains(&letter)
-        || ('\u{2066}'..='\u{2069}').contains(&letter)
-}
+pub use super::figure::is_control;
 
 /// A character of a text that stays on its line.
 fn on_its_line(letter: char) -> char {
@@ -144,7 +137,7 @@ pub(super) fn attribute(text: &str) -> String {
 }
 
 /// A path as a link writes it: everything that could mean something else is encoded.
-pub(super) fn url_path(path: &str) -> String {
+pub fn url_path(path: &str) -> String {
     path.bytes().fold(String::with_capacity(path.len()), |mut link, byte| {
         if byte.is_ascii_alphanumeric() || b"-._~/".contains(&byte) {
             link.push(char::from(byte));

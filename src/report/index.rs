@@ -36,6 +36,8 @@ pub struct IndexedReport {
     pub summary: Summary,
     /// The files of its folder: it may have pages of other commands.
     pub files: Vec<String>,
+    /// Whether its case is gone, while those of other reports are there.
+    pub orphan: bool,
 }
 
 /// What an index needs of a report. Quantities as [`crate::quantity::Quantity`] is written.
@@ -209,7 +211,7 @@ mod tests {
             "quantities": {"clearance": number("clearance", 0.02), "peak_displacement": number("peak_displacement", peak)},
         });
         let summary = Summary::read(name, &text.to_string()).expect("a report");
-        IndexedReport { name: name.to_owned(), summary, files: Vec::new() }
+        IndexedReport { name: name.to_owned(), summary, files: Vec::new(), orphan: false }
     }
 
     #[test]

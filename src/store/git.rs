@@ -64,6 +64,59 @@ fn resolve(name: &str) -> Result<Option<String>, String> {
     Ok((output.status.success() && !found.is_empty()).then_some(found))
 }
 
+/// The full name of a branch, a tag or `HEAD`, such as `refs/heads/main`; none where git knows none of that name, or nobody
+/// can ask it.
+pub fn name_of_ref(name: &str) -> Option<String> {
+    let how =
+        ["rev-parse", "--symbolic-full-name", "--verify", "--quiet", "--end-of-options", name];
+    let output = run(&how, None).ok().filter(|output| output.status.success())?;
+    let found = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+    (!found.is_empty()).then_some(found)
+}
+
+/// The commit at which the histories of two revisions parted.
+///
+/// # Errors
+/// [`StoreError`] where git knows one of them not, or no commit that both have.
+pub fn branch_point(old: &str, new: &str) -> Result<String, StoreError> {
+    is_known(old, old)?;
+    is_known(new, new)?;
+    let found = stdout(&["merge-base", "--end-of-options", old, new], None);
+    let found = found.map(|found| String::from_utf8_lossy(&found).trim().to_owned());
+    found.map_err(|_| {
+        let message = format!("git finds no commit that `{old}` and `{new}` have in common");
+        let advice = "a shallow clone lacks older commits: `git fetch --unshallow`";
+        StoreError::new(message, Some(advice))
+    })
+}
+
+/// Whether a revision has all commits of another one; true where git does not say.
+pub fn is_ancestor(old: &str, new: &str) -> bool {
+    let answer = run(&["merge-base", "--is-ancestor", "--end-of-options", old, new], None);
+    answer.is_ok_and(|answer| answer.status.code() != Some(1))
+}
+
+/// The paths of all TOML files of a revision but hidden ones and links: those below the working folder, from there, or all
+/// from the `root` of the repository.
+///
+/// # Errors
+/// [`StoreError`] where git does not answer.
+pub fn toml_files_at(commit: &str, root: bool) -> Result<Vec<String>, StoreError> {
+    let mut how = vec!["ls-tree", "-r", "-z", commit];
+    if root {
+        how.insert(3, "--full-tree");
+    }
+    let list = stdout(&how, None).map_err(|message| failed("*.toml", commit, &message))?;
+    let entries = list.split(|byte| *byte == 0).map(String::from_utf8_lossy);
+    let path = |entry: std::borrow::Cow<str>| {
+        let (facts, path) = entry.split_once('\t')?;
+        let is_hidden = path.split('/').any(|name| name.starts_with('.'));
+        let wanted = path.ends_with(".toml") && !is_hidden && !facts.starts_with(LINK);
+        wanted.then(|| path.to_owned())
+    };
+    Ok(entries.filter_map(path).collect())
+}
+
 /// How the entry of a symbolic link begins.
 const LINK: &str = "120000 ";
 

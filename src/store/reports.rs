@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::reading::{self, FileKind, Reach, within};
 use super::{StoreError, text_of};
+use crate::digest::one_line_end;
 
 /// The file that makes a folder a report.
 pub(super) const REPORT: &str = "report.json";
@@ -79,7 +80,8 @@ fn read_report(
     let json = text_of(file, read(file)?)?;
     let mut figures = BTreeMap::new();
     for name in drawings(folder)? {
-        let bytes = read(&folder.join(FIGURES).join(&name))?;
+        // A checkout may end lines otherwise than the revision that it is compared with.
+        let bytes = one_line_end(&read(&folder.join(FIGURES).join(&name))?).into_owned();
         figures.insert(name.strip_suffix(DRAWING).unwrap_or(&name).to_owned(), bytes);
     }
     Ok(StoredReport { place: file.display().to_string(), json, figures })
@@ -120,7 +122,8 @@ pub(super) fn group(
             (!name.contains('/') && !is_hidden(name)).then(|| name.to_owned())
         };
         let drawings = files.iter();
-        let figures = drawings.filter_map(|(path, bytes)| Some((drawing(path)?, bytes.clone())));
+        let figures = drawings
+            .filter_map(|(path, bytes)| Some((drawing(path)?, one_line_end(bytes).into_owned())));
         let figures = figures.collect();
         reports.insert(folder.to_owned(), StoredReport { place, json, figures });
     }

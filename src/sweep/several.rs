@@ -6,7 +6,6 @@ use super::columns::{Cell, Column, Storage, push};
 use super::{Grid, fewest_of};
 use crate::case::ModalCase;
 use crate::criteria::together;
-use crate::digest::sha256;
 use crate::executor::Serial;
 use crate::measure::Device;
 use crate::modal::{ModalAnswer, seconds};
@@ -30,7 +29,7 @@ impl ModalPlan {
     pub fn of(case: &ModalCase) -> Option<Self> {
         let settings = &case.sweep.as_ref()?.settings;
         let mut named = case.text_hash.clone();
-        named.extend(case.modes_file.iter().map(|file| sha256(file.text.as_bytes())));
+        named.extend(case.modes_file.iter().map(|file| file.sha256.clone()));
         let plan = Self { grid: Grid::of(settings.clone(), 1, &named), case: case.clone() };
         let grid = Grid::of(settings.clone(), fewest_of(plan.seconds()), &named);
         Some(Self { grid, ..plan })

@@ -1,13 +1,17 @@
 //! `vinesink diff` as a reviewer and a script use it: reports of shipped cases against copies with one thing
 //! changed. The truth is the change that was made.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
+use regex::Regex;
 use serde_json::{Value, json};
 use tempfile::TempDir;
+use vinesink::diff::markdown::markdown;
+use vinesink::diff::{Difference, Document, Reports};
 
 use crate::common::{BAND, BRIDGE};
 
@@ -117,17 +121,25 @@ fn only_report(folder: &TempDir, code: i32) -> Value {
     document["reports"][0].clone()
 }
 
+/// What is said where no case is found.
+const NO_CASE: &str =
+    "Checked against their cases: none, because no case was found; `--cases` names their folder.";
+
+/// The answer where nothing changed, of so many reports whose cases are not there.
+fn no_change(reports: &str) -> String {
+    format!("No change: {reports} the same within their errors.\n{NO_CASE}\n")
+}
+
 fn only_report_is_none(folder: &TempDir) {
     let printed = diff(folder.path(), &["old", "new"], 0);
-    assert_eq!(printed, "No change: 1 report is the same within their errors.\n");
+    assert_eq!(printed, no_change("1 report is"));
 }
 
 #[test]
 fn equal_reports_are_one_line() {
     let folder = two_trees(&[STEADY, CHAOTIC]);
-    let same = "No change: 2 reports are the same within their errors.\n";
-    assert_eq!(diff(folder.path(), &["old", "new"], 0), same);
-    let one = "No change: 1 report is the same within their errors.\n";
+    assert_eq!(diff(folder.path(), &["old", "new"], 0), no_change("2 reports are"));
+    let one = no_change("1 report is");
     let (old, new) = (format!("old/{STEADY}"), format!("new/{STEADY}/report.json"));
     assert_eq!(diff(folder.path(), &[&old, &new], 0), one);
 }
@@ -343,11 +355,15 @@ fn motions_and_reports_that_appear_or_vanish_are_told() {
         list.as_array_mut().expect("a list").remove(0);
     });
     copy(&shipped(CHAOTIC), &folder.path().join("new/fresh"));
-    copy(&shipped(CHAOTIC), &folder.path().join("old/gone"));
+    // Of another design, or it would be the same one under a new name.
+    copy(
+        &Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/footbridge-jump"),
+        &folder.path().join("old/gone"),
+    );
     let printed = diff(folder.path(), &["old", "new"], 1);
     assert!(printed.contains("| Motion two-symmetric | there | – |"), "{printed}");
     assert!(printed.contains("### Reports added\n\n- **fresh**: Mixed: "), "{printed}");
-    assert!(printed.contains("### Reports removed\n\n- **gone**: Mixed: "), "{printed}");
+    assert!(printed.contains("### Reports removed\n\n- **gone**: "), "{printed}");
     // Its numbers are not told one by one.
     assert!(!printed.contains("spectral"), "{printed}");
 }
@@ -449,7 +465,7 @@ fn what_decides_is_read_before_what_explains() {
     let at = |wanted: &str| comment.find(wanted).unwrap_or_else(|| panic!("{wanted}\n{comment}"));
     let order = [
         "| Better device | damper | absorber |",
-        "| Band worst: peak displacement |",
+        "| Peak displacement over the band |",
         "| Range of amplitude to: amplitude of the force |",
         "| Damper ±5 % worst: peak displacement with a tuned mass damper |",
         "| Fixed point 1: amplitude of the oscillator |",
@@ -592,7 +608,9 @@ fn a_report_of_the_old_format_is_out_of_date() {
     }
     let printed = diff(folder.path(), &["old", "new"], 1);
     assert!(
-        printed.starts_with("## 2 reports out of date\n\nOld: `old`, new: `new`.\n"),
+        printed.starts_with(&format!(
+            "## 2 reports out of date\n\nOld: `old`, new: `new`. {NO_CASE}\n"
+        )),
         "{printed}"
     );
     for name in [STEADY, CHAOTIC] {
@@ -651,7 +669,7 @@ fn one_changed_clearance_is_read_in_forty_lines() {
         "| Absorber clearance | 50 mm | 60 mm |",
         "| share of the band with a stable 1:1 orbit ≥ 75 % | fails (",
         "| Main motion |",
-        "displacement |",
+        "displacement at its own frequency |",
     ];
     assert!(order.map(at).is_sorted(), "{read}");
     let key = read.split("| Key number |").nth(1).expect("key numbers");
@@ -684,6 +702,8 @@ fn rounding_never_appears() {
     let folder = two_trees(&names[..3]);
     beam(folder.path(), "50 mm", "old");
     copy(&folder.path().join("old/beam"), &folder.path().join("new/beam"));
+    // Beside it the others would be reports whose cases are gone.
+    fs::remove_dir_all(folder.path().join("cases")).expect("removed");
     for name in &names {
         let mut count = 0;
         let path = folder.path().join("new").join(name).join("report.json");
@@ -695,8 +715,11 @@ fn rounding_never_appears() {
         assert!(count > 100, "{name}: {count} numbers");
         fs::write(path, report.to_string()).expect("written");
     }
+    let printed = diff(folder.path(), &["old", "new"], 0);
     let same = format!("No change: {} reports are the same within their errors.\n", names.len());
-    assert_eq!(diff(folder.path(), &["old", "new"], 0), same);
+    assert!(printed.starts_with(&same), "{printed}");
+    // It fails on both sides.
+    assert!(printed.contains("Failed before too: `beam` (4 of 4 criteria)."), "{printed}");
 }
 
 /// A case that was edited after its report: the report is named, and what to do.
@@ -743,9 +766,9 @@ fn a_report_of_another_case_text_is_out_of_date() {
     // From elsewhere the case is found beside its report.
     fs::create_dir(path.join("elsewhere")).expect("a folder");
     diff(&path.join("elsewhere"), &["../old", "../new"], 1);
-    // Cases in a folder of another name, and where no report's case is.
+    // Cases in a folder of another name, found or named, and where no report's case is.
     fs::rename(path.join("cases"), path.join("designs")).expect("renamed");
-    diff(path, &["old", "new"], 0);
+    assert!(told(&["old", "new"]).contains(&format!("of `designs/{file}`")));
     let named = told(&["old", "new", "--cases", "designs"]);
     assert!(named.contains(&format!("`designs/{file}`")), "{named}");
     let none = refused(path, &["old", "new", "--cases", "nowhere"]);
@@ -776,5 +799,264 @@ fn a_report_of_another_version_is_out_of_date() {
     assert!(
         printed.starts_with("## 2 reports out of date\n\n2 reports are the same. "),
         "{printed}"
+    );
+}
+
+/// The keys that a schema gives an example or a choice, by the tables that they stand in; of a list of tables one.
+fn keys_of(schema: &Value, at: &[String], found: &mut Vec<Vec<String>>) {
+    let inner = schema["anyOf"].as_array().into_iter().flatten().chain([schema]);
+    let table = inner.into_iter().find(|one| one["properties"].is_object());
+    match table.filter(|_| schema["examples"].is_null()) {
+        Some(table) => {
+            for (key, one) in table["properties"].as_object().expect("properties") {
+                keys_of(one, &[at, std::slice::from_ref(key)].concat(), found);
+            }
+        }
+        None => found.push(at.to_vec()),
+    }
+}
+
+/// Any key that a case may have, a number, a word, a flag, a list or a table, is a row where it changes, comes or goes.
+#[test]
+fn every_key_of_a_case_is_an_input() {
+    let mut all = Vec::new();
+    for schema in [vinesink::case::schema(), vinesink::case::schema_of_several()] {
+        keys_of(&schema, &[], &mut all);
+    }
+    all.retain(|path| !["title", "source"].contains(&path[0].as_str()));
+    assert!(all.len() > 150, "{} keys", all.len());
+    let values =
+        [json!(false), json!(true), json!("7 mm"), json!(["a", "b"]), json!(0.25), Value::Null];
+    let of = |path: &[String], value: &Value, listed: bool| {
+        let mut case = value.clone();
+        for key in path.iter().rev() {
+            case = json!({ key.as_str(): case });
+        }
+        // As [[mode]] and [[absorber]] stand there.
+        if listed {
+            let table = case[&path[0]].take();
+            case[&path[0]] = json!([table, { "restitution": 0.5 }]);
+        }
+        let report =
+            json!({"format": "vinesink/answer@1", "asked": "report", "title": "T", "case": case});
+        let report = Document::parse("c/report.json", &report.to_string(), BTreeMap::new());
+        Reports::from([("c".to_owned(), report.expect("a report"))])
+    };
+    for (k, path) in all.iter().enumerate() {
+        let listed = path.len() > 1 && k % 2 == 1;
+        let mut name = path.clone();
+        if listed {
+            name.insert(1, "1".to_owned());
+        }
+        let name = name.join(" ").replace('_', " ");
+        for pair in values.windows(2) {
+            let sides = [&pair[0], &pair[1]].map(|value| of(path, value, listed));
+            for (old, new) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])] {
+                let found = Difference::of(("old", old), ("new", new));
+                let told = found.reports.first().map_or(&[][..], |one| &one.inputs);
+                assert_eq!(
+                    told.iter().map(|one| &one.what).collect::<Vec<_>>(),
+                    [&name],
+                    "{pair:?}"
+                );
+                assert!(found.is_significant());
+            }
+            let same = Difference::of(("old", &sides[0]), ("new", &sides[0]));
+            assert!(same.reports.is_empty() && !same.is_significant(), "{name}");
+        }
+    }
+}
+
+/// Reports of a verdict each, with a peak and many numbers, before and after.
+fn many(folder: &Path, count: usize, change: impl Fn(usize, &mut Value)) {
+    let text = fs::read_to_string(shipped(CHAOTIC).join("report.json")).expect("readable");
+    let whole: Value = serde_json::from_str(&text).expect("JSON");
+    for index in 0..count {
+        for side in ["old", "new"] {
+            let report = folder.join(side).join(format!("case-{index:03}"));
+            fs::create_dir_all(&report).expect("a folder");
+            let mut own = whole.clone();
+            own["verdict"]["word"] = json!("holds");
+            own["criteria"] = json!({"count": 1, "failing": 0,
+                "all": [criterion("peak_displacement", "<= 4", 3.9, 0.0, "holds")]});
+            if side == "new" {
+                change(index, &mut own);
+            }
+            fs::write(report.join("report.json"), own.to_string()).expect("written");
+        }
+    }
+}
+
+/// A criterion that held and fails.
+fn flip(report: &mut Value) {
+    report["verdict"]["word"] = json!("fails");
+    report["criteria"] = json!({"count": 1, "failing": 1,
+        "all": [criterion("peak_displacement", "<= 4", 4.1, 0.0, "fails")]});
+}
+
+/// Every number of the theory is another one: a section of some hundred lines.
+fn stir(report: &mut Value) {
+    for list in ["fixed_points", "orbits"] {
+        for point in report["theory"][list].as_array_mut().expect("a list") {
+            for (_, quantity) in point.as_object_mut().expect("an object") {
+                if let Some(number) = quantity["value"].as_f64() {
+                    quantity["value"] = json!(1.5 * number + 1.0);
+                }
+            }
+        }
+    }
+}
+
+/// What flips is read before what is worse, and that before the rest, wherever its name stands among the others.
+#[test]
+fn the_worst_comes_first_and_no_flip_is_cut() {
+    let folder = tempfile::tempdir().expect("a folder");
+    many(folder.path(), 150, |index, report| {
+        stir(report);
+        match index {
+            // The last by name.
+            149 => flip(report),
+            120 => {
+                let peak =
+                    report.pointer_mut("/quantities/peak_displacement/value").expect("a peak");
+                *peak = json!(2.0 * peak.as_f64().expect("a number"));
+            }
+            _ => {}
+        }
+    });
+    let printed = diff(folder.path(), &["old", "new"], 1);
+    assert!(printed.chars().count() <= 60_000);
+    assert!(printed.contains("_Cut here: "), "{printed}");
+    let flipped = "- **case-149**: FAILS (1 of 1), before HOLDS. Peak displacement ≤ 4: **fails (4.100 mm)**, held before (3.900 mm).";
+    assert!(printed.contains(flipped), "{}", &printed[..600]);
+    let at = |wanted: &str| printed.find(wanted).unwrap_or_else(|| panic!("{wanted}"));
+    let order = ["\n### case-149:", "\n### case-120:", "\n### case-000:", "_Cut here"];
+    assert!(order.map(at).is_sorted());
+    // As data, in the same order.
+    let printed = diff(folder.path(), &["old", "new", "--format", "json"], 1);
+    let document: Value = serde_json::from_str(&printed).expect("JSON");
+    let folders: Vec<_> = (0..3).map(|k| &document["reports"][k]["folder"]).collect();
+    assert_eq!(folders, ["case-149", "case-120", "case-000"]);
+}
+
+/// However many flip: with their numbers, as words, as names, and of more names than fit how many are left.
+#[test]
+fn every_flip_is_named() {
+    let side = |count: usize, flips: bool| -> Reports {
+        let report = |k: usize| {
+            let mut report = json!({"format": "vinesink/answer@1", "asked": "report", "title": "T",
+                "verdict": {"word": "holds", "headline": "less"}, "units": "si",
+                "quantities": {"clearance": {"id": "clearance", "value": 1e-3, "error": 0.0, "method": "given"}},
+                "criteria": {"count": 1, "failing": 0,
+                    "all": [criterion("peak_displacement", "<= 4", 3.9, 0.0, "holds")]}});
+            if flips {
+                flip(&mut report);
+            }
+            let name = format!("case-{k:04}");
+            (
+                name,
+                Document::parse("c/report.json", &report.to_string(), BTreeMap::new())
+                    .expect("a report"),
+            )
+        };
+        (0..count).map(report).collect()
+    };
+    let more = Regex::new(r"and (\d+) more names").expect("valid");
+    for (count, part) in [
+        (3, "before HOLDS. Peak"),
+        (150, "before HOLDS. Peak"),
+        (700, "before HOLDS."),
+        (1500, "flip**: case-0000, "),
+        (4000, " more names."),
+    ] {
+        let (old, new) = (side(count, false), side(count, true));
+        let printed = markdown(&Difference::of(("old", &old), ("new", &new)), [None, None])
+            .expect("Markdown");
+        assert!(printed.chars().count() <= 60_000, "{count}");
+        let verdicts = format!("**{count} verdicts flip**");
+        assert!(
+            printed.contains(&verdicts) && printed.contains(part),
+            "{count}: {}",
+            &printed[..400]
+        );
+        let named = (0..count).filter(|k| printed.contains(&format!("case-{k:04}"))).count();
+        let left = more.captures(&printed);
+        let left = left.map_or(0, |found| found[1].parse().expect("a number"));
+        assert_eq!(named + left, count);
+        assert!(count > 1500 || left == 0, "{count}: {left}");
+    }
+}
+
+/// Names of reports with characters that mean something in an address, in the comment and in the index.
+#[test]
+fn names_are_encoded_in_addresses() {
+    for (name, encoded) in
+        [("a#b", "a%23b"), ("50 % open", "50%20%25%20open"), ("ü?x=1&y", "%C3%BC%3Fx%3D1%26y")]
+    {
+        let folder = tempfile::tempdir().expect("a folder");
+        for side in ["old", "new"] {
+            copy(&shipped(STEADY), &folder.path().join(side).join(name));
+        }
+        fs::write(folder.path().join("new").join(name).join("figures/map.svg"), "<svg/>")
+            .expect("written");
+        let printed =
+            diff(folder.path(), &["old", "new", "--new-url", "https://forge.example/raw?a=1"], 0);
+        for image in [
+            format!("<img src=\"old/{encoded}/figures/map.svg\""),
+            format!("<img src=\"https://forge.example/raw?a=1/{encoded}/figures/map.svg\""),
+        ] {
+            assert!(printed.contains(&image), "{image}\n{printed}");
+        }
+        // The folder of all may have such a name as well.
+        fs::rename(folder.path().join("old"), folder.path().join("old #1")).expect("renamed");
+        let printed = diff(folder.path(), &["old #1", "new"], 0);
+        assert!(
+            printed.contains(&format!("<img src=\"old%20%231/{encoded}/figures/map.svg\"")),
+            "{printed}"
+        );
+    }
+}
+
+/// One name for one number: what it is over is a part of its name, and what caused a flip stands in the first lines.
+#[test]
+fn a_number_over_the_band_is_not_called_as_one_at_a_frequency() {
+    let folder = tempfile::tempdir().expect("a folder");
+    beam(folder.path(), "50 mm", "old");
+    copy(&folder.path().join("old"), &folder.path().join("new"));
+    let change = |pointer: &str, value: Value| {
+        edit(&folder, "beam", pointer, |there| *there = value.clone());
+    };
+    change("/case/absorber/clearance", json!("60 mm"));
+    change("/band/worst/regime", json!("at-rest"));
+    for peak in [
+        "/criteria/all/1/found/value",
+        "/band/worst/peak/value",
+        "/quantities/peak_displacement/value",
+    ] {
+        edit(&folder, "beam", peak, scaled(3.0));
+    }
+    edit_side(&folder, "old", "beam", |report| {
+        report["criteria"]["all"][1]["outcome"] = json!("holds");
+        report["criteria"]["all"][1]["holds"] = json!(true);
+        report["band"]["worst"]["regime"] = json!("two-symmetric");
+    });
+    let printed = diff(folder.path(), &["old", "new"], 1);
+    let (read, _) = printed.split_once("<details>").unwrap_or((&printed, ""));
+    for part in [
+        "\n> Peak displacement over the band ≤ 8 mm: **fails (292.7 mm)**, held before (97.56 mm).\n",
+        "> Absorber clearance from 50 mm to 60 mm. The worst motion over the band went from two symmetric impacts per period to absorber at rest, no impacts.\n",
+        "\n| peak displacement over the band ≤ 8 mm | holds (97.56 mm) | fails (292.7 mm) | **flipped** |",
+        "| Peak displacement at its own frequency | ",
+        "Failed before too: share of the band with a stable 1:1 orbit ≥ 75 %",
+    ] {
+        assert!(read.contains(part), "{part}\n{read}");
+    }
+    assert!(
+        !read.contains("| Peak displacement | ") && !read.contains("| peak displacement ≤"),
+        "{read}"
+    );
+    assert!(
+        !Regex::new(r"(?m)^[^`]*\w/\w+/\w").expect("valid").is_match(read),
+        "a path of JSON: {read}"
     );
 }

@@ -155,7 +155,7 @@ fn slips_that_can_be_read_are_warned_of() {
     // Of modes in a file the file is named.
     let case = text("cases/several/mast-two.toml");
     let file = text("cases/several/mast.csv").replace("0.5", "50");
-    let modes = vinesink::case::ModesFile { name: "mast.csv".into(), text: file };
+    let modes = vinesink::case::ModesFile::of_bytes("mast.csv", file.as_bytes()).expect("text");
     let told = ModalCase::parse_with("case.toml", &case, Some(modes)).expect("it is read").warnings;
     assert!(told.len() == 1 && told[0].underlined.contains("mast.csv"), "{told:?}");
     for path in ["floor", "graded", "mast-two"].map(|name| format!("cases/several/{name}.toml")) {

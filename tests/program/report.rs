@@ -339,3 +339,58 @@ fn markdown_changes_by_the_lines_that_changed() {
         assert!(row.ends_with('|'), "a row is a line: {row}");
     }
 }
+
+const QUICK: &str = "title = \"T\"\nsource = \"made up\"\n\n[reduced]\nmass_ratio = 0.0077\ndamping = 1.8\nrestitution = 0.6\nclearance = 1.0\nforcing = 2.0\nfrequency_ratio = 1.0\n\n[simulation]\nstarts = 2\nperiods = 50\ndiscard = 50\n";
+
+/// Runs the program in a folder: its exit code and what it complained.
+fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let mut command = Command::cargo_bin("vinesink").expect("built");
+    let output = command.current_dir(folder).args(arguments).output().expect("it runs");
+    (output.status.code(), String::from_utf8(output.stderr).expect("UTF-8"))
+}
+
+/// Two names that are one on some systems: in one run, and in one index.
+#[test]
+fn names_that_differ_by_letter_case_are_warned_of() {
+    let folder = TempDir::new().expect("a folder");
+    for (one, other) in [("bridge", "Bridge"), ("ärm", "ÄRM"), ("a b", "A b")] {
+        let files = [one, other].map(|name| format!("{name}.toml"));
+        for file in &files {
+            fs::write(folder.path().join(file), QUICK).expect("written");
+        }
+        let warning = format!("`{one}` and `{other}` differ by letter case alone");
+        let (code, told) = run(folder.path(), &["report", "--criteria-only", &files[0], &files[1]]);
+        assert!(code == Some(0) && told.contains(&warning), "{told}");
+        let (code, told) = run(folder.path(), &["index"]);
+        let indexed =
+            told.contains(&warning) || told.contains(&format!("`{other}` and `{one}` differ"));
+        assert!(code == Some(0) && indexed, "{told}");
+        let (_, told) = run(folder.path(), &["report", "--criteria-only", &files[0]]);
+        assert!(!told.contains(&warning), "{told}");
+        fs::remove_dir_all(folder.path().join("reports")).expect("removed");
+    }
+}
+
+/// Where nobody can be told, what was done is not denied.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_report_that_was_written_is_not_said_not_to_be() {
+    let folder = TempDir::new().expect("a folder");
+    for name in ["a", "b"] {
+        fs::write(folder.path().join(format!("{name}.toml")), QUICK).expect("written");
+    }
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_vinesink"));
+    command.current_dir(folder.path()).args(["report", "--criteria-only", "a.toml", "b.toml"]);
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("a device");
+    let output = command.stdout(full).output().expect("it runs");
+    let told = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    for name in ["a", "b"] {
+        assert!(folder.path().join(format!("reports/{name}/report.json")).exists(), "{name}");
+        assert!(told.contains(&format!("reports/{name}/report.md was written")), "{told}");
+    }
+    assert!(
+        told.contains("cannot write to standard output") && !told.contains("no report"),
+        "{told}"
+    );
+}

@@ -124,6 +124,25 @@ impl Repository {
         self.git(&["commit", "--quiet", "--message", message]);
     }
 
+    /// Writes the reports of cases, as [`Self::report`].
+    fn reports(&self, cases: &[&str]) {
+        let output = self.run("vinesink", &[&["report", "--criteria-only"], cases].concat(), &[]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    }
+
+    /// `report --check`: its exit code, what it names and what it counts.
+    fn check(&self, cases: &[&str]) -> (Option<i32>, String, String) {
+        let arguments = [&["report", "--check", "--criteria-only"], cases].concat();
+        let output = self.run("vinesink", &arguments, &[]);
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    }
+
+    fn replace(&self, file: &str, from: &str, to: &str) {
+        let content = fs::read_to_string(self.path().join(file)).expect("readable");
+        assert!(content.contains(from), "{from} in {content}");
+        self.write(file, &content.replacen(from, to, 1));
+    }
+
     fn report(&self) {
         let output = self.run("vinesink", &["report", "cases/damper.toml"], &[]);
         assert!(output.status.success(), "{}", text(&output.stderr));
@@ -166,7 +185,7 @@ fn revisions_are_read_without_a_checkout() {
     assert!(printed.contains("<code>map</code>") && !printed.contains("<img"), "{printed}");
     assert_eq!(
         repository.diff(&["wider", "HEAD"], 0),
-        "No change: 1 report is the same within their errors.\n"
+        "No change: 1 report is the same within their errors.\nChecked against their cases: 1 of 1 report.\n"
     );
     // A revision against the working folder, a folder of a revision, a single report.
     assert!(repository.diff(&["main", "reports"], 1).contains(CHANGED));
@@ -174,14 +193,6 @@ fn revisions_are_read_without_a_checkout() {
     let one = repository.diff(&["main", "wider", "--path", "reports/damper"], 1);
     assert!(one.contains(CHANGED), "{one}");
     assert!(repository.diff(&["main", "wider", "--path", "."], 1).contains(CHANGED));
-    // What is a folder as well is the folder.
-    let copied = repository.run("cp", &["-r", "reports", "main"], &[]);
-    assert!(copied.status.success());
-    assert_eq!(
-        repository.diff(&["main", "HEAD"], 0),
-        "No change: 1 report is the same within their errors.\n"
-    );
-    fs::remove_dir_all(repository.path().join("main")).expect("removed");
     assert_eq!(repository.git(&["status", "--porcelain"]), before);
     // Below the root, folders are those that are seen from there.
     let mut command = Command::new(env!("CARGO_BIN_EXE_vinesink"));
@@ -521,4 +532,444 @@ fn drawings_are_folded_in_reviews_and_the_report_is_not() {
     assert_eq!(attribute("figures/map.svg"), "set");
     assert_eq!(attribute("report.json"), "set");
     assert_eq!(attribute("report.md"), "unspecified");
+}
+
+/// A structure whose modes are in a file, under one load.
+const SEVERAL: &str = "\
+title = \"Mast\"
+source = \"made up\"
+
+[modes]
+file = \"modes/mast.csv\"
+
+[[absorber]]
+place = \"tip\"
+mass = \"2.4 kg\"
+clearance = \"2.47 mm\"
+restitution = 0.17
+
+[[excitation]]
+kind = \"force\"
+mode = 1
+amplitude = \"0.3583 N\"
+frequency = \"1.1 Hz\"
+
+[simulation]
+starts = 2
+";
+const MODES: &str = "\
+frequency (Hz), damping_ratio (%), mass (kg), tip, middle
+1.1, 0.5, 30, 1.0, 0.340
+6.894, 0.5, 30, 1.0, -0.714
+";
+
+/// A structure under a record.
+const UNDER_RECORD: &str = "\
+title = \"Tower\"
+source = \"made up\"
+
+[reduced]
+mass_ratio = 0.0077
+damping = 1.8
+restitution = 0.6
+clearance = 1.0
+kind = \"record\"
+file = \"quake.csv\"
+quantity = \"force\"
+
+[simulation]
+starts = 2
+";
+
+fn record(scale: f64) -> String {
+    let line =
+        |k: u32| format!("{},{:.6}\n", 0.25 * f64::from(k), scale * libm::sin(0.2 * f64::from(k)));
+    (0..120).fold("time,value\n".to_owned(), |text, k| text + &line(k))
+}
+
+/// A repository with the two of them and a third on `main`, in a folder of cases.
+fn three_cases(folder: &str) -> (Repository, [String; 3]) {
+    let repository = Repository::new();
+    repository.git(&["switch", "--quiet", "main"]);
+    repository.git(&["rm", "--quiet", "-r", "cases", "reports"]);
+    let cases = ["damper", "mast", "tower"].map(|name| format!("{folder}/{name}.toml"));
+    for (case, content) in cases.iter().zip([CASE, SEVERAL, UNDER_RECORD]) {
+        repository.write(case, content);
+    }
+    repository.write(&format!("{folder}/modes/mast.csv"), MODES);
+    repository.write(&format!("{folder}/quake.csv"), &record(1.0));
+    repository.write(".gitignore", "report.html\n");
+    repository.reports(&cases.each_ref().map(String::as_str));
+    repository.commit("Three designs");
+    repository.git(&["switch", "--quiet", "--create", "other"]);
+    (repository, cases)
+}
+
+/// Keys of a case that are no numbers, and numbers of the file of its modes.
+#[test]
+fn what_is_no_number_is_an_input_of_a_real_report() {
+    let (repository, [damper, mast, _]) = three_cases("cases");
+    let more = "\n[criteria]\ncount_inactive = false\npeak_displacement = \"<= 100.0\"\n\n[report]\ndeviations = false\nfigures = [\"areas\"]\n\n[optimize]\nobjective = \"z3-share\"\n";
+    repository.write(&damper, &format!("{CASE}{more}"));
+    repository.replace(
+        "cases/modes/mast.csv",
+        "6.894, 0.5, 30, 1.0, -0.714",
+        "6.894, 0.5, 30, 0.9, -0.714",
+    );
+    repository.replace("cases/modes/mast.csv", "1.1, 0.5", "1.1, 0.4");
+    repository.reports(&[&damper, &mast]);
+    let printed = repository.diff(&["HEAD", "reports"], 1);
+    for row in [
+        "| Criteria count inactive | – | false |",
+        "| Criteria peak displacement | – | <= 100.0 |",
+        "| Report deviations | – | false |",
+        "| Report figures | – | [\"areas\"] |",
+        "| Optimize objective | – | z3-share |",
+        "| Mode 1 damping ratio | 0.5 % | 0.4 % |",
+        "| Mode 2 shape tip | 1.0 | 0.9 |",
+        "| Content of modes/mast.csv | SHA-256 ",
+    ] {
+        assert!(printed.contains(row), "{row}\n{printed}");
+    }
+    // The same modes written in the case.
+    let own = SEVERAL.replace(
+        "[modes]\nfile = \"modes/mast.csv\"\n",
+        "[[mode]]\nfrequency = \"1.1 Hz\"\ndamping_ratio = 0.004\nmass = \"30 kg\"\nshape = { tip = 1.0, middle = 0.34 }\n\n[[mode]]\nfrequency = \"6.894 Hz\"\ndamping_ratio = 0.005\nmass = \"30 kg\"\nshape = { tip = 0.9, middle = -0.714 }\n",
+    );
+    repository.write(&mast, &own);
+    repository.reports(&[&mast]);
+    repository.commit("Modes in the case");
+    repository.write(
+        &mast,
+        &own.replace("tip = 0.9", "tip = 0.8")
+            .replace("damping_ratio = 0.004", "damping_ratio = 0.003"),
+    );
+    repository.reports(&[&mast]);
+    let printed = repository.diff(&["HEAD", "reports"], 1);
+    for row in ["| Mode 1 damping ratio | 0.004 | 0.003 |", "| Mode 2 shape tip | 0.9 | 0.8 |"] {
+        assert_eq!(printed.matches(row).count(), 1, "{row}\n{printed}");
+    }
+}
+
+/// The numbers of a record or of a file of modes changed and nobody wrote the report anew: in the working folder, and in a
+/// revision, whose own file counts.
+#[test]
+fn a_report_is_held_to_the_files_that_its_case_reads() {
+    let (repository, cases) = three_cases("cases");
+    let all = cases.each_ref().map(String::as_str);
+    assert!(
+        repository.diff(&["main", "reports"], 0).contains("Checked against their cases: 3 of 3")
+    );
+    repository.write("cases/quake.csv", &record(1.5));
+    let named = repository.diff(&["main", "reports"], 1);
+    let line = "- `reports/tower/report.json` was made from another text of `quake.csv`, which `cases/tower.toml` reads (SHA-256 ";
+    assert!(
+        named.contains(line)
+            && named.contains("run `vinesink report cases/tower.toml --out reports`."),
+        "{named}"
+    );
+    // Not of the revision that has the file as it was.
+    repository.diff(&["main", "HEAD"], 0);
+    repository.commit("Another record");
+    repository.replace("cases/modes/mast.csv", "0.340", "0.341");
+    repository.commit("Another mode");
+    let named = repository.diff(&["main", "HEAD"], 1);
+    for (report, file) in [("tower", "quake.csv"), ("mast", "modes/mast.csv")] {
+        let line = format!(
+            "`HEAD:./reports/{report}/report.json` was made from another text of `{file}`, which `HEAD:./cases/{report}.toml` reads"
+        );
+        assert!(named.contains(&line), "{line}\n{named}");
+    }
+    assert!(named.starts_with("## 2 reports out of date"), "{named}");
+    assert_eq!(repository.check(&all).0, Some(1));
+    fs::remove_file(repository.path().join("cases/quake.csv")).expect("removed");
+    assert!(
+        repository.diff(&["main", "reports"], 1).contains("the file is not there, or outside"),
+        "gone"
+    );
+    repository.git(&["restore", "cases"]);
+    // Written anew, it is an input that changed.
+    repository.reports(&all[1..]);
+    repository.commit("Reports");
+    let told = repository.diff(&["main", "HEAD"], 1);
+    assert!(!told.contains("Out of date"), "{told}");
+    for row in ["| Content of quake.csv | SHA-256 ", "| Mode 1 shape middle | 0.34 | 0.341 |"] {
+        assert!(told.contains(row), "{row}\n{told}");
+    }
+    assert_eq!(
+        repository.check(&all),
+        (Some(0), String::new(), "3 cases compared with 3 reports in reports\n".to_owned())
+    );
+}
+
+/// Cases in a folder of any name; a case that is gone, has another name, or came without a report.
+#[test]
+fn cases_and_reports_that_lost_each_other_are_named() {
+    for folder in ["designs", "a/deep/folder"] {
+        let (repository, cases) = three_cases(folder);
+        let [damper, mast, tower] = cases.each_ref().map(String::as_str);
+        let all = repository.diff(&["main", "HEAD"], 0);
+        assert!(all.contains("Checked against their cases: 3 of 3 reports."), "{folder}: {all}");
+        // Changed, and not reported.
+        repository.replace(damper, "clearance = 1.0", "clearance = 1.3");
+        let named = repository.diff(&["main", "reports"], 1);
+        assert!(
+            named.contains(&format!("was made from another text of `{damper}`")),
+            "{folder}: {named}"
+        );
+        repository.commit("A clearance");
+        let named = repository.diff(&["main", "HEAD"], 1);
+        assert!(
+            named.contains(&format!("was made from another text of `HEAD:./{damper}`")),
+            "{folder}: {named}"
+        );
+        // A copy of before hides nothing.
+        repository.write("a/archive/damper.toml", CASE);
+        repository.commit("A copy");
+        for arguments in [["main", "HEAD"], ["main", "reports"]] {
+            let named = repository.diff(&arguments, 1);
+            assert!(
+                named.contains("report.json` was made from another text of"),
+                "{folder}: {named}"
+            );
+        }
+        repository.git(&["reset", "--quiet", "--hard", "main"]);
+        // Deleted.
+        repository.git(&["rm", "--quiet", damper]);
+        repository.commit("No damper");
+        let named = repository.diff(&["main", "HEAD"], 1);
+        let line = "- `HEAD:./reports/damper/report.json` has no case, there is no `damper.toml`: remove its folder, or restore the case";
+        assert!(named.contains(line), "{folder}: {named}");
+        assert!(
+            repository
+                .diff(&["main", "reports"], 1)
+                .contains("- `reports/damper/report.json` has no case"),
+            "{folder}"
+        );
+        let gone = "reports/damper: its case damper.toml is gone; remove the folder\n";
+        assert_eq!(
+            repository.check(&[mast, tower]),
+            (Some(1), gone.to_owned(), "2 cases compared with 3 reports in reports\n".to_owned())
+        );
+        assert!(repository.run("vinesink", &["index"], &[]).status.success());
+        let index =
+            fs::read_to_string(repository.path().join("reports/README.md")).expect("an index");
+        let row = |name: &str| {
+            index
+                .lines()
+                .find(|line| line.starts_with(&format!("| [{name}]")))
+                .expect(name)
+                .to_owned()
+        };
+        assert!(
+            row("damper").contains("**its case is gone**") && !row("mast").contains("gone"),
+            "{index}"
+        );
+        if folder != "designs" {
+            continue;
+        }
+        // Another name, with the report or without.
+        repository.git(&["reset", "--quiet", "--hard", "main"]);
+        let shaker = format!("{folder}/shaker.toml");
+        repository.git(&["mv", damper, &shaker]);
+        repository.commit("A shaker");
+        let named = repository.diff(&["main", "HEAD"], 1);
+        let line = format!(
+            "`HEAD:./reports/damper/report.json` is of a case that is now called `HEAD:./{shaker}`: remove its folder and run `vinesink report {shaker} --out reports`"
+        );
+        assert!(named.contains(&line), "{folder}: {named}");
+        let (code, printed, _) = repository.check(&[&shaker, mast, tower]);
+        assert_eq!(code, Some(1));
+        assert!(
+            printed.contains(&format!(
+                "reports/damper: its case is now called {shaker}; remove the folder"
+            )),
+            "{printed}"
+        );
+        repository.git(&["rm", "--quiet", "-r", "reports/damper"]);
+        repository.replace(&shaker, "restitution = 0.6", "restitution = 0.5");
+        fs::remove_dir_all(repository.path().join("reports/damper")).unwrap_or_default();
+        repository.reports(&[&shaker]);
+        repository.commit("Its report");
+        let paired = repository.diff(&["main", "HEAD"], 1);
+        for part in [
+            "### shaker: Damper",
+            "> Compared with `damper`, which is no longer there",
+            "| Reduced restitution | 0.6 | 0.5 |",
+            "Checked against their cases: 3 of 3",
+        ] {
+            assert!(paired.contains(part), "{folder}: {part}\n{paired}");
+        }
+        assert!(
+            !paired.contains("Out of date") && !paired.contains("### Reports"),
+            "{folder}: {paired}"
+        );
+        // A new one without a report.
+        repository.write(
+            &format!("{folder}/fresh.toml"),
+            &CASE.replace("restitution = 0.6", "restitution = 0.9"),
+        );
+        repository.commit("A fresh one");
+        let named = repository.diff(&["main", "HEAD"], 1);
+        let line = format!(
+            "- `HEAD:./{folder}/fresh.toml` came or changed, and has no report: run `vinesink report {folder}/fresh.toml --out reports`"
+        );
+        assert!(named.contains(&line), "{folder}: {named}");
+    }
+}
+
+/// A checkout that ends lines with a carriage return has the same cases, records and figures.
+#[test]
+fn line_ends_of_a_checkout_are_no_change() {
+    let (repository, cases) = three_cases("cases");
+    let all = cases.each_ref().map(String::as_str);
+    fn carriage_returns(folder: &Path) {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                carriage_returns(&path);
+            } else {
+                let content = fs::read_to_string(&path).expect("text");
+                fs::write(&path, content.replace('\n', "\r\n")).expect("written");
+            }
+        }
+    }
+    for folder in ["cases", "reports"] {
+        carriage_returns(&repository.path().join(folder));
+    }
+    let same = repository.diff(&["main", "reports"], 0);
+    assert_eq!(
+        same,
+        "No change: 3 reports are the same within their errors.\nChecked against their cases: 3 of 3 reports.\n"
+    );
+    assert_eq!(repository.check(&all).0, Some(0));
+    // As git does it.
+    repository.git(&["restore", "cases", "reports"]);
+    repository.git(&["config", "core.autocrlf", "true"]);
+    repository.git(&["rm", "--quiet", "--cached", "-r", "."]);
+    repository.git(&["reset", "--quiet", "--hard"]);
+    let case = fs::read_to_string(repository.path().join(&cases[0])).expect("a case");
+    assert!(case.contains("\r\n"), "{case:?}");
+    repository.diff(&["main", "reports"], 0);
+    assert_eq!(repository.check(&all).0, Some(0));
+    // Written there, it is the report of everybody, with the digest of before.
+    repository.reports(&all);
+    repository.git(&["config", "core.autocrlf", "false"]);
+    let json =
+        fs::read_to_string(repository.path().join("reports/damper/report.json")).expect("a report");
+    assert!(json.contains(&vinesink::digest::sha256(CASE.as_bytes())), "{json}");
+    // A changed text is one, whatever its line ends.
+    repository.write(
+        &cases[0],
+        &CASE.replace("clearance = 1.0", "clearance = 1.2").replace('\n', "\r\n"),
+    );
+    assert!(
+        repository
+            .diff(&["main", "reports"], 1)
+            .contains("was made from another text of `cases/damper.toml`")
+    );
+}
+
+/// What is a folder and a revision is neither until somebody says which.
+#[test]
+fn a_folder_called_like_a_revision_is_refused() {
+    let repository = Repository::new();
+    repository.git(&["tag", "v1"]);
+    repository.git(&["branch", "designs/x"]);
+    for (name, full) in [
+        ("main", "refs/heads/main"),
+        ("v1", "refs/tags/v1"),
+        ("designs/x", "refs/heads/designs/x"),
+        ("HEAD", "HEAD^0"),
+    ] {
+        repository.run("mkdir", &["-p", name], &[]);
+        assert!(repository.run("cp", &["-r", "reports/damper", name], &[]).status.success());
+        for arguments in [[name, "wider"], ["wider", name]] {
+            let message = repository.diff(&arguments, 2);
+            assert!(
+                message.contains(&format!(
+                    "`{name}` is a file or folder here, and a revision that git knows"
+                )),
+                "{message}"
+            );
+            assert!(
+                message.contains(&format!(
+                    "write ./{name} for what is there, or {full} for the revision"
+                )),
+                "{message}"
+            );
+        }
+        // Both ways that are named are taken.
+        repository.diff(&[full, "wider"], i32::from(name == "main"));
+        repository.diff(&["wider", &format!("./{name}")], 0);
+        fs::remove_dir_all(repository.path().join(name)).expect("removed");
+    }
+}
+
+/// What others did on the base since is not the branch's.
+#[test]
+fn a_branch_is_compared_with_where_it_began() {
+    let repository = Repository::new();
+    repository.git(&["switch", "--quiet", "main"]);
+    repository.write("cases/damper.toml", &CASE.replace("restitution = 0.6", "restitution = 0.7"));
+    repository.report();
+    repository.commit("Another restitution");
+    repository.git(&["switch", "--quiet", "wider"]);
+    for arguments in
+        [&["main...HEAD"][..], &["main..."], &["main...wider"], &["main...", "reports"]]
+    {
+        let printed = repository.diff(arguments, 1);
+        assert!(
+            printed.contains(CHANGED) && !printed.contains("estitution |"),
+            "{arguments:?}: {printed}"
+        );
+        assert!(printed.contains("Old: `main..."), "{printed}");
+    }
+    for arguments in [["main", "HEAD"], ["main", "reports"], ["main:reports", "wider"]] {
+        let printed = repository.diff(&arguments, 1);
+        assert!(printed.contains("| Reduced restitution | 0.7 | 0.6 |"), "{printed}");
+        let [old, new] = arguments;
+        assert!(
+            printed.contains(&format!(
+                "`{old}` has commits that `{new}` lacks: what they changed appears taken back."
+            )),
+            "{printed}"
+        );
+    }
+    let forward = repository.diff(&["main~1", "HEAD"], 1);
+    assert!(!forward.contains("lacks"), "{forward}");
+    assert!(repository.diff(&["mian...HEAD"], 2).contains("`mian` is neither a file"));
+    assert!(repository.diff(&["main"], 2).contains("there is nothing to compare `main` with"));
+}
+
+/// Whether a criterion that fails did so before is said, also where nothing else changed.
+#[test]
+fn a_criterion_that_failed_before_says_so() {
+    let repository = Repository::new();
+    let failing = |clearance: &str| {
+        let case = CASE.replace("clearance = 1.0", &format!("clearance = {clearance}"));
+        format!(
+            "{case}\n[criteria]\npeak_displacement = \"<= 0.001\"\nimpact_velocity = \"<= 1e-6\"\n"
+        )
+    };
+    repository.git(&["switch", "--quiet", "main"]);
+    repository.write("cases/damper.toml", &failing("1.0"));
+    repository.report();
+    repository.commit("Strict");
+    let same = repository.diff(&["main", "HEAD"], 0);
+    assert!(same.contains("Failed before too: `damper` (2 of 2 criteria)."), "{same}");
+    repository.write("cases/damper.toml", &failing("1.1"));
+    repository.report();
+    let printed = repository.diff(&["main", "reports"], 1);
+    assert!(
+        printed
+            .contains("\n> Failed before too: peak displacement ≤ 0.001, impact velocity ≤ 1e-6."),
+        "{printed}"
+    );
+    assert!(printed.contains("| failed before too |") && !printed.contains("flip"), "{printed}");
+    let (review, _) = repository.review("main", &[], 1);
+    assert!(
+        review.contains("**A criterion fails**") && review.contains("Failed before too"),
+        "{review}"
+    );
 }

@@ -326,7 +326,7 @@ fn reviewed(old: &str, new: &str) -> Option<(String, bool)> {
 
 fn indexed(report: &str) -> Option<(String, String)> {
     let summary = Summary::read("c/report.json", report).ok()?;
-    let case = IndexedReport { name: "c".to_owned(), summary, files: Vec::new() };
+    let case = IndexedReport { name: "c".to_owned(), summary, files: Vec::new(), orphan: false };
     let files = index::files(vec![case], Vec::new()).ok()?;
     let file = |name: &str| text(&files[&PathBuf::from(name)]);
     Some((file(index::MARKDOWN), file(index::HTML)))
@@ -682,4 +682,78 @@ fn shipped_reports_are_read() {
         assert!(!significant && comment.starts_with("No change"), "{comment}");
         assert!(indexed(&report).is_some());
     }
+}
+
+/// Marks of direction and other characters that nobody sees, in titles and names of places.
+#[test]
+fn characters_that_nobody_sees_reach_no_page_and_no_terminal() {
+    let unseen = [
+        '\u{202e}',
+        '\u{2066}',
+        '\u{200f}',
+        '\u{61c}',
+        '\u{200b}',
+        '\u{2060}',
+        '\u{ad}',
+        '\u{feff}',
+        '\u{e0041}',
+        '\u{3164}',
+    ];
+    let title: String = unseen.iter().map(|one| format!("a{one}b ")).collect();
+    let mast = fs::read_to_string("cases/several/mast-two.toml").expect("a case");
+    let modes = fs::read_to_string("cases/several/mast.csv").expect("a file");
+    // As a name of a place in the file of modes, and in the case.
+    let place = title.replace(' ', "");
+    let mast = mast.lines().map(|line| match line.split_once(" = ") {
+        Some(("title", _)) => format!("title = {}", toml(&title)),
+        Some(("place", _)) => format!("place = {}", toml(&place)),
+        Some(("starts" | "periods", _)) => "starts = 2".to_owned(),
+        _ => line.replace("place = \"tip\"", &format!("place = {}", toml(&place))),
+    });
+    let mast = mast.collect::<Vec<_>>().join("\n");
+    // One load is enough.
+    let (head, rest) = mast.split_once("[[excitation]]").expect("loads");
+    let (load, rest) = rest.split_once("[[excitation]]").expect("loads");
+    let (_, tail) = rest.split_once("[simulation]").expect("a table");
+    let load = load
+        .replace("from = \"0.935 Hz\"", "frequency = \"1.1 Hz\"")
+        .replace("to = \"1.21 Hz\"", "");
+    let mast = format!("{head}[[excitation]]{load}[simulation]{tail}");
+    let folder = folder_with(&[
+        ("one.toml", &case(&title)),
+        ("mast.toml", &mast),
+        ("mast.csv", &modes.replace("tip", &place)),
+    ]);
+    let mut printed = String::new();
+    for arguments in [
+        &["report", "one.toml", "mast.toml", "--out", "reports"][..],
+        &["report", "one.toml", "--out", "old", "--criteria-only"],
+        &["index"],
+        &["check", "one.toml"],
+        &["check", "one.toml", "--format", "json"],
+        &["check", "one.toml", "--format", "github"],
+        &["simulate", "mast.toml"],
+        &["diff", "old", "reports"],
+    ] {
+        let output = vinesink(folder.path(), arguments);
+        assert_ne!(output.status.code(), Some(2), "{arguments:?} {}", text(&output.stderr));
+        printed += &text(&output.stdout);
+        printed += &text(&output.stderr);
+    }
+    assert!(!printed.contains(unseen), "{printed}");
+    let mut pages = 0;
+    let mut folders = vec![folder.path().join("reports")];
+    while let Some(inside) = folders.pop() {
+        for entry in fs::read_dir(inside).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending != "json") {
+                let page = fs::read_to_string(&path).expect("text");
+                assert!(!page.contains(unseen), "{}", path.display());
+                pages += 1;
+            }
+        }
+    }
+    assert!(pages > 10, "{pages}");
 }

@@ -20,7 +20,8 @@ fn reports(text: &str) -> Option<Reports> {
 
 fuzz_target!(|text: &str| {
     if let Ok(summary) = Summary::read("report.json", text) {
-        let member = IndexedReport { name: "one".to_owned(), summary, files: Vec::new() };
+        let member =
+            IndexedReport { name: "one".to_owned(), summary, files: Vec::new(), orphan: false };
         let _ = files(vec![member], Vec::new());
     }
     let Some(read) = reports(text) else { return };

@@ -16,6 +16,7 @@ mod universal;
 mod warnings;
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use toml::de::DeTable;
 
@@ -25,7 +26,7 @@ use super::document;
 use super::error::{CaseError, Problem};
 use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
-use crate::digest::sha256;
+use crate::digest::text_sha256;
 use crate::measure::PlaceMeasure;
 use crate::quantity::Kind;
 use crate::quantity::catalogue as of;
@@ -46,7 +47,7 @@ pub struct ModalCase {
     pub title: String,
     /// Where its numbers come from.
     pub source: String,
-    /// SHA-256 of the file's text, in hexadecimal.
+    /// SHA-256 of the file's text with line ends of one kind, in hexadecimal.
     pub text_hash: String,
     /// Whether it is dimensionless: lengths and masses in a unit of their own, frequencies over that of the first mode, and time
     /// `omega_1 t` in place of SI.
@@ -77,6 +78,8 @@ pub struct ModalCase {
     pub sweep: Option<ModalSweep>,
     /// What is almost surely a slip, in the order of the file's lines.
     pub warnings: Vec<Problem>,
+    /// The file's text, after a byte order mark.
+    pub(crate) text: Arc<str>,
     /// Where the values of each absorber stand in the text, as [`AbsorberKey::ALL`].
     pub(crate) values: Vec<[Option<Range<usize>>; AbsorberKey::ALL.len()]>,
 }
@@ -263,13 +266,13 @@ impl ModalCase {
         let refused = |problems, more| CaseError::new(name, visible, problems, more);
         let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
         let mut reader = Reader::of(visible);
-        match read::read(&mut reader, &document, sha256(text.as_bytes()), modes.as_ref())? {
+        match read::read(&mut reader, &document, text_sha256(text), modes.as_ref())? {
             Some((case, spans)) if reader.problems.is_empty() => {
                 if let Some(problem) = warnings::out_of_scale(&case, visible) {
                     return Err(refused(vec![problem], 0));
                 }
                 let warnings = warnings::of(&case, visible, &spans, reader.warnings);
-                Ok(Self { modes_file: modes, warnings, ..case })
+                Ok(Self { modes_file: modes, warnings, text: Arc::from(visible), ..case })
             }
             _ => Err(refused(reader.problems, reader.more)),
         }
@@ -285,10 +288,11 @@ impl ModalCase {
         text: &str,
         absorbers: &[PlacedAbsorber],
     ) -> Result<(String, Self), RewriteError> {
-        if sha256(text.as_bytes()) != self.text_hash {
+        let mut text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
+        // Places are those of this very text, line ends included.
+        if *text != *self.text {
             return Err(RewriteError::OtherText);
         }
-        let mut text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
         let mut changes: Vec<(Range<usize>, String)> = Vec::new();
         for ((own, new), values) in self.absorbers.iter().zip(absorbers).zip(&self.values) {
             for (key, span) in AbsorberKey::ALL.into_iter().zip(values) {

@@ -1,6 +1,7 @@
 //! Reads the tables of a case of several modes and absorbers.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -272,6 +273,7 @@ pub(super) fn read(
         bounds,
         sweep: None,
         warnings: Vec::new(),
+        text: Arc::default(),
         values,
     };
     for load in &case.loads {

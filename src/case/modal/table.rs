@@ -8,6 +8,7 @@ use crate::case::error::{CaseError, Problem};
 use crate::case::quantity::unit_in_brackets;
 use crate::case::record::{lines, problem};
 use crate::case::record_file::{Reading, RecordTable, text_of};
+use crate::digest::file_sha256;
 use crate::quantity::Dimension;
 use crate::quantity::unit::Unit;
 use crate::system::LARGEST_DAMPING_RATIO;
@@ -19,6 +20,8 @@ pub struct ModesFile {
     pub name: String,
     /// Its text.
     pub text: String,
+    /// SHA-256 of its bytes with line ends of one kind.
+    pub sha256: String,
 }
 
 impl ModesFile {
@@ -28,10 +31,11 @@ impl ModesFile {
     /// # Errors
     /// [`CaseError`] where it is no text.
     pub fn of_bytes(name: &str, bytes: &[u8]) -> Result<Self, CaseError> {
+        let sha256 = file_sha256(bytes);
         let bytes = universal::without_binary(bytes);
         let text = text_of(name, "a file of modes", &bytes)
             .map_err(|(message, help)| CaseError::of_file(name, message, &help))?;
-        Ok(Self { name: name.to_owned(), text: text.into_owned() })
+        Ok(Self { name: name.to_owned(), text: text.into_owned(), sha256 })
     }
 
     /// Its text without a byte order mark.

@@ -60,7 +60,19 @@ pub fn answer(case: &Case, content: Content, fields: Value) -> Value {
     if let Some(support) = scale::support(case) {
         document["support"] = support;
     }
+    if content == Content::Report {
+        keep_case(&mut document, case.written(), case.files());
+    }
     document
+}
+
+/// Puts into a report what it was made from, so that a comparison misses none of it: every key of the case as written, and
+/// the SHA-256 of the files that the case reads, by their names, where it reads any.
+pub fn keep_case(document: &mut Value, written: Value, files: BTreeMap<String, String>) {
+    document["case"] = written;
+    if !files.is_empty() {
+        document["provenance"]["files"] = json!(files);
+    }
 }
 
 /// The same of any case: its title, source and SHA-256, the name of its units, and the fields.

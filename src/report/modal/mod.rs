@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::document::criteria::badge;
 use super::document::place::FilePlace;
-use super::document::{Content, Tone, Word, headed};
+use super::document::{Content, Tone, Word, headed, keep_case};
 use super::error::RenderError;
 use super::render::{Files, in_lines, page_files};
 use super::template::{render, worded};
@@ -344,6 +344,7 @@ pub fn document(
             "frequency": given(&of::NATURAL_FREQUENCY, mode.frequency_hz),
             "damping_ratio": given(&of::DAMPING_RATIO, mode.damping_ratio),
             "mass": mass(case, &of::OSCILLATOR_MASS, mode.mass_kg),
+            "participation": mode.participation,
             "shape": mode.shape,
         })
     });
@@ -391,7 +392,12 @@ pub fn document(
         "starts": case.starts,
         "figures": [],
     });
-    headed([&case.title, &case.source, &case.text_hash], units(case).name(), content, fields)
+    let heading = [&case.title, &case.source, &case.text_hash].map(String::as_str);
+    let mut document = headed(heading, units(case).name(), content, fields);
+    if content == Content::Report {
+        keep_case(&mut document, case.written(), case.files());
+    }
+    document
 }
 
 /// The files of its report.
