@@ -55,7 +55,7 @@ fn tower(clearance: &str, count: u32, value: impl Fn(f64) -> f64) -> Case {
     let record = format!("time (s),acceleration (m/s²)\n{}", rows.collect::<String>());
     let bounds = "\n[optimize]\nclearance = [\"10 mm\", \"80 mm\"]\n";
     let case = Case::parse("tower.toml", &format!("{text}{PLACES}{bounds}")).expect("a case");
-    case.with_record("tower.csv", &record).expect("a record")
+    case.with_record("tower.csv", record).expect("a record")
 }
 
 fn peaks_of_record(case: &Case, clearance: f64) -> [f64; 2] {
