@@ -10,11 +10,12 @@ use crate::quantity::Kind;
 use crate::quantity::catalogue::Dimension;
 
 /// Quantities that a reviewer looks at first, by path, the most important first.
-const HEADLINES: [&str; 30] = [
+const HEADLINES: [&str; 31] = [
     "absorbers",
     "band/worst/peak",
     "band/worst/change",
     "loads/worst/peak",
+    "loads/worst",
     "quantities/decay_time",
     "quantities/active_decay_time",
     "quantities/peak_displacement",
@@ -44,7 +45,7 @@ const HEADLINES: [&str; 30] = [
 ];
 
 /// Those before this one are of the structure with its absorber.
-const FURTHER_HEADLINES: usize = 15;
+const FURTHER_HEADLINES: usize = 16;
 
 /// The same of what has no size. Those before [`FURTHER_STATES`] are told before the fold.
 const STATES: [&str; 9] = [
