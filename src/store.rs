@@ -23,7 +23,7 @@ pub use git::{read_files_at, read_reports_at};
 pub use growing::Growing;
 pub use reading::{CaseText, Reach, open, read_case, read_record, read_text};
 pub use reports::{StoredReport, StoredReports, read_reports};
-pub use shards::Shards;
+pub use shards::{Found, Shards, Sharing, Turn};
 
 /// The bytes of a file as text.
 fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, StoreError> {

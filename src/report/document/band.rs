@@ -7,6 +7,7 @@ use crate::analysis::Strip;
 use crate::band::{Band, Rivals, Survey, Worst};
 use crate::case::BandOver;
 use crate::criteria::{method, of_stability};
+use crate::dampers::AtBound;
 use crate::linear::{bare_amplitude, level_error};
 use crate::method::Method::{self, ClosedForm, ExactOrbit, Theory};
 use crate::motions::{Motion, Motions, RestKind};
@@ -58,6 +59,8 @@ pub(in crate::report) fn damper(
     json!({
         "frequency": scale.damper_frequency(damper.tuning),
         "damping_ratio": Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, ClosedForm),
+        // What it is where the search for it ended at a bound.
+        "at_bound": AtBound::of(damper.tuning, damper.damping_ratio),
         "peak": length(&of::DAMPER_PEAK, damped.amplitude),
         "at": along.map(|one| scale.place(one.over, damped.at)),
         "stroke": length(&of::DAMPER_STROKE, damped.stroke),
