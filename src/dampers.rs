@@ -91,10 +91,10 @@ impl Designing {
     pub const USUAL: Self = Self { damping: None, steps: STEPS, restarts: RESTARTS };
 }
 
-/// Tunings over that of the damper to begin with, and damping ratios, of which the best is where a simplex begins once more
-/// that ended at a bound: far from a resonance there are several places with no better one beside them.
-const ELSEWHERE: [f64; 9] = [0.25, 0.4, 0.6, 0.8, 1.0, 1.25, 1.6, 2.5, 4.0];
+/// Damping ratios and so many steps between all tunings, of which the best is where a simplex begins once more that ended at a
+/// bound: far from a resonance there are several places with no better one beside them. Without much damping they are narrow.
 const DAMPED: [f64; 4] = [0.01, 0.05, 0.2, 0.8];
+const TUNED: [u32; 2] = [40, 200];
 
 /// The damper with the smallest cost that a simplex finds from one to begin with, within what makes sense.
 pub fn best(
@@ -107,11 +107,14 @@ pub fn best(
     if AtBound::of(found.tuning, damping_ratio).is_none() {
         return found;
     }
-    let others = ELSEWHERE.iter().flat_map(|factor| {
-        DAMPED.map(|damping| TunedMassDamper {
-            tuning: factor * from.tuning,
-            damping_ratio: how.damping.unwrap_or(damping),
-        })
+    let (steps, dampings) = match how.damping {
+        Some(damping) => (TUNED[1], vec![damping]),
+        None => (TUNED[0], DAMPED.to_vec()),
+    };
+    let [least, most] = TUNED_WITHIN;
+    let others = (0..=steps).flat_map(|k| {
+        let tuning = least * libm::pow(most / least, f64::from(k) / f64::from(steps));
+        dampings.iter().map(move |damping| TunedMassDamper { tuning, damping_ratio: *damping })
     });
     let by_cost = |a: &TunedMassDamper, b: &TunedMassDamper| cost(a).total_cmp(&cost(b));
     let other = others.min_by(by_cost).map(|first| beside(first, how, &cost));
@@ -306,4 +309,35 @@ pub fn for_sweep(system: &System, scales: &Scales, sweep: &SineSweep) -> TunedMa
             swept(&system, Some(damper), &Scales::REDUCED, &sweep, false).peak()[1]
         })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AtBound, Designing, best};
+    use crate::linear::TunedMassDamper;
+
+    /// Whatever the cost falls towards, the search ends at the bound there and says so; one with a least value inside does not.
+    #[test]
+    fn a_search_that_runs_to_its_end_says_so() {
+        let from = TunedMassDamper::den_hartog(0.05);
+        let found = |cost: &dyn Fn(&TunedMassDamper) -> f64| best(from, Designing::USUAL, cost);
+        let at = |one: TunedMassDamper| AtBound::of(one.tuning, one.damping_ratio);
+        let inside = |value: f64, least: f64| {
+            let off = libm::log(value / least);
+            1.0 + off * off
+        };
+        let heavy = found(&|one| inside(one.tuning, 1.1) / one.damping_ratio);
+        assert_eq!((at(heavy), heavy.damping_ratio <= 10.0), (Some(AtBound::Fixed), true));
+        let stiff = found(&|one| inside(one.damping_ratio, 0.1) / one.tuning);
+        assert_eq!((at(stiff), stiff.tuning <= 10.0), (Some(AtBound::Fixed), true));
+        let soft = found(&|one| inside(one.damping_ratio, 0.1) * one.tuning);
+        assert_eq!((at(soft), soft.tuning >= 0.1), (Some(AtBound::Detached), true));
+        let light = found(&|one| inside(one.tuning, 1.1) * one.damping_ratio);
+        assert_eq!((at(light), light.damping_ratio >= 1e-4), (Some(AtBound::Undamped), true));
+        let own = found(&|one| inside(one.tuning, 1.1) * inside(one.damping_ratio, 0.2));
+        assert_eq!(at(own), None);
+        assert!(
+            (own.tuning / 1.1 - 1.0).abs() < 1e-3 && (own.damping_ratio / 0.2 - 1.0).abs() < 1e-3
+        );
+    }
 }

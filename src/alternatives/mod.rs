@@ -424,4 +424,3 @@ impl DriftedCase {
         more_damped(found, fits)
     }
 }
-

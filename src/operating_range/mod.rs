@@ -116,7 +116,11 @@ pub fn holds_for(
         // What is level and has ends alike does the mirrored thing at the mirrored inclination; its starts are not mirrored, so
         // that it is looked at where that is short.
         let mirrored = number.varied == Varied::Inclination && !up && case.has_ideal_walls();
-        if mirrored && Look::OnTheWay.of(case) == Look::OnTheWay { Ok(None) } else { number.search(own, least, up).map(Some) }
+        if mirrored && Look::OnTheWay.of(case) == Look::OnTheWay {
+            Ok(None)
+        } else {
+            number.search(own, least, up).map(Some)
+        }
     };
     let sides = map(on, "ranges", 2 * all.len(), side);
     let mut sides = sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter();
@@ -131,7 +135,8 @@ pub fn holds_for(
         let mut reached: Vec<[f64; 2]> =
             below.reached.into_iter().chain(here).chain(above.reached).collect();
         reached.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut tried: Vec<f64> = below.tried.into_iter().chain([value]).chain(above.tried).collect();
+        let mut tried: Vec<f64> =
+            below.tried.into_iter().chain([value]).chain(above.tried).collect();
         tried.sort_by(f64::total_cmp);
         undecided.dedup_by(|next, before| {
             // The case itself is decided.

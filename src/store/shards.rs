@@ -122,9 +122,8 @@ impl Shards {
             read => read.map(Some),
         };
         let Some(seal) = read(&self.seal_path(chunk))? else { return Ok(Found::Nothing) };
-        let fits = read(&self.path(chunk))?.is_some_and(|bytes| {
-            seal == self.seal(chunk, &bytes).as_bytes()
-        });
+        let fits = read(&self.path(chunk))?
+            .is_some_and(|bytes| seal == self.seal(chunk, &bytes).as_bytes());
         Ok(if fits { Found::Whole } else { Found::Unfit })
     }
 

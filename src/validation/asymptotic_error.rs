@@ -140,15 +140,14 @@ fn partners(system: &System, theory: &[BoundaryAt], limits: &[Limit]) -> Vec<Opt
 /// came; those of which nothing is left are not there.
 fn lightened(system: &System, limits: &[Limit]) -> Vec<(Limit, usize)> {
     let all = limits.iter().cloned().enumerate();
-    let mut known: Vec<(Limit, Option<usize>)> =
-        all.map(|(k, limit)| (limit, Some(k))).collect();
+    let mut known: Vec<(Limit, Option<usize>)> = all.map(|(k, limit)| (limit, Some(k))).collect();
     let (mut scale, mut step) = (1.0, LIGHTER);
     let mut here = *system;
     while asymptotic_error(&here) > LIGHT && known.iter().any(|one| one.1.is_some()) {
         let lighter = with_mass_scaled(system, scale * step);
-        let Some((there, family)) = lighter.and_then(|there| {
-            Some((there, SymmetricFamily::of(&there).ok()?))
-        }) else {
+        let Some((there, family)) =
+            lighter.and_then(|there| Some((there, SymmetricFamily::of(&there).ok()?)))
+        else {
             return Vec::new();
         };
         let (next, smooth) = carried_on(&known, &family.limits);
@@ -167,9 +166,8 @@ fn carried_on(
     known: &[(Limit, Option<usize>)],
     next: &[Limit],
 ) -> (Vec<(Limit, Option<usize>)>, bool) {
-    let change = |a: &Limit, b: &Limit| {
-        libm::log(a.absorber_amplitude / b.absorber_amplitude).abs()
-    };
+    let change =
+        |a: &Limit, b: &Limit| libm::log(a.absorber_amplitude / b.absorber_amplitude).abs();
     let mut pairs: Vec<(usize, usize, f64)> = Vec::new();
     for (k, (old, _)) in known.iter().enumerate() {
         let same = next.iter().enumerate().filter(|(_, new)| new.kind == old.kind);

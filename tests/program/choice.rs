@@ -401,7 +401,9 @@ fn a_band_says_where_the_absorber_is_worse_than_none() {
 
 /// A structure that is driven at one frequency: mass, natural frequency, damping ratio, absorber, clearance, restitution, force,
 /// its frequency, and the largest displacement that is asked for.
-fn driven([mass, hertz, damping, absorber, clearance, restitution, force, at, limit]: [f64; 9]) -> String {
+fn driven(
+    [mass, hertz, damping, absorber, clearance, restitution, force, at, limit]: [f64; 9],
+) -> String {
     format!(
         "title = 't'\nsource = 's'\n[oscillator]\nmass = \"{mass:?} kg\"\nfrequency = \"{hertz:?} Hz\"\n\
          damping_ratio = {damping:?}\n[absorber]\nmass = \"{absorber:?} kg\"\nclearance = \"{clearance:?} m\"\n\
@@ -412,8 +414,15 @@ fn driven([mass, hertz, damping, absorber, clearance, restitution, force, at, li
 
 /// One whose motion wanders, with an error that reaches the limit with some clearances.
 const WANDERS: [f64; 9] = [
-    4.214234688595195, 25.148522407192015, 0.007482023634801036, 0.3918853992501443,
-    0.0011180259648442528, 0.4, 18.67786697155288, 25.151715368046954, 0.0013675522286967384,
+    4.214234688595195,
+    25.148522407192015,
+    0.007482023634801036,
+    0.3918853992501443,
+    0.0011180259648442528,
+    0.4,
+    18.67786697155288,
+    25.151715368046954,
+    0.0013675522286967384,
 ];
 
 /// Where a range is told `check` holds at every design that was tried, first of all close to the case: in steps of half of the
@@ -423,16 +432,37 @@ const WANDERS: [f64; 9] = [
 fn all_criteria_hold_at_every_design_that_was_tried() {
     let folder = tempfile::tempdir().expect("a folder");
     let first = [
-        1.2163048250089792, 23.46930409285462, 0.0054174768425583174, 0.07035946232988434,
-        0.0007776324733504057, 0.301, 1.7925392327954894, 23.781267516119424, 0.0006935166236554767,
+        1.2163048250089792,
+        23.46930409285462,
+        0.0054174768425583174,
+        0.07035946232988434,
+        0.0007776324733504057,
+        0.301,
+        1.7925392327954894,
+        23.781267516119424,
+        0.0006935166236554767,
     ];
     let second = [
-        4.624608774105471, 3.756169584177345, 0.006263862806129511, 0.07909689750541998,
-        0.00027388110706417064, 0.415, 0.020279888807387236, 3.747065410179219, 0.0002828045289481739,
+        4.624608774105471,
+        3.756169584177345,
+        0.006263862806129511,
+        0.07909689750541998,
+        0.00027388110706417064,
+        0.415,
+        0.020279888807387236,
+        3.747065410179219,
+        0.0002828045289481739,
     ];
     let third = [
-        18.978943768838743, 0.6474654511831506, 0.0148265515135668, 0.7051335405786774,
-        0.0010219765597645175, 0.4, 0.022601736128704017, 0.6468798230423702, 0.0012071893206184894,
+        18.978943768838743,
+        0.6474654511831506,
+        0.0148265515135668,
+        0.7051335405786774,
+        0.0010219765597645175,
+        0.4,
+        0.022601736128704017,
+        0.6468798230423702,
+        0.0012071893206184894,
     ];
     let uncertain = format!(
         "{}[uncertainty]\nclearance = \"± 0.000004 m\"\namplitude = \"0.0002 N\"\n",

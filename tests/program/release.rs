@@ -246,9 +246,8 @@ fn the_share_of_places_is_said_beside_their_worst() {
         let path = folder.path().join(format!("{name}.toml"));
         fs::write(&path, text).expect("written");
         let [path, out] = [&path, &out].map(|path| path.to_str().expect("UTF-8"));
-        let told = |arguments: &[&str]| {
-            String::from_utf8(vinesink(arguments).stdout).expect("UTF-8")
-        };
+        let told =
+            |arguments: &[&str]| String::from_utf8(vinesink(arguments).stdout).expect("UTF-8");
         let checked = told(&["check", path, "--criteria-only"]);
         assert!(checked.contains(", worst of 95.4 % of places"), "{checked}");
         assert!(checked.contains("at most 4.6 % of all places are worse"), "{checked}");
@@ -257,7 +256,10 @@ fn the_share_of_places_is_said_beside_their_worst() {
         assert_eq!((&sample["even"], &sample["all"]), (&64.into(), &96.into()), "{sample}");
         assert!((sample["share_above"].as_f64().expect("a share") - 0.045_7).abs() < 1e-3);
         let simulated = told(&["simulate", path]);
-        assert!(simulated.contains("from the worst of 95.4 % of the absorber's places"), "{simulated}");
+        assert!(
+            simulated.contains("from the worst of 95.4 % of the absorber's places"),
+            "{simulated}"
+        );
         let mut all = vec![checked, simulated];
         // Those of a sweep and of a record take long.
         if name == "let-go" {

@@ -745,9 +745,11 @@ fn a_chunk_that_does_not_fit_loses_nothing() {
 /// wait says for whom, and the results are those of one alone.
 #[test]
 fn sweeps_at_the_same_time_lose_nothing() {
-    for (count, verbs) in
-        [(60, [&[][..], &[], &[]]), (40, [&["run"][..], &[], &["run"]]), (20, [&[][..], &["run"], &["run"]])]
-    {
+    for (count, verbs) in [
+        (60, [&[][..], &[], &[]]),
+        (40, [&["run"][..], &[], &["run"]]),
+        (20, [&[][..], &["run"], &["run"]]),
+    ] {
         let folder = folder(count);
         let begun = verbs.map(|verb| {
             let arguments = [verb, &["map.toml"]].concat();
@@ -766,7 +768,8 @@ fn sweeps_at_the_same_time_lose_nothing() {
         let bytes = |folder: &Path| fs::read(merged(folder)).expect("merged");
         assert!(bytes(folder.path()) == bytes(apart.path()));
         let chunks = chunk(folder.path(), 0).parent().expect("a folder").to_owned();
-        let left = fs::read_dir(chunks).expect("chunks").map(|one| one.expect("a file").file_name());
+        let left =
+            fs::read_dir(chunks).expect("chunks").map(|one| one.expect("a file").file_name());
         let left: Vec<_> = left.filter(|name| !name.to_string_lossy().starts_with('0')).collect();
         assert!(left.is_empty(), "{left:?}");
     }
@@ -782,13 +785,17 @@ fn a_sweep_waits_for_another_one_and_says_so() {
     let held = fs::File::open(&chunks).expect("a folder");
     held.lock().expect("free");
     let mut command = command(folder.path(), &["map.toml"]);
-    let mut waiting = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("it runs");
+    let mut waiting =
+        command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("it runs");
     let mut said = String::new();
     let mut lines = BufReader::new(waiting.stderr.take().expect("piped"));
     while !said.contains("waiting until it is done") {
         assert!(lines.read_line(&mut said).expect("a line") > 0, "{said}");
     }
-    assert!(said.contains("Another process works on this sweep in") && said.contains("chunks"), "{said}");
+    assert!(
+        said.contains("Another process works on this sweep in") && said.contains("chunks"),
+        "{said}"
+    );
     assert_eq!(waiting.try_wait().expect("it runs"), None);
     held.unlock().expect("held");
     assert_eq!(waiting.wait().expect("it ends").code(), Some(0));

@@ -7,7 +7,6 @@ use crate::analysis::Strip;
 use crate::band::{Band, Rivals, Survey, Worst};
 use crate::case::BandOver;
 use crate::criteria::{method, of_stability};
-use crate::dampers::AtBound;
 use crate::linear::{bare_amplitude, level_error};
 use crate::method::Method::{self, ClosedForm, ExactOrbit, Theory};
 use crate::motions::{Motion, Motions, RestKind};
@@ -60,7 +59,7 @@ pub(in crate::report) fn damper(
         "frequency": scale.damper_frequency(damper.tuning),
         "damping_ratio": Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, ClosedForm),
         // What it is where the search for it ended at a bound.
-        "at_bound": AtBound::of(damper.tuning, damper.damping_ratio),
+        "at_bound": rivals.at_bound(),
         "peak": length(&of::DAMPER_PEAK, damped.amplitude),
         "at": along.map(|one| scale.place(one.over, damped.at)),
         "stroke": length(&of::DAMPER_STROKE, damped.stroke),
