@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use argmin::core::{CostFunction, Error, Executor, State as _};
 use argmin::solver::neldermead::NelderMead;
+use serde::Serialize;
 
 use crate::excitation::{SineSweep, SweepRate, amplitude};
 use crate::linear::{BandSystems, TunedMassDamper, released, swept};
@@ -20,6 +21,59 @@ const STEPS: u64 = 120;
 const RESTARTS: u32 = 3;
 /// The same of a sweep, each of whose passages is many periods.
 const STEPS_OF_SWEEP: u64 = 40;
+/// How often the way to the largest damping is halved.
+const HALVINGS: u32 = 40;
+
+/// Tunings within which a damper is looked for, over the frequency that it is for: beyond them it follows the structure, or
+/// stays where it is.
+const TUNED_WITHIN: [f64; 2] = [0.1, 10.0];
+/// Damping ratios within which it is: from that of a steel bell up to ten times the critical one, with which its mass moves
+/// against the structure by a twentieth of what that moves.
+const DAMPED_WITHIN: [f64; 2] = [1e-4, 10.0];
+
+/// What a damper is at a bound of the search for it, where it no longer is one that is tuned and damped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum AtBound {
+    /// As stiff or as damped as makes sense: as good as fixed to the structure.
+    Fixed,
+    /// As soft as makes sense: as good as none.
+    Detached,
+    /// As little damped as makes sense.
+    Undamped,
+}
+
+impl AtBound {
+    /// Of a tuning, over the frequency that the damper is for, and a damping ratio that were looked for.
+    pub fn of(tuning: f64, damping_ratio: f64) -> Option<Self> {
+        let [soft, stiff] = [1.0 + NEAR, 1.0 - NEAR];
+        if tuning >= stiff * TUNED_WITHIN[1] || damping_ratio >= stiff * DAMPED_WITHIN[1] {
+            Some(Self::Fixed)
+        } else if tuning <= soft * TUNED_WITHIN[0] {
+            Some(Self::Detached)
+        } else {
+            (damping_ratio <= soft * DAMPED_WITHIN[0]).then_some(Self::Undamped)
+        }
+    }
+}
+
+/// Relative distance from a bound at which a simplex that runs into it has ended there.
+const NEAR: f64 = 1e-3;
+
+/// Tuning, over the frequency that it is for, and damping ratio of a damper by their logarithms, within what makes sense.
+pub(crate) fn within_bounds([tuning, damping_ratio]: [f64; 2]) -> [f64; 2] {
+    let within = |logarithm: f64, [least, most]: [f64; 2]| libm::exp(logarithm).clamp(least, most);
+    [within(tuning, TUNED_WITHIN), within(damping_ratio, DAMPED_WITHIN)]
+}
+
+/// By which the cost grows beyond what makes sense: a simplex that strays comes back.
+pub(crate) fn penalty([tuning, damping_ratio]: [f64; 2]) -> f64 {
+    let beyond = |logarithm: f64, ends: [f64; 2]| {
+        let [least, most] = ends.map(libm::log);
+        (least - logarithm).max(logarithm - most).max(0.0)
+    };
+    1.0 + beyond(tuning, TUNED_WITHIN) + beyond(damping_ratio, DAMPED_WITHIN)
+}
 
 /// What a design may vary.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,25 +91,59 @@ impl Designing {
     pub const USUAL: Self = Self { damping: None, steps: STEPS, restarts: RESTARTS };
 }
 
-/// The damper with the smallest cost that a simplex finds from one to begin with.
+/// Damping ratios and so many steps between all tunings, of which the best is where a simplex begins once more that ended at a
+/// bound: far from a resonance there are several places with no better one beside them. Without much damping they are narrow.
+const DAMPED: [f64; 4] = [0.01, 0.05, 0.2, 0.8];
+const TUNED: [u32; 2] = [40, 200];
+
+/// The damper with the smallest cost that a simplex finds from one to begin with, within what makes sense.
 pub fn best(
     from: TunedMassDamper,
     how: Designing,
     cost: impl Fn(&TunedMassDamper) -> f64,
+) -> TunedMassDamper {
+    let found = beside(from, how, &cost);
+    let damping_ratio = if how.damping.is_some() { 1.0 } else { found.damping_ratio };
+    if AtBound::of(found.tuning, damping_ratio).is_none() {
+        return found;
+    }
+    let (steps, dampings) = match how.damping {
+        Some(damping) => (TUNED[1], vec![damping]),
+        None => (TUNED[0], DAMPED.to_vec()),
+    };
+    let [least, most] = TUNED_WITHIN;
+    let others = (0..=steps).flat_map(|k| {
+        let tuning = least * libm::pow(most / least, f64::from(k) / f64::from(steps));
+        dampings.iter().map(move |damping| TunedMassDamper { tuning, damping_ratio: *damping })
+    });
+    let by_cost = |a: &TunedMassDamper, b: &TunedMassDamper| cost(a).total_cmp(&cost(b));
+    let other = others.min_by(by_cost).map(|first| beside(first, how, &cost));
+    [Some(found), other].into_iter().flatten().min_by(by_cost).unwrap_or(found)
+}
+
+/// The same from one place to begin at.
+fn beside(
+    from: TunedMassDamper,
+    how: Designing,
+    cost: &impl Fn(&TunedMassDamper) -> f64,
 ) -> TunedMassDamper {
     let mut best = vec![libm::log(from.tuning)];
     if how.damping.is_none() {
         best.push(libm::log(from.damping_ratio));
     }
     let damper = |logarithms: &[f64]| {
-        let damping = logarithms.get(1).map(|one| libm::exp(*one));
-        TunedMassDamper {
-            tuning: libm::exp(logarithms[0]),
-            damping_ratio: damping.or(how.damping).unwrap_or_default(),
-        }
+        let logarithm = logarithms.get(1).copied();
+        let [tuning, damping] = within_bounds([logarithms[0], logarithm.unwrap_or_default()]);
+        let damping_ratio = logarithm.map_or(how.damping.unwrap_or_default(), |_| damping);
+        TunedMassDamper { tuning, damping_ratio }
+    };
+    let cost = |logarithms: &[f64]| {
+        // A ratio that is given is within.
+        let damping = logarithms.get(1).copied().unwrap_or_default();
+        penalty([logarithms[0], damping]) * cost(&damper(logarithms))
     };
     let sizes = &SIMPLEX[..best.len()];
-    damper(&simplex(best, sizes, how.steps, how.restarts, |logarithms| cost(&damper(logarithms))))
+    damper(&simplex(best, sizes, how.steps, how.restarts, cost))
 }
 
 /// Where a simplex that begins at a place, with these sizes along each axis, finds the smallest cost; it begins so many times
@@ -123,6 +211,23 @@ fn known<const N: usize>(
         lock().insert(key, found);
         found
     })
+}
+
+/// The same damper with as much more damping as it takes to fit, or as makes sense.
+pub fn more_damped(
+    from: TunedMassDamper,
+    fits: impl Fn(&TunedMassDamper) -> bool,
+) -> TunedMassDamper {
+    let with = |damping_ratio: f64| TunedMassDamper { damping_ratio, ..from };
+    let [mut least, mut most] = [from.damping_ratio, DAMPED_WITHIN[1]];
+    if fits(&from) || least >= most {
+        return from;
+    }
+    for _ in 0..HALVINGS {
+        let middle = (least * most).sqrt();
+        if fits(&with(middle)) { most = middle } else { least = middle }
+    }
+    with(most)
 }
 
 /// A structure with nothing but what a linear one has.
@@ -204,4 +309,35 @@ pub fn for_sweep(system: &System, scales: &Scales, sweep: &SineSweep) -> TunedMa
             swept(&system, Some(damper), &Scales::REDUCED, &sweep, false).peak()[1]
         })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AtBound, Designing, best};
+    use crate::linear::TunedMassDamper;
+
+    /// Whatever the cost falls towards, the search ends at the bound there and says so; one with a least value inside does not.
+    #[test]
+    fn a_search_that_runs_to_its_end_says_so() {
+        let from = TunedMassDamper::den_hartog(0.05);
+        let found = |cost: &dyn Fn(&TunedMassDamper) -> f64| best(from, Designing::USUAL, cost);
+        let at = |one: TunedMassDamper| AtBound::of(one.tuning, one.damping_ratio);
+        let inside = |value: f64, least: f64| {
+            let off = libm::log(value / least);
+            1.0 + off * off
+        };
+        let heavy = found(&|one| inside(one.tuning, 1.1) / one.damping_ratio);
+        assert_eq!((at(heavy), heavy.damping_ratio <= 10.0), (Some(AtBound::Fixed), true));
+        let stiff = found(&|one| inside(one.damping_ratio, 0.1) / one.tuning);
+        assert_eq!((at(stiff), stiff.tuning <= 10.0), (Some(AtBound::Fixed), true));
+        let soft = found(&|one| inside(one.damping_ratio, 0.1) * one.tuning);
+        assert_eq!((at(soft), soft.tuning >= 0.1), (Some(AtBound::Detached), true));
+        let light = found(&|one| inside(one.tuning, 1.1) * one.damping_ratio);
+        assert_eq!((at(light), light.damping_ratio >= 1e-4), (Some(AtBound::Undamped), true));
+        let own = found(&|one| inside(one.tuning, 1.1) * inside(one.damping_ratio, 0.2));
+        assert_eq!(at(own), None);
+        assert!(
+            (own.tuning / 1.1 - 1.0).abs() < 1e-3 && (own.damping_ratio / 0.2 - 1.0).abs() < 1e-3
+        );
+    }
 }

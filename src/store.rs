@@ -25,7 +25,7 @@ pub use git::{
 pub use growing::Growing;
 pub use reading::{CaseText, Reach, open, read_case, read_named, read_text};
 pub use reports::{StoredReport, StoredReports, read_reports};
-pub use shards::Shards;
+pub use shards::{Found, Shards, Sharing, Turn};
 
 /// The bytes of a file as text.
 ///

@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::band::{Survey, SurveySettings, Worst};
 use crate::case::Case;
 use crate::criteria;
-use crate::dampers::{self, Designing};
+use crate::dampers::{self, AtBound, Designing, more_damped};
 use crate::excitation::Scene;
 use crate::executor::Executor;
 use crate::flights::{DrivenError, Places};
@@ -108,9 +108,6 @@ const PENALTY: f64 = 20.0;
 
 /// Relative error of a designed damper and of what it does, which a simplex finds: from other starts it came to within 2e-7.
 pub const DESIGN: f64 = 1e-6;
-/// Damping ratio with which any damper is as good as fixed, and how often the way there is halved.
-const MOST_DAMPING: f64 = 100.0;
-const HALVINGS: u32 = 40;
 /// Points of a line over the drift.
 const POINTS: u32 = 40;
 /// Dampers from the best of which one for little room is looked for: tunings over the usual one, and so many steps of equal
@@ -230,6 +227,14 @@ impl Row {
             _ if self.given_damping.is_some() => Which::DamperWithoutMedium,
             _ => Which::Damper,
         }
+    }
+
+    /// What its damper is where the search for it ended at a bound; none where it did not, or its numbers were given.
+    pub fn at_bound(&self) -> Option<AtBound> {
+        let damper = self.damper.filter(|_| !self.changed)?;
+        // A ratio that is given is none that was looked for.
+        let damping_ratio = if self.given_damping.is_some() { 1.0 } else { damper.damping_ratio };
+        AtBound::of(damper.tuning, damping_ratio)
     }
 
     /// A device as designed, without any damper's numbers.
@@ -418,18 +423,4 @@ impl DriftedCase {
         };
         more_damped(found, fits)
     }
-}
-
-/// A damper with as much more damping as it takes to fit.
-fn more_damped(from: TunedMassDamper, fits: impl Fn(&TunedMassDamper) -> bool) -> TunedMassDamper {
-    if fits(&from) {
-        return from;
-    }
-    let with = |damping_ratio: f64| TunedMassDamper { damping_ratio, ..from };
-    let [mut least, mut most] = [from.damping_ratio, MOST_DAMPING];
-    for _ in 0..HALVINGS {
-        let middle = (least * most).sqrt();
-        if fits(&with(middle)) { most = middle } else { least = middle }
-    }
-    with(most)
 }

@@ -1,7 +1,7 @@
 //! What else could be done along a band: nothing, or a tuned mass damper of the same mass, with the best design of it.
 
 use super::Band;
-use crate::dampers;
+use crate::dampers::{self, AtBound};
 use crate::linear::{BandSystems, Damped, TunedMassDamper, bare_amplitude};
 
 /// What can be done without the absorber. Lengths over the clearance.
@@ -16,6 +16,11 @@ pub struct Rivals {
 }
 
 impl Rivals {
+    /// What the damper is where the search for it ended at a bound.
+    pub fn at_bound(&self) -> Option<AtBound> {
+        AtBound::of(self.damper.tuning, self.damper.damping_ratio)
+    }
+
     /// Those along a band.
     pub fn along(band: &Band) -> Self {
         let along = BandSystems::of(band);

@@ -53,7 +53,7 @@ names! { key:
         ImpactsPerPeriod = "impacts_per_period",
         /// Whether every start leads to the same long-term motion.
         NoCoexistence = "no_coexistence",
-        /// Time in which a released structure comes down to `decay_level`, from the worst place of the absorber.
+        /// Time in which a released structure comes down to `decay_level`, from the worst of the absorber's places that are flown.
         DecayTime = "decay_time",
     }
 }

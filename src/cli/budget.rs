@@ -18,6 +18,8 @@ pub use work::{BEST_ANSWER, Work};
 
 /// Seconds that are ordinary: every shipped case takes a few.
 const ORDINARY: f64 = 60.0;
+/// Those of a probability, which is that of 200 checks.
+const ORDINARY_PROBABILITY: f64 = 180.0;
 /// Cases beside a case: where its frequency is another, and where one of its numbers is.
 const DRIFTS: u64 = 8;
 const VARIANTS: u64 = 20;
@@ -50,9 +52,9 @@ impl Long {
     /// What of that which is asked is looked at beside so much work; what takes too long is left out, and said.
     pub fn decides(self, path: &Path, case: &Case, work: &[Work], asked: Decided) -> Decided {
         let own = seconds(work);
-        let allowed = |what: &str, variants: u64| {
+        let allowed_in = |ordinary: f64, what: &str, variants: u64| {
             let seconds = seconds(&Work::variants(case, variants));
-            let allowed = self.long || own + seconds <= ORDINARY;
+            let allowed = self.long || own + seconds <= ordinary;
             if !allowed {
                 output::complain(&format!(
                     "{}: {what} left out, which would take about {}; add --long for them",
@@ -62,6 +64,7 @@ impl Long {
             }
             allowed
         };
+        let allowed = |what: &str, variants: u64| allowed_in(ORDINARY, what, variants);
         Decided {
             alternatives: asked.alternatives
                 && allowed("the tuned mass dampers beside the absorber are", DRIFTS),
@@ -78,7 +81,11 @@ impl Long {
                 && allowed("the combinations of amplitude and frequency are", COMBINED),
             reliability: asked.reliability
                 && drawn(case) > 0
-                && allowed("the probability that the criteria hold is", drawn(case)),
+                && allowed_in(
+                    ORDINARY_PROBABILITY,
+                    "the probability that the criteria hold is",
+                    drawn(case),
+                ),
         }
     }
 
@@ -124,12 +131,21 @@ fn refused(path: &Path, slips: &str, seconds: f64, what: &str) -> Result<()> {
 
 /// Designs that are looked at for the ranges of a case.
 fn variants(case: &Case, asked: Decided) -> u64 {
-    if case.criteria.is_empty() { 0 } else { VARIANTS * asked.ranges.len() as u64 }
+    // At a single excitation there are more, each as thorough as the case itself.
+    let is_point = case.design.scene() == Scene::Steady && case.range().is_point();
+    let each = if is_point { 8 * VARIANTS } else { VARIANTS };
+    if case.criteria.is_empty() { 0 } else { each * asked.ranges.len() as u64 }
 }
 
-/// Designs that are looked at for the probability that criteria hold, with those of its causes.
+/// Designs that are looked at for the probability that criteria hold, each as `check` does, over those that are looked at less
+/// thoroughly; a release has no such look, and its causes are looked for as well.
 fn drawn(case: &Case) -> u64 {
-    2 * u64::from(Reliability::samples(case))
+    let each = match case.design.scene() {
+        Scene::Steady => 4,
+        Scene::Release => 2,
+        Scene::Sweep | Scene::Record => 6,
+    };
+    each * u64::from(Reliability::samples(case))
 }
 
 /// About how many seconds work takes.

@@ -14,7 +14,7 @@ use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, Paral
 use vinesink::program::case_file::{self, Reading};
 use vinesink::program::output;
 use vinesink::program::progress::{Progress, duration};
-use vinesink::store::Shards;
+use vinesink::store::{Found, Shards, Sharing, Turn};
 use vinesink::sweep::{Grid, parquet};
 
 use super::budget::{Long, Work};
@@ -131,12 +131,17 @@ pub fn run(arguments: Arguments) -> Result<bool> {
             let sweep = Sweep::open(&at)?;
             sweep.of.is_ordinary(&at.case, long)?;
             let wanted = task::chunks(chunk, every, sweep.grid().chunks())?;
+            let _turn = sweep.take_turn(Sharing::WithOthers)?;
             sweep.work(&wanted)?;
             Ok(true)
         }
         (Some(Verb::Submit(arguments)), _) => submit::run(&arguments),
         (Some(Verb::Status(at)), _) => status(&Sweep::open(&at)?),
-        (Some(Verb::Merge { sweep, wanted }), _) => Sweep::open(&sweep)?.merge(&wanted),
+        (Some(Verb::Merge { sweep, wanted }), _) => {
+            let sweep = Sweep::open(&sweep)?;
+            sweep.is_whole()?;
+            sweep.merge(&wanted, &sweep.take_turn(Sharing::Alone)?)
+        }
         (None, Some(at)) => {
             let sweep = Sweep::open(&at)?;
             sweep.of.is_ordinary(&at.case, arguments.long)?;
@@ -144,8 +149,9 @@ pub fn run(arguments: Arguments) -> Result<bool> {
                 return estimate(&sweep);
             }
             sweep.is_ordinary_in_all(&at.case, arguments.long)?;
+            let turn = sweep.take_turn(Sharing::Alone)?;
             sweep.work(&(0..sweep.grid().chunks()).collect::<Vec<_>>())?;
-            sweep.merge(&arguments.wanted)
+            sweep.merge(&arguments.wanted, &turn)
         }
         (None, None) => Err(miette!(
             help = "write for example `vinesink sweep map.toml`",
@@ -230,9 +236,35 @@ impl Sweep {
         Ok(Shards::open(&self.out, &chunks, &self.grid().identity_of_chunks())?)
     }
 
-    /// Works out those of some chunks that are not there, on all processors.
+    /// Waits until this process may work on the chunks, and says so.
+    fn take_turn(&self, sharing: Sharing) -> Result<Turn> {
+        Ok(self.shards()?.take_turn(sharing, |folder| {
+            output::complain(&format!(
+                "Another process works on this sweep in {}: waiting until it is done.",
+                shown(folder)
+            ));
+        }))
+    }
+
+    /// Works out those of some chunks that are not there, on all processors. All are looked at before: what cannot be read, or
+    /// is damaged, is said before hours of work and not after.
     fn work(&self, chunks: &[u64]) -> Result<()> {
         let shards = self.shards()?;
+        let found = self.look(chunks)?;
+        let unfit: Vec<u64> =
+            found.iter().filter(|(_, found)| *found == Found::Unfit).map(|one| one.0).collect();
+        if let [first, rest @ ..] = unfit.as_slice() {
+            let others = match rest.len() {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            output::complain(&format!(
+                "{}{others}: damaged, or of another sweep; worked out again.",
+                shown(&shards.path(*first))
+            ));
+        }
+        let missing = found.iter().filter(|(_, found)| *found != Found::Whole);
+        let chunks: &[u64] = &missing.map(|one| one.0).collect::<Vec<_>>();
         let points = |chunk: &u64| self.grid().chunk(*chunk).count() as u64;
         let progress = Progress::new("points", chunks.iter().map(points).sum());
         // Each chunk on its own: in longer pieces a processor would be left with many at the end.
@@ -258,13 +290,17 @@ impl Sweep {
         Ok(shards.keep(chunk, &bytes)?)
     }
 
+    /// What is there of some chunks.
+    fn look(&self, chunks: &[u64]) -> Result<Vec<(u64, Found)>> {
+        let shards = self.shards()?;
+        chunks.into_par_iter().map(|chunk| Ok((*chunk, shards.look(*chunk)?))).collect()
+    }
+
     /// The chunks that are not there.
     fn missing(&self) -> Result<Vec<u64>> {
-        let shards = self.shards()?;
-        let missing = |chunk| Ok((!shards.holds(chunk)?).then_some(chunk));
-        let all: Result<Vec<Option<u64>>> =
-            (0..self.grid().chunks()).into_par_iter().map(missing).collect();
-        Ok(all?.into_iter().flatten().collect())
+        let found = self.look(&(0..self.grid().chunks()).collect::<Vec<_>>())?;
+        let missing = found.into_iter().filter(|(_, found)| *found != Found::Whole);
+        Ok(missing.map(|(chunk, _)| chunk).collect())
     }
 }
 

@@ -15,7 +15,7 @@ use crate::linear::{BandSystems, bare_amplitude};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
-use crate::transient::Study;
+use crate::transient::{Sample, Study};
 
 pub use contact::Contact;
 use scope::Scope;
@@ -52,6 +52,8 @@ pub struct Judged {
     pub criterion: Criterion,
     /// Records that it is about; 0 where none drives the structure.
     pub records: usize,
+    /// From which places of the absorber it is known, where that is not driven steadily: others may be worse.
+    pub sample: Option<Sample>,
     /// What was found, in the criterion's unit; none where nothing could be measured.
     pub found: Option<f64>,
     /// How far that may be off by what the deciding layer neglects: the theory's boundaries by its own
@@ -202,6 +204,7 @@ impl Criterion {
         Judged {
             criterion: self.clone(),
             records: 0,
+            sample: None,
             found,
             error,
             margin,
@@ -248,10 +251,11 @@ impl Judged {
         self.outcome() == Outcome::Fails && within && self.decided_by == Method::Simulation
     }
 
-    /// The same of a value under so many records, whose error may mean something else.
-    fn under(self, records: usize) -> Self {
+    /// The same of what becomes of places of the absorber, under records whose error may mean something else.
+    fn of_study(self, study: &Study) -> Self {
+        let (records, sample) = (study.records(), study.sample());
         let open = |room| self.criterion.is_open(room, self.error, records);
-        Self { records, near_limit: self.margin.is_some_and(open), ..self }
+        Self { records, sample, near_limit: self.margin.is_some_and(open), ..self }
     }
 }
 
@@ -279,7 +283,7 @@ pub fn judge_transient(case: &Case, study: &Study) -> Vec<Judged> {
         let judged = criterion.judged(Some(found.value), found.error, found.method);
         // What is not simulated is the structure alone, where no wall reaches the absorber.
         let inactive = inactive.filter(|_| found.method == Method::ClosedForm);
-        Judged { inactive, ..judged }.under(study.records())
+        Judged { inactive, ..judged }.of_study(study)
     };
     case.criteria.iter().map(judge).collect()
 }

@@ -5,7 +5,7 @@ use super::linear::{
     amplitudes, asked_of, largest, largest_peak, linear_most, linear_peak, linear_places,
 };
 use crate::case::{ActsOn, Load, ModalCase};
-use crate::dampers::simplex;
+use crate::dampers::{AtBound, penalty, simplex, within_bounds};
 use crate::linear::ModalDamper;
 use crate::measure::PlaceMeasure;
 
@@ -16,6 +16,8 @@ pub struct DamperChoice {
     pub dampers: Vec<ModalDamper>,
     /// Where each is.
     pub places: Vec<usize>,
+    /// What each is where the search for it ended at a bound.
+    pub at_bound: Vec<Option<AtBound>>,
     /// The largest displacement under each load, of any place, in m.
     pub worst: Vec<f64>,
     /// The largest stroke of each damper under any load, in m.
@@ -74,27 +76,27 @@ fn driven_modes(case: &ModalCase) -> Vec<usize> {
 fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
     let mass = case.absorbers.iter().map(|one| one.mass_kg).sum::<f64>() / count as f64;
     let first = case.modes[0].frequency_hz;
-    let (mut start, mut places, mut shapes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut start, mut places, mut shapes, mut own) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for k in &modes[..count] {
         let mode = &case.modes[*k];
         let size = |p: &usize| mode.shape[*p].abs();
         let place =
             (0..case.places.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
         let ratio = mass * mode.shape[place] * mode.shape[place] / mode.mass_kg;
-        // Den Hartog's.
-        let tuned = mode.frequency_hz / first / (1.0 + ratio);
+        // Den Hartog's; tunings are over the frequency of its mode.
+        let tuned = 1.0 / (1.0 + ratio);
+        own.push(mode.frequency_hz / first);
         let damping = (3.0 * ratio / (8.0 * (1.0 + ratio))).sqrt();
         start.extend([libm::log(tuned), libm::log(damping)]);
         shapes.push(case.modes.iter().map(|one| one.shape[place]).collect::<Vec<f64>>());
         places.push(place);
     }
     let built = |logarithms: &[f64]| -> Vec<ModalDamper> {
-        let pairs = logarithms.chunks(2).zip(&shapes);
-        let damper = |(pair, shape): (&[f64], &Vec<f64>)| ModalDamper {
-            mass,
-            frequency: libm::exp(pair[0]),
-            damping_ratio: libm::exp(pair[1]),
-            shape: shape.clone(),
+        let pairs = logarithms.chunks(2).zip(own.iter().zip(&shapes));
+        let damper = |(pair, (own, shape)): (&[f64], (&f64, &Vec<f64>))| {
+            let [tuning, damping_ratio] = within_bounds([pair[0], pair[1]]);
+            ModalDamper { mass, frequency: tuning * own, damping_ratio, shape: shape.clone() }
         };
         pairs.map(damper).collect()
     };
@@ -108,6 +110,7 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
     let others = case.criteria.iter().any(|one| one.measure != PlaceMeasure::PEAK);
     let cost = |logarithms: &[f64]| {
         let dampers = built(logarithms);
+        let beyond: f64 = logarithms.chunks(2).map(|pair| penalty([pair[0], pair[1]])).product();
         let (mut over, mut peak) = (vec![0.0_f64; case.criteria.len()], 0.0_f64);
         for (load, all) in &along {
             for at in all {
@@ -118,13 +121,16 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
                 }
             }
         }
-        match case.criteria.is_empty() {
-            true => peak,
-            false => cost(&over) + if others { BESIDE * peak / bare } else { 0.0 },
-        }
+        beyond
+            * match case.criteria.is_empty() {
+                true => peak,
+                false => cost(&over) + if others { BESIDE * peak / bare } else { 0.0 },
+            }
     };
     let sizes: Vec<f64> = (0..start.len()).map(|k| SIMPLEX[k % 2]).collect();
     let dampers = built(&simplex(start, &sizes, STEPS, RESTARTS, cost));
+    let at_bound =
+        |(one, own): (&ModalDamper, &f64)| AtBound::of(one.frequency / own, one.damping_ratio);
     let stroke = |d: usize| {
         let most = |load: &Load| {
             largest(load.range_hz, case, |at| amplitudes(case, load, at, &dampers).strokes[d])[0]
@@ -135,6 +141,7 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
         worst: case.loads.iter().map(|load| largest_peak(case, load, &dampers)).collect(),
         strokes: (0..count).map(stroke).collect(),
         criteria: case.criteria.iter().map(|one| linear_most(case, one, &dampers)).collect(),
+        at_bound: dampers.iter().zip(&own).map(at_bound).collect(),
         dampers,
         places,
     }

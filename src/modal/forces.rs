@@ -9,8 +9,9 @@ use crate::criteria::{Judged, Outcome};
 use crate::executor::{Executor, map};
 use crate::motions::ModalMotion;
 
-/// Steps of the root of two to either side of the load's own amplitude: from a quarter to four times it.
-const STEPS: usize = 4;
+/// Steps of the root of two to either side of the load's own amplitude, from a quarter to four times it, and one close to it.
+const STEPS: i32 = 4;
+const NEAR: f64 = 0.02;
 /// Relative distance up to which two frequencies are one.
 const APART: f64 = 1e-3;
 
@@ -56,8 +57,8 @@ pub struct ForceLimits {
 }
 
 impl OverForce {
-    /// Of what is known along a load that is worst at a frequency: other amplitudes are searched with half of the case's starts in the
-    /// usual windows. None where the structure has no steady motion.
+    /// Of what is known along a load that is worst at a frequency: other amplitudes are searched as the case itself is, of a load over
+    /// a range of frequencies with half of its starts in the usual windows. None where the structure has no steady motion.
     ///
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
@@ -78,19 +79,24 @@ impl OverForce {
         if at.is_empty() {
             return Ok(None);
         }
-        let times = |step: usize| libm::exp2(0.5 * (step as f64 - STEPS as f64));
-        let with = |step: usize| Load { amplitude: times(step) * load.amplitude, ..*load };
-        let usual = &ModalCase { periods: 0, ..case.clone() };
-        let starts = case.starts.div_ceil(2);
+        let far = (-STEPS..=STEPS).map(|step| libm::exp2(0.5 * f64::from(step)));
+        let mut times: Vec<f64> = far.chain([1.0 - NEAR, 1.0 + NEAR]).collect();
+        times.sort_by(f64::total_cmp);
+        let with = |step: usize| Load { amplitude: times[step] * load.amplitude, ..*load };
+        let [from, to] = load.range_hz;
+        let (usual, starts) = match from < to {
+            true => (&ModalCase { periods: 0, ..case.clone() }, case.starts.div_ceil(2)),
+            false => (case, case.starts),
+        };
         let look = |k: usize| {
             let (step, at) = (k / at.len(), at[k % at.len()]);
-            let known = along.places.iter().find(|one| step == STEPS && one.at == at);
+            let known = along.places.iter().find(|one| times[step] == 1.0 && one.at == at);
             known.map_or_else(
                 || AtFrequency::of(usual, &with(step), at, starts),
                 |one| Ok(one.clone()),
             )
         };
-        let found = map(on, "motions under other amplitudes", (2 * STEPS + 1) * at.len(), look);
+        let found = map(on, "motions under other amplitudes", times.len() * at.len(), look);
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         let step = |(step, found): (usize, &[AtFrequency])| {
             let (load, places) = (with(step), found.to_vec());
@@ -101,7 +107,7 @@ impl OverForce {
             let along = AlongLoad { load, places, bare: along.bare.clone(), modes: Vec::new() };
             let outcomes = ModalAnswer::judged(&here, vec![along]).criteria();
             let outcomes = outcomes.iter().map(Judged::outcome).collect();
-            ForceStep { times: times(step), motions, bare, outcomes }
+            ForceStep { times: times[step], motions, bare, outcomes }
         };
         let steps = found.chunks(at.len()).enumerate().map(step).collect();
         let exact = stable_amplitudes(case, load, centre).ok().map(|found| (centre, found));

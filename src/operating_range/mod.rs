@@ -1,9 +1,10 @@
 //! How far a promise holds: the stretch of each number of a case, around its own, on which no criterion fails when that
 //! number alone changes, over the whole band, release, sweep or record.
 //!
-//! What holds is not monotone in a number, as errors of chaotic peaks come and go: so the search goes outwards in steps and
-//! looks at each, an end is narrowed down between the last step at which nothing fails and the next, and places at which
-//! an error could turn a criterion are told as not decided.
+//! What holds is not monotone in a number, as errors of chaotic peaks come and go: so the search tries designs close to the
+//! case first and goes outwards in steps, an end is narrowed down between the last step at which nothing fails and the next,
+//! and places at which an error could turn a criterion are told as not decided. Between two designs nothing is known: what
+//! holds is told of the designs that were tried as `check` does, and of nothing else.
 
 mod combined;
 mod edges;
@@ -67,6 +68,9 @@ pub struct HoldsFor {
     /// The part of it around the case in which every place that was looked at is decided: all criteria hold with their
     /// errors. None where the case itself is not decided.
     pub holds: Option<[f64; 2]>,
+    /// Values in that part, or in the stretch where there is none, at which the case was judged as `check` judges it, ascending;
+    /// its own among them.
+    pub tried: Vec<f64>,
     /// Places in it at which an error could turn a criterion: from one that is decided to the next.
     pub undecided: Vec<[f64; 2]>,
     /// Whether the structure alone keeps the limits of its motion too where all that holds ends, or where the stretch does.
@@ -77,6 +81,8 @@ pub struct HoldsFor {
 
 /// Parts of a step to which an end is known.
 const FINEST: f64 = 8.0;
+/// Steps before the first of the usual ones, over that.
+const BEFORE: [f64; 2] = [0.25, 0.5];
 /// How thoroughly a band is looked at on the way, and starts of a place.
 const BAND: BandEffort =
     BandEffort { even: 9, starts: 3, starts_between: 2, most: 24, tolerance: 0.1 };
@@ -108,9 +114,14 @@ pub fn holds_for(
     let all = Number::all(case, numbers, effort);
     let side = |k: usize| {
         let (number, up) = (&all[k / 2], k % 2 == 1);
-        // What is level and has ends alike does the mirrored thing at the mirrored inclination.
+        // What is level and has ends alike does the mirrored thing at the mirrored inclination; its starts are not mirrored, so
+        // that it is looked at where that is short.
         let mirrored = number.varied == Varied::Inclination && !up && case.has_ideal_walls();
-        if mirrored { Ok(None) } else { number.search(own, least, up).map(Some) }
+        if mirrored && Look::OnTheWay.of(case) == Look::OnTheWay {
+            Ok(None)
+        } else {
+            number.search(own, least, up).map(Some)
+        }
     };
     let sides = map(on, "ranges", 2 * all.len(), side);
     let mut sides = sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter();
@@ -125,6 +136,9 @@ pub fn holds_for(
         let mut reached: Vec<[f64; 2]> =
             below.reached.into_iter().chain(here).chain(above.reached).collect();
         reached.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut tried: Vec<f64> =
+            below.tried.into_iter().chain([value]).chain(above.tried).collect();
+        tried.sort_by(f64::total_cmp);
         undecided.dedup_by(|next, before| {
             // The case itself is decided.
             let here = own == Together::Hold && next[0] == value;
@@ -146,6 +160,7 @@ pub fn holds_for(
             range,
             open: [below.open, above.open],
             holds,
+            tried,
             kept_alone,
             undecided,
             reached,
@@ -170,6 +185,8 @@ struct Reach {
     open: bool,
     /// Where places begin that are not decided, from the case's own.
     holds: f64,
+    /// See [`HoldsFor::tried`]; without the case's own.
+    tried: Vec<f64>,
     /// From a place that is decided, or the case's own, to the next, in the direction of the search.
     undecided: Vec<[f64; 2]>,
     /// See [`HoldsFor::reached`]; in the order in which they were looked at.
@@ -180,9 +197,11 @@ impl Reach {
     fn mirrored(&self) -> Self {
         let undecided = self.undecided.iter().map(|ends| ends.map(|end| -end)).collect();
         let reached = self.reached.iter().map(|[at, found]| [-at, *found]).collect();
+        // None of these was looked at.
+        let tried = Vec::new();
         // Not the negative zero.
         let holds = 0.0 - self.holds;
-        Self { end: -self.end, open: self.open, holds, undecided, reached }
+        Self { end: -self.end, open: self.open, holds, tried, undecided, reached }
     }
 }
 
@@ -201,8 +220,10 @@ impl<'a> Number<'a> {
     /// where one fails.
     fn search(&self, own: Together, least: Together, up: bool) -> Result<Reach, DrivenError> {
         let case = Looked { at: self.own, outcome: own, full: true, blurred: false, step: 0.0 };
-        let steps = self.varied.steps(self.own, up);
-        let mut search = Outwards { number: self, steps, looked: vec![case], reached: Vec::new() };
+        let near = self.varied.near(self.case, self.own, up);
+        let steps = self.steps(&near, up);
+        let (looked, reached) = (vec![case], Vec::new());
+        let mut search = Outwards { number: self, near, steps, looked, reached };
         let (mut end, mut open, mut holds) = (self.own, true, self.own);
         if own == Together::Hold {
             (holds, open) = search.until(Together::Hold)?;
@@ -213,13 +234,34 @@ impl<'a> Number<'a> {
         }
         let Outwards { looked, reached, .. } = search;
         let mut undecided = Vec::new();
-        let within = looked.iter().position(|one| one.at == end).unwrap_or_default();
+        let within = |end: f64| looked.iter().position(|one| one.at == end).unwrap_or_default();
+        let told = within(if own == Together::Hold { holds } else { end });
+        let tried = looked[1..=told].iter().filter(|one| one.full).map(|one| one.at).collect();
+        let within = within(end);
         for pair in looked[..=within].windows(2) {
             if pair.iter().any(|one| one.outcome == Together::Undecided) {
                 undecided.push([pair[0].at, pair[1].at]);
             }
         }
-        Ok(Reach { end, open, holds, undecided, reached })
+        Ok(Reach { end, open, holds, tried, undecided, reached })
+    }
+
+    /// Values from the case's own outwards: those near it, then the usual ones. Where a look is short there are more: before
+    /// the first of these, and at a single excitation between them.
+    fn steps(&self, near: &[f64], up: bool) -> Vec<f64> {
+        let mut all = self.varied.steps(self.own, up);
+        if Look::OnTheWay.of(self.case) == Look::AsCheck {
+            let before = all.first().map_or(0.0, |first| first - self.own);
+            let more = BEFORE.map(|part| self.own + part * before);
+            let is_point = self.case.design.transient().is_none();
+            let between = all.windows(2).filter(|_| is_point).map(|two| 0.5 * (two[0] + two[1]));
+            let more: Vec<f64> = more.into_iter().chain(between).collect();
+            all.extend(more);
+        }
+        all.extend(near);
+        all.sort_by(|a, b| (a - self.own).abs().total_cmp(&(b - self.own).abs()));
+        all.dedup();
+        all
     }
 
     /// The criteria at a value.
@@ -244,6 +286,8 @@ struct Looked {
 /// A search in one direction.
 struct Outwards<'a> {
     number: &'a Number<'a>,
+    /// Steps that are so near to the case's own that each is judged as `check` does.
+    near: Vec<f64>,
     steps: Vec<f64>,
     /// From the case's own outwards.
     looked: Vec<Looked>,
@@ -312,7 +356,8 @@ impl Outwards<'_> {
         if self.number.case.varied(self.number.parameter, next).is_none() {
             return Ok(false);
         }
-        let there = self.look(next, (next - last).abs(), Look::OnTheWay)?;
+        let how = if self.near.contains(&next) { Look::AsCheck } else { Look::OnTheWay };
+        let there = self.look(next, (next - last).abs(), how)?;
         self.looked.push(there);
         Ok(true)
     }
@@ -329,7 +374,7 @@ impl Outwards<'_> {
         self.reached.retain(|one| one[0] != at);
         self.reached.extend(judged.first().and_then(|first| Some([at, first.found?])));
         let outcome = if judged.is_empty() { Together::Fail } else { Together::of(&judged) };
-        let full = how == Look::AsCheck;
+        let full = how.of(self.number.case) == Look::AsCheck;
         Ok(Looked { at, outcome, full, blurred: is_blurred(&judged), step })
     }
 }
@@ -349,8 +394,21 @@ enum Look {
     AsCheck,
 }
 
+impl Look {
+    /// How a case is looked at: one that does not take long always as `check` does, which is that of a single excitation, or of
+    /// a release.
+    fn of(self, case: &Case) -> Self {
+        let short = match case.design.transient() {
+            None => case.range().is_point(),
+            Some(transient) => matches!(transient, Transient::Release(_)),
+        };
+        if short { Self::AsCheck } else { self }
+    }
+}
+
 /// The criteria of a case.
 fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
+    let how = how.of(case);
     let Some(transient) = case.design.transient() else {
         return judge_band(case, effort, how);
     };
@@ -362,9 +420,8 @@ fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenE
         Transient::Sweep(_) => PLACES_OF_SWEEP,
         Transient::Record(_) => PLACES_OF_RECORD,
     };
-    let closer = case.design.release().is_some() || in_full;
     let shaking = case.asks_for_shaking();
-    let places = Places { even: even.min(most), closer, shaking, executor: &Serial };
+    let places = Places { even: even.min(most), closer: in_full, shaking, executor: &Serial };
     let Some(study) = Study::brief_of_case(case, places) else { return Ok(Vec::new()) };
     let study = study?;
     let again = |case: &Case| match Study::brief_of_case(case, places) {

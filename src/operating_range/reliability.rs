@@ -1,11 +1,12 @@
-//! The probability that all criteria hold where numbers of a case are uncertain: designs drawn at random, each judged like
-//! one on the way to the end of a range.
+//! The probability that all criteria hold where numbers of a case are uncertain: designs drawn at random, each judged as
+//! `check` judges it.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
 use super::{Look, Together, judge};
 use crate::case::{Case, Distribution};
+use crate::criteria;
 use crate::executor::{Executor, map};
 use crate::flights::DrivenError;
 use crate::motions::{Effort, wilson};
@@ -28,8 +29,8 @@ pub struct Reliability {
     pub undecided: u32,
     /// Designs that fail for which a cause was looked for.
     pub examined: u32,
-    /// For how many of these a number alone, back at its value, would have met all criteria; the most frequent first, and
-    /// none that never would.
+    /// For how many of these a number alone, back at its value, would have met all criteria, by a look with fewer starts; the
+    /// most frequent first, and none that never would.
     pub causes: Vec<(Parameter, u32)>,
 }
 
@@ -48,12 +49,15 @@ impl Reliability {
             return Ok(None);
         }
         let drawn = drawn(&uncertain, Self::samples(case));
-        let come_to = |errors: &[(Parameter, f64)]| {
+        let come_to = |errors: &[(Parameter, f64)], how: Look| {
             // What leaves no system meets nothing.
             let Some(case) = case.deviating(errors) else { return Ok(Together::Fail) };
-            judge(&case, effort, Look::OnTheWay).map(|judged| Together::of(&judged))
+            if fails_unflown(&case)? {
+                return Ok(Together::Fail);
+            }
+            judge(&case, effort, how).map(|judged| Together::of(&judged))
         };
-        let found = map(on, "designs", drawn.len(), |k| come_to(&drawn[k]));
+        let found = map(on, "designs", drawn.len(), |k| come_to(&drawn[k], Look::AsCheck));
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         let failed: Vec<&Vec<(Parameter, f64)>> = drawn
             .iter()
@@ -65,7 +69,7 @@ impl Reliability {
         let saved = map(on, "causes", failed.len() * count, |k| {
             let mut errors = failed[k / count].clone();
             errors.remove(k % count);
-            come_to(&errors).map(|found| found != Together::Fail)
+            come_to(&errors, Look::OnTheWay).map(|found| found == Together::Hold)
         });
         let saved = saved.into_iter().collect::<Result<Vec<_>, _>>()?;
         let times = |k: usize| saved.iter().skip(k).step_by(count).filter(|saved| **saved).count();
@@ -90,14 +94,24 @@ impl Reliability {
         }
     }
 
-    /// The share of the designs drawn that do not fail, and between which probabilities that of the criteria lies: from
-    /// none of those that are not decided to all of them, each with the 95 % interval of so many independent draws, which
-    /// errs on the wide side.
+    /// The share of the designs drawn that hold, and between which probabilities that of the criteria lies: from none of those
+    /// that are not decided to all of them, each with the 95 % interval of so many independent draws, which errs on the wide
+    /// side.
     pub fn probability(&self) -> (f64, [f64; 2]) {
         let stand = self.hold + self.undecided;
-        let share = f64::from(stand) / f64::from(self.samples);
+        let share = f64::from(self.hold) / f64::from(self.samples);
         (share, [wilson(self.hold, self.samples)[0], wilson(stand, self.samples)[1]])
     }
+}
+
+/// Whether a criterion fails that needs no simulation: whatever motions there are, all together fail then.
+fn fails_unflown(case: &Case) -> Result<bool, DrivenError> {
+    let mut unflown = case.clone();
+    unflown.criteria.retain(|one| !one.measure.is_of_motions());
+    if unflown.criteria.is_empty() || !criteria::needs_simulation(&case.criteria) {
+        return Ok(false);
+    }
+    Ok(Together::of(&judge(&unflown, &case.effort(), Look::AsCheck)?) == Together::Fail)
 }
 
 /// Errors of some designs, by a Latin hypercube (McKay, Beckman and Conover 1979): each number is drawn once from each of

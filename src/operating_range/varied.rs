@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::case::Case;
+use crate::case::{Case, Distribution};
 use crate::system::Parameter;
 
 /// What varies.
@@ -39,6 +39,8 @@ const OF_FREQUENCY: [f64; 9] = [1.005, 1.01, 1.02, 1.035, 1.055, 1.08, 1.12, 1.1
 const OF_RESTITUTION: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6];
 const OF_INCLINATION: [f64; 5] = [0.001_745, 0.005_236, 0.017_453, 0.052_36, 0.174_533];
 const OF_FRICTION: [f64; 5] = [0.002, 0.005, 0.02, 0.05, 0.2];
+/// Standard deviations of a normal error up to which a number is off, of 19 in 20.
+const DEVIATIONS: f64 = 2.0;
 impl Varied {
     /// Every one.
     pub const ALL: [Self; 8] = [
@@ -80,6 +82,43 @@ impl Varied {
         matches!(self, Self::Restitution | Self::Inclination | Self::Friction)
     }
 
+    /// The tolerance that the case states, and how many times that it is likely to be off by at the most.
+    fn tolerance(self, case: &Case) -> Option<(f64, f64)> {
+        let parameter = self.parameter(case)?;
+        let own = case.design.value(parameter)?;
+        let stated = |of: Parameter| case.uncertainty.parameters().find(|(one, _)| *one == of);
+        let ratio = |(_, of)| Some((of, own / case.design.value(Parameter::DampingRatio)?));
+        let (error, scale) = match (stated(parameter), self) {
+            (Some((_, of)), _) => (of, 1.0),
+            // With the structure as it is the constant is in proportion to the ratio.
+            (None, Self::Damping) => stated(Parameter::DampingRatio).and_then(ratio)?,
+            (None, _) => return None,
+        };
+        Some(match error {
+            Distribution::Normal(deviation) => (scale * deviation, DEVIATIONS),
+            Distribution::Uniform(largest) => (scale * largest, 1.0),
+        })
+    }
+
+    /// Values close to the case's own, outwards: in steps of half of the tolerance that the case states, up to the largest error
+    /// or two standard deviations; none without one.
+    pub(super) fn near(self, case: &Case, own: f64, up: bool) -> Vec<f64> {
+        let Some((tolerance, times)) = self.tolerance(case) else { return Vec::new() };
+        let half = if up { 0.5 } else { -0.5 } * tolerance;
+        let steps = (1..=(2.0 * times) as u32).map(|k| own + f64::from(k) * half);
+        steps.filter(|at| self.may_be(*at)).collect()
+    }
+
+    /// Whether it may have a value, as far as that is known of all cases.
+    fn may_be(self, at: f64) -> bool {
+        match self {
+            Self::Restitution => (0.0..=1.0).contains(&at),
+            Self::Inclination => true,
+            Self::Friction => at >= 0.0,
+            _ => at > 0.0,
+        }
+    }
+
     /// Values from the case's own outwards, down or up.
     pub(super) fn steps(self, own: f64, up: bool) -> Vec<f64> {
         let sign = if up { 1.0 } else { -1.0 };
@@ -88,15 +127,13 @@ impl Varied {
             steps.iter().map(|step| if up { own * step } else { own / step }).collect::<Vec<_>>()
         };
         match self {
-            Self::Restitution => {
-                let mut all = added(&OF_RESTITUTION);
-                all.retain(|one| (0.0..=1.0).contains(one));
-                all
-            }
-            Self::Inclination => added(&OF_INCLINATION),
-            Self::Friction => {
-                let mut all = added(&OF_FRICTION);
-                all.retain(|one| *one >= 0.0);
+            Self::Restitution | Self::Inclination | Self::Friction => {
+                let mut all = match self {
+                    Self::Restitution => added(&OF_RESTITUTION),
+                    Self::Inclination => added(&OF_INCLINATION),
+                    _ => added(&OF_FRICTION),
+                };
+                all.retain(|one| self.may_be(*one));
                 all
             }
             Self::NaturalFrequency => times(&OF_FREQUENCY),

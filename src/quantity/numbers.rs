@@ -80,6 +80,17 @@ pub fn percent(share: f64) -> String {
     format!("{} %", fixed(percent, decimals))
 }
 
+/// The share that is left beside another one, rounded down, for what is promised: beside `0.0457` it is `95.4 %`.
+pub fn rest(share: f64) -> String {
+    let percent = 100.0 * share;
+    // Two digits of what is not promised, and tenths at least.
+    let decimals = (1.0 - libm::floor(libm::log10(percent))).clamp(1.0, 9.0);
+    let scale = libm::pow(10.0, decimals);
+    // What is exact but for rounding is not raised.
+    let above = libm::ceil(percent * scale - 1e-6) / scale;
+    format!("{} %", fixed(100.0 - above, decimals as usize))
+}
+
 /// Words with a capital letter first.
 pub fn capitalised(words: &str) -> String {
     let mut letters = words.chars();
@@ -127,6 +138,10 @@ mod tests {
         assert_eq!(significant(1.2e-9, 2), "1.2e−9");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(fixed(-0.04, 1), "0.0");
+        assert_eq!(
+            [0.045_7, 0.312_3, 0.15, 0.001_497, 1.0].map(rest),
+            ["95.4 %", "68.7 %", "85.0 %", "99.85 %", "0.0 %"]
+        );
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::document::criteria::{criteria, place};
+use super::document::criteria::{criteria, place, sample};
 use super::document::{self, Scale, motions, place::FilePlace};
 use super::error::RenderError;
 use super::template::render;
@@ -175,6 +175,9 @@ pub(super) fn row(units: &Units, judged: &Judged, at: Option<Quantity>) -> Value
     });
     if let Some(contact) = judged.contact {
         row["contact"] = json!({ "found": contact.found, "crosses": contact.crosses });
+    }
+    if let Some(of) = judged.sample {
+        row["sample"] = sample(of);
     }
     // Share of the absorber's resting places from which a start from rest never wakes it.
     if let Some(share) = judged.inactive {

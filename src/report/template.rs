@@ -10,6 +10,7 @@
 //! | `name`, `symbol` | the same | its parts |
 //! | `num(digits=3)` | a number | significant digits; `–` for none |
 //! | `pct` | a number | a share in per cent |
+//! | `rest` | a share | what is left beside it in per cent, rounded down |
 //! | `asked` | a number | a share as people ask for it: "1 %" |
 //! | `relative_error` | a number; `below=true` | a relative error in per cent or powers of ten |
 //! | `operations` | a count | two digits, in powers of ten from a thousand on |
@@ -209,6 +210,7 @@ fn register(tera: &mut Tera) {
     tera.register_filter("operations", |count: u64, _: Kwargs, _: &State| {
         numbers::operations(count)
     });
+    tera.register_filter("rest", |value: f64, _: Kwargs, _: &State| numbers::rest(value));
     tera.register_filter("pct", |value: f64, _: Kwargs, _: &State| numbers::percent(value));
     tera.register_filter("many", |count: u64, options: Kwargs, _: &State| {
         let word: &str = options.must_get(if count == 1 { "one" } else { "more" })?;

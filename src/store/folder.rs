@@ -30,12 +30,7 @@ impl Output {
     pub fn open(root: &Path) -> Result<Self, StoreError> {
         let root = if root == Path::new("") { Path::new(".") } else { root };
         std::fs::create_dir_all(root).map_err(|cause| refused("create", root, cause))?;
-        // A folder can be locked like a file, but for Windows.
-        let file = match cfg!(unix) {
-            true => File::open(root),
-            false => File::create(root.join(".vinesink-lock")),
-        };
-        let lock = file.ok().filter(|file| file.lock().is_ok());
+        let lock = lockable(root).filter(|file| file.lock().is_ok());
         Ok(Self { root: root.to_owned(), _lock: lock })
     }
 
@@ -91,6 +86,15 @@ impl Output {
         }
         swap(&path, new)
     }
+}
+
+/// What stands for a folder where it is locked: a folder can be locked like a file, but for Windows.
+pub(super) fn lockable(folder: &Path) -> Option<File> {
+    let file = match cfg!(unix) {
+        true => File::open(folder),
+        false => File::create(folder.join(".vinesink-lock")),
+    };
+    file.ok()
 }
 
 /// As [`Output::replace`], of a folder that was named itself.

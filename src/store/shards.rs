@@ -1,9 +1,11 @@
 //! The results of a sweep, a file for each chunk, each with its checksum beside it: what was worked out is
 //! told from what was not, and from what is damaged or belongs to something else.
 
+use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::folder::lockable;
 use super::reading::{self, FileKind};
 use super::{Growing, StoreError, TEMPORARY, folder_below, refused};
 use crate::digest::sha256;
@@ -16,7 +18,53 @@ pub struct Shards {
     identity: String,
 }
 
+/// How a process works on the chunks of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sharing {
+    /// Beside others that do the same, as the tasks of an engine.
+    WithOthers,
+    /// While nobody else does.
+    Alone,
+}
+
+/// Leave to work on the chunks of a sweep, until this value is gone, with its process at the latest.
+#[derive(Debug)]
+pub struct Turn {
+    sharing: Sharing,
+    _lock: Option<File>,
+}
+
+/// What is there of a chunk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Found {
+    /// Nothing, or what a process that was stopped has not sealed.
+    Nothing,
+    /// Its results, undamaged.
+    Whole,
+    /// What does not fit its seal: damaged, or of another sweep.
+    Unfit,
+}
+
 impl Shards {
+    /// Waits until this process may work on the chunks; `waits` is called before, where somebody else does. Where a file
+    /// system knows no locks, nobody waits.
+    pub fn take_turn(&self, sharing: Sharing, waits: impl FnOnce(&Path)) -> Turn {
+        let file = lockable(&self.folder);
+        let (at_once, lock): (fn(&File) -> _, fn(&File) -> _) = match sharing {
+            Sharing::WithOthers => (File::try_lock_shared, File::lock_shared),
+            Sharing::Alone => (File::try_lock, File::lock),
+        };
+        let lock = file.filter(|file| match at_once(file) {
+            Ok(()) => true,
+            Err(TryLockError::WouldBlock) => {
+                waits(&self.folder);
+                lock(file).is_ok()
+            }
+            Err(TryLockError::Error(_)) => false,
+        });
+        Turn { sharing, _lock: lock }
+    }
+
     /// Those of a sweep in the folder `inside` of another one, both made where there are none.
     ///
     /// # Errors
@@ -44,8 +92,16 @@ impl Shards {
     /// # Errors
     /// [`StoreError`]; what was there before still is.
     pub fn keep(&self, chunk: u64, bytes: &[u8]) -> Result<(), StoreError> {
-        Growing::of(&self.path(chunk), bytes)?.finish_soon()?;
-        Growing::of(&self.seal_path(chunk), self.seal(chunk, bytes).as_bytes())?.finish_soon()
+        let seal = self.seal(chunk, bytes);
+        let kept = Growing::of(&self.path(chunk), bytes).and_then(Growing::finish_soon);
+        let kept = kept.and_then(|()| {
+            Growing::of(&self.seal_path(chunk), seal.as_bytes()).and_then(Growing::finish_soon)
+        });
+        match kept {
+            // Where a file system knows no locks somebody else may have kept it, and tidied up.
+            Err(_) if self.holds(chunk)? => Ok(()),
+            kept => kept,
+        }
     }
 
     /// Whether the results of a chunk are there, undamaged, and of this sweep.
@@ -53,23 +109,33 @@ impl Shards {
     /// # Errors
     /// [`StoreError`] where a file is there and cannot be read.
     pub fn holds(&self, chunk: u64) -> Result<bool, StoreError> {
+        Ok(self.look(chunk)? == Found::Whole)
+    }
+
+    /// What is there of a chunk.
+    ///
+    /// # Errors
+    /// As [`Self::holds`].
+    pub fn look(&self, chunk: u64) -> Result<Found, StoreError> {
         let read = |path: &Path| match reading::read(path, FileKind::Results) {
             Err(error) if error.refusal == Some(io::ErrorKind::NotFound) => Ok(None),
             read => read.map(Some),
         };
-        let (Some(seal), Some(bytes)) = (read(&self.seal_path(chunk))?, read(&self.path(chunk))?)
-        else {
-            return Ok(false);
-        };
-        Ok(seal == self.seal(chunk, &bytes).as_bytes())
+        let Some(seal) = read(&self.seal_path(chunk))? else { return Ok(Found::Nothing) };
+        let fits = read(&self.path(chunk))?
+            .is_some_and(|bytes| seal == self.seal(chunk, &bytes).as_bytes());
+        Ok(if fits { Found::Whole } else { Found::Unfit })
     }
 
-    /// Removes what processes that were killed have left half written. Called when every chunk is there:
-    /// whoever still writes one then writes it for the second time, and does not need it.
+    /// Removes what processes that were killed have left half written; nothing but where nobody else works on the chunks, who
+    /// may just be writing one.
     ///
     /// # Errors
     /// [`StoreError`] where a file cannot be removed.
-    pub fn sweep_up(&self) -> Result<(), StoreError> {
+    pub fn sweep_up(&self, turn: &Turn) -> Result<(), StoreError> {
+        if turn.sharing != Sharing::Alone {
+            return Ok(());
+        }
         // That of the merged results is beside the folder of the chunks.
         for folder in [Some(self.folder.as_path()), self.folder.parent()].into_iter().flatten() {
             let cannot = |cause| refused("tidy", folder, cause);

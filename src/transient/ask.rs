@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::record_study::over_records;
-use super::{Run, Runs, Study, WithError};
+use super::{Run, Runs, Sample, Study, WithError};
 use crate::linear::reduction;
 use crate::measure::{Device, Measure, with_pulse};
 use crate::method::Method;
@@ -58,6 +58,16 @@ impl Study {
             Self::Record(study) => study.realisations.len(),
             _ => 0,
         }
+    }
+
+    /// From which places of the absorber it is known, of several records under each; none where nothing was flown.
+    pub fn sample(&self) -> Option<Sample> {
+        let sample = match self {
+            Self::Release(study) => study.starts.sample(),
+            Self::Sweep(study) => study.starts.sample(),
+            Self::Record(study) => study.realisations.first()?.places.sample(),
+        };
+        (sample.all > 0).then_some(sample)
     }
 
     /// By which the worst place of the absorber is told.

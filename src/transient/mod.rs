@@ -21,7 +21,7 @@ pub use clearance::{ClearanceOptimum, RELEASES, best_clearance, looked_at};
 pub use flight::OneFlight;
 pub use passage::{ByRate, Jump, SweepStart, SweepStudy};
 pub use record_study::{Realisation, RecordStudy, SpectrumPoint};
-pub use runs::{Run, Runs, WithError};
+pub use runs::{Run, Runs, Sample, WithError};
 pub use study::{Decay, DecayStudy, DecayTime};
 pub(crate) use study::{followed, longest};
 

@@ -1,6 +1,6 @@
 //! Runs of one structure from many places of its absorber, and what of them counts.
 
-use crate::flights::{Passage, Response, worst_of_places};
+use crate::flights::{Passage, Response, share_above, worst_of_places};
 use crate::linear::Linear;
 use crate::measure::Measure;
 use crate::system::Shaking;
@@ -20,6 +20,22 @@ pub trait Run {
     }
 }
 
+/// From which places of the absorber something is known: how many were flown, the even ones of them first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sample {
+    /// Even ones.
+    pub even: u64,
+    /// All, with those closer to the worst.
+    pub all: usize,
+}
+
+impl Sample {
+    /// The share of all places that are worse than the worst of these, at most, at odds of 19 to 1.
+    pub fn share_above(self) -> f64 {
+        share_above(self.even)
+    }
+}
+
 /// The relative displacement of the absorber at each start, and what happened, in the order in which they were flown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Runs<R> {
@@ -29,6 +45,13 @@ pub struct Runs<R> {
     pub even: u64,
     /// Whether those count in which the absorber never hits a wall, beside those in which it does.
     pub count_inactive: bool,
+}
+
+impl<R> Runs<R> {
+    /// From which places it is known.
+    pub const fn sample(&self) -> Sample {
+        Sample { even: self.even, all: self.all.len() }
+    }
 }
 
 impl<R: Run> Runs<R> {

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use vinesink::alternatives::{Alternatives, Row, Which};
 use vinesink::answer::{Answer, Asked, Decided};
 use vinesink::case::Case;
+use vinesink::dampers::{AtBound, Designing, best, for_band};
 use vinesink::executor::Serial;
-use vinesink::linear::TunedMassDamper;
+use vinesink::linear::{BandSystems, TunedMassDamper, bare_amplitude};
 
 fn found(name: &str) -> (Case, Alternatives) {
     compared(name, std::fs::read_to_string(format!("cases/{name}.toml")).expect("a case"))
@@ -293,5 +294,86 @@ fn dampers_of_a_release_are_those_of_runge_and_kutta() {
         };
         let time = Rig::of(&case, 8.0, &other, 0.0).settles(0.12, level, 8.0, None);
         assert!(time > 0.999 * best.worst[0], "{tuning} {damping}: {time} {best:?}");
+    }
+}
+
+/// Bands from half to twice the natural frequency, each 1 to 10 % wide to either side, of structures with dampers of 1 to 10 % of
+/// their mass: the damper that is told is one that makes sense, and where the search ran to the end of that it says so; no
+/// damper of a grid of them all is better by more than its steps leave.
+#[test]
+fn a_damper_of_any_band_is_one_that_makes_sense() {
+    let mut at_bounds = Vec::new();
+    for (k, centre) in [0.5, 0.7, 0.9, 0.95, 1.05, 1.2, 1.6, 2.0].into_iter().enumerate() {
+        for (mass, wide) in [[(0.01, 0.1), (0.05, 0.01)][k % 2], (0.1, 0.05)] {
+            let text = format!(
+                "title = 't'\nsource = 's'\n[oscillator]\nmass = \"10 kg\"\nfrequency = \"10 Hz\"\n\
+                 damping_ratio = {:?}\n[absorber]\nmass_ratio = {mass:?}\nclearance = \"1 mm\"\nrestitution = 0.6\n\
+                 [excitation]\nkind = \"{}\"\namplitude = \"{}\"\nfrequency = \"{:?} Hz\"\n\
+                 [band]\nfrom = \"{:?} Hz\"\nto = \"{:?} Hz\"\n",
+                [0.003, 0.01, 0.05][k % 3],
+                ["force", "base-displacement"][k % 2],
+                ["20 N", "0.2 mm"][k % 2],
+                10.0 * centre,
+                10.0 * centre * (1.0 - wide),
+                10.0 * centre * (1.0 + wide),
+            );
+            let case = Case::parse("case.toml", &text).expect("a case");
+            let range = case.range();
+            let along = BandSystems::of(&range);
+            let worst = |damper: &TunedMassDamper| along.largest(|one| damper.amplitude(one)).1;
+            let found = for_band(&along);
+            let at_bound = AtBound::of(found.tuning, found.damping_ratio);
+            let what = format!("{text}{found:?} {at_bound:?}");
+            assert!((0.1..=10.0).contains(&found.tuning), "{what}");
+            assert!((1e-4..=10.0).contains(&found.damping_ratio), "{what}");
+            let is_end = |at: f64, end: f64| (at / end - 1.0).abs() < 1e-3;
+            let ends = [0.1, 10.0].iter().any(|end| is_end(found.tuning, *end))
+                || [1e-4, 10.0].iter().any(|end| is_end(found.damping_ratio, *end));
+            assert_eq!(at_bound.is_some(), ends, "{what}");
+            let steps = |from: f64, to: f64, count: u32| {
+                (0..=count)
+                    .map(move |k| from * libm::pow(to / from, f64::from(k) / f64::from(count)))
+            };
+            let grid = steps(0.1, 10.0, 40).flat_map(|tuning| {
+                steps(1e-3, 10.0, 8)
+                    .map(move |damping_ratio| TunedMassDamper { tuning, damping_ratio })
+            });
+            let best = grid.map(|one| worst(&one)).fold(f64::INFINITY, f64::min);
+            let bare = along.largest(bare_amplitude).1;
+            println!("{centre} {mass} {wide}: {found:?} {} of {best}, alone {bare}", worst(&found));
+            assert!(worst(&found) < 1.01 * best, "{what}: {best}");
+            at_bounds.extend(at_bound);
+        }
+    }
+    assert!(at_bounds.contains(&AtBound::Undamped), "{at_bounds:?}");
+}
+
+/// A structure with so much damping that a spring without damping cannot help it: the search for its frequency ran away to
+/// 5e9 Hz, with a peak above that of the structure alone, and others to none. Within what makes sense there is one below.
+#[test]
+fn a_damper_without_a_medium_does_not_run_away() {
+    for (damping, mass, [from, to]) in
+        [(0.3, 0.1, [5.0, 15.0]), (0.1, 0.05, [11.0, 20.0]), (0.5, 0.1, [2.0, 30.0])]
+    {
+        let text = format!(
+            "title = 't'\nsource = 's'\n[oscillator]\nmass = \"10 kg\"\nfrequency = \"10 Hz\"\ndamping_ratio = {damping:?}\n\
+             [absorber]\nmass_ratio = {mass:?}\nclearance = \"10 mm\"\nrestitution = 0.6\n\
+             [excitation]\nkind = \"force\"\namplitude = \"20 N\"\nfrequency = \"{from:?} Hz\"\n\
+             [band]\nfrom = \"{from:?} Hz\"\nto = \"{to:?} Hz\"\n"
+        );
+        let case = Case::parse("case.toml", &text).expect("a case");
+        let range = case.range();
+        let along = BandSystems::of(&range);
+        let worst = |damper: &TunedMassDamper| along.largest(|one| damper.amplitude(one)).1;
+        let start = TunedMassDamper { damping_ratio: 0.002, ..TunedMassDamper::den_hartog(mass) };
+        let how = Designing { damping: Some(0.002), ..Designing::USUAL };
+        let found = best(start, how, worst);
+        assert_eq!(found.damping_ratio, 0.002);
+        assert!((0.1..=10.0).contains(&found.tuning), "{found:?}");
+        let tunings = (0..=200).map(|k| libm::pow(10.0, f64::from(k) / 100.0 - 1.0));
+        let tried = tunings.map(|tuning| worst(&TunedMassDamper { tuning, ..start }));
+        let least = tried.fold(f64::INFINITY, f64::min);
+        println!("{found:?}: {} of {least}", worst(&found));
+        assert!(worst(&found) < 1.005 * least, "{found:?}: {} of {least}", worst(&found));
     }
 }

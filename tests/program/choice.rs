@@ -4,7 +4,7 @@ use serde_json::Value;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::Case;
 use vinesink::executor::Serial;
-use vinesink::operating_range::{Together, Varied, holds_for};
+use vinesink::operating_range::{Reliability, Together, Varied, holds_for};
 
 use super::run::vinesink;
 
@@ -300,6 +300,8 @@ fn the_probability_of_a_linear_structure_is_that_of_the_normal_distribution() {
     assert!(end(0) < NORMAL_AT_1 && NORMAL_AT_1 < end(1), "{found}");
     // 1.96 standard errors of 1000 draws are 2.3 %; nothing is undecided, as all is exact.
     assert!(end(1) - end(0) < 0.05 && found["undecided"] == 0, "{found}");
+    let count = |key: &str| found[key].as_u64().expect("a count");
+    assert_eq!(count("hold") + count("fail"), 1000, "{found}");
     assert_eq!(found["causes"][0]["parameter"], "amplitude");
     assert_eq!(found["causes"][0]["failures"], found["examined"]);
     assert_eq!(found["causes"].as_array().map(Vec::len), Some(1), "{found}");
@@ -395,4 +397,180 @@ fn a_band_says_where_the_absorber_is_worse_than_none() {
     let most = worse["most"].as_f64().expect("a ratio");
     // A peak of a motion that does not repeat is what was seen in one run or another.
     assert!((peak / bare(hertz) / most - 1.0).abs() < 0.05, "{peak} m and {most}");
+}
+
+/// A structure that is driven at one frequency: mass, natural frequency, damping ratio, absorber, clearance, restitution, force,
+/// its frequency, and the largest displacement that is asked for.
+fn driven(
+    [mass, hertz, damping, absorber, clearance, restitution, force, at, limit]: [f64; 9],
+) -> String {
+    format!(
+        "title = 't'\nsource = 's'\n[oscillator]\nmass = \"{mass:?} kg\"\nfrequency = \"{hertz:?} Hz\"\n\
+         damping_ratio = {damping:?}\n[absorber]\nmass = \"{absorber:?} kg\"\nclearance = \"{clearance:?} m\"\n\
+         restitution = {restitution:?}\ninclination = \"0.0 rad\"\n[excitation]\nkind = \"force\"\n\
+         amplitude = \"{force:?} N\"\nfrequency = \"{at:?} Hz\"\n[criteria]\npeak_displacement = \"<= {limit:?} m\"\n"
+    )
+}
+
+/// One whose motion wanders, with an error that reaches the limit with some clearances.
+const WANDERS: [f64; 9] = [
+    4.214234688595195,
+    25.148522407192015,
+    0.007482023634801036,
+    0.3918853992501443,
+    0.0011180259648442528,
+    0.4,
+    18.67786697155288,
+    25.151715368046954,
+    0.0013675522286967384,
+];
+
+/// Where a range is told `check` holds at every design that was tried, first of all close to the case: in steps of half of the
+/// tolerance where that is stated. A search that judged its steps by fewer starts, and began a fiftieth away, told of stretches
+/// in which `check` fails: of the first by its amplitude and clearance, of the second by its tilt.
+#[test]
+fn all_criteria_hold_at_every_design_that_was_tried() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let first = [
+        1.2163048250089792,
+        23.46930409285462,
+        0.0054174768425583174,
+        0.07035946232988434,
+        0.0007776324733504057,
+        0.301,
+        1.7925392327954894,
+        23.781267516119424,
+        0.0006935166236554767,
+    ];
+    let second = [
+        4.624608774105471,
+        3.756169584177345,
+        0.006263862806129511,
+        0.07909689750541998,
+        0.00027388110706417064,
+        0.415,
+        0.020279888807387236,
+        3.747065410179219,
+        0.0002828045289481739,
+    ];
+    let third = [
+        18.978943768838743,
+        0.6474654511831506,
+        0.0148265515135668,
+        0.7051335405786774,
+        0.0010219765597645175,
+        0.4,
+        0.022601736128704017,
+        0.6468798230423702,
+        0.0012071893206184894,
+    ];
+    let uncertain = format!(
+        "{}[uncertainty]\nclearance = \"± 0.000004 m\"\namplitude = \"0.0002 N\"\n",
+        driven(third)
+    );
+    let cases = [
+        (driven(first), [Varied::Amplitude, Varied::Clearance], [0.0; 2]),
+        (driven(second), [Varied::Amplitude, Varied::Inclination], [0.0; 2]),
+        // A normal error is likely up to twice its deviation.
+        (uncertain, [Varied::Amplitude, Varied::Clearance], [0.0001, 0.000_002]),
+    ];
+    for (text, numbers, half) in cases {
+        let case = Case::parse("case.toml", &text).expect("a case");
+        let own = Answer::of(&case, Asked::Criteria, None, &Serial).expect("judged").judged;
+        let effort = case.effort();
+        let ranges = holds_for(&case, &own, &numbers, Together::Hold, &effort, &Serial);
+        let mut paths = Vec::new();
+        for (range, half) in ranges.expect("ranges").iter().zip(half) {
+            let [from, to] = range.holds.expect("it holds");
+            let ends = [from, range.value, to].map(|end| range.tried.contains(&end));
+            assert_eq!(ends, [true; 3], "{range:?}");
+            assert!(range.tried.iter().all(|at| (from..=to).contains(at)), "{range:?}");
+            let nearest = range.tried.iter().map(|at| (at - range.value).abs());
+            let nearest = nearest.filter(|off| *off > 0.0).fold(f64::INFINITY, f64::min);
+            if half > 0.0 {
+                for step in 1..=2 {
+                    let at = range.value + f64::from(step) * half;
+                    let there = range.tried.iter().any(|one| (one - at).abs() < 1e-9 * at);
+                    assert!(at > to || there, "{at} in {range:?}");
+                }
+                assert!(nearest < 1.001 * half, "{nearest} in {range:?}");
+            } else if range.tried.len() > 1 && range.value > 0.0 {
+                assert!(nearest <= 0.01 * range.value, "{range:?}");
+            }
+            let (key, unit) = match range.parameter {
+                Varied::Amplitude => ("amplitude", "N"),
+                Varied::Clearance => ("clearance", "m"),
+                _ => ("inclination", "rad"),
+            };
+            // The last line of that name is that of a tolerance.
+            let design = text.split_once("[uncertainty]").map_or(text.as_str(), |one| one.0);
+            for at in &range.tried {
+                let path = folder.path().join(format!("{}.toml", paths.len()));
+                std::fs::write(&path, with(design, &[key], *at, unit)).expect("written");
+                paths.push(path.to_str().expect("UTF-8").to_owned());
+            }
+        }
+        let mut arguments = vec!["check", "--criteria-only", "--format", "json"];
+        arguments.extend(paths.iter().map(String::as_str));
+        let document: Value = serde_json::from_slice(&vinesink(&arguments).stdout).expect("JSON");
+        assert!(paths.len() > 20, "{}", paths.len());
+        for (path, one) in paths.iter().zip(document["cases"].as_array().expect("cases")) {
+            let text = || std::fs::read_to_string(path).expect("written");
+            assert_eq!(one["holds"], true, "{}{one}", text());
+        }
+    }
+}
+
+/// How many designs were tried stands beside every range, on the terminal as in numbers.
+#[test]
+fn a_range_says_how_many_designs_were_tried() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    let text = driven([10.0, 5.0, 0.02, 0.5, 0.8e-3, 0.5, 0.7, 5.0, 1.2e-3]);
+    std::fs::write(&path, text).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let document = checked(path, &[]);
+    let told = String::from_utf8(vinesink(&["check", path]).stdout).expect("UTF-8");
+    for row in &document["holds_for"].as_array().expect("ranges")[..2] {
+        let tried = row["tried"].as_array().expect("values").len();
+        assert!(told.contains(&format!("at every one of {tried} designs tried for ")), "{told}");
+    }
+}
+
+/// Designs that are not decided are none that hold: the probability counts what `check` says of designs that are drawn here,
+/// within the chance of so many draws, and the three numbers stand beside one another.
+#[test]
+fn what_is_not_decided_does_not_count_as_holding() {
+    const DESIGNS: u32 = 60;
+    let folder = tempfile::tempdir().expect("a folder");
+    let design = driven(WANDERS);
+    let text = format!(
+        "{design}[uncertainty]\nclearance = \"± {:?} m\"\nsamples = {DESIGNS}\n",
+        0.02 * WANDERS[4]
+    );
+    let case = Case::parse("case.toml", &text).expect("a case");
+    let found = Reliability::of(&case, &case.effort(), &Serial).expect("flown").expect("uncertain");
+    let mut paths = Vec::new();
+    for k in 0..DESIGNS {
+        let off = 0.02 * (2.0 * (f64::from(k) + 0.5) / f64::from(DESIGNS) - 1.0);
+        let path = folder.path().join(format!("{k}.toml"));
+        std::fs::write(&path, with(&design, &["clearance"], (1.0 + off) * WANDERS[4], "m"))
+            .expect("written");
+        paths.push(path.to_str().expect("UTF-8").to_owned());
+    }
+    let mut arguments = vec!["check", "--criteria-only", "--format", "json"];
+    arguments.extend(paths.iter().map(String::as_str));
+    let document: Value = serde_json::from_slice(&vinesink(&arguments).stdout).expect("JSON");
+    let cases = document["cases"].as_array().expect("cases");
+    let held = cases.iter().filter(|one| one["holds"] == true).count() as f64;
+    let failed = cases.iter().filter(|one| fails(one)).count() as f64;
+    let undecided = f64::from(DESIGNS) - held - failed;
+    println!("{held} hold, {undecided} undecided, {failed} fail; {found:?}");
+    let (share, [least, most]) = found.probability();
+    assert_eq!(share, f64::from(found.hold) / f64::from(DESIGNS));
+    assert!(least < share && share < most, "{found:?}");
+    // Two standard errors of a half are 13 % of the draws; strata err by less.
+    let near = |a: u32, b: f64| (f64::from(a) - b).abs() <= 0.13 * f64::from(DESIGNS);
+    assert!(near(found.hold, held) && near(found.undecided, undecided), "{found:?}");
+    assert!(undecided > 5.0, "{undecided} are not decided");
 }

@@ -598,14 +598,17 @@ fn a_report_tells_what_other_amplitudes_do() {
         let found = found.expect("a steady motion");
         let own = case.loads[k].centre(&case);
         assert!(found.at.contains(&worst.at) && found.at.contains(&own) && found.at.len() == 2);
-        assert_eq!(found.steps.len(), 9);
+        assert_eq!(found.steps.len(), 11);
         let most = |step: &ForceStep| {
             let places = step.motions.iter().flat_map(|one| &one.sensors);
             places.map(|place| place.peak).fold(0.0, f64::max)
         };
         // At the load's own amplitude they are the motions of the answer.
-        assert_eq!([0, 4, 5, 8].map(|k| found.steps[k].times), [0.25, 1.0, 2.0_f64.sqrt(), 4.0]);
-        assert!((most(&found.steps[4]) / worst.value - 1.0).abs() < 1e-9);
+        let times = [0, 5, 7, 10].map(|k| found.steps[k].times);
+        assert_eq!(times, [0.25, 1.0, 2.0_f64.sqrt(), 4.0]);
+        // The first to be tried is close to it.
+        assert_eq!([4, 6].map(|k| found.steps[k].times), [0.98, 1.02]);
+        assert!((most(&found.steps[5]) / worst.value - 1.0).abs() < 1e-9);
         // A structure alone is linear.
         let bare = |step: &ForceStep| step.bare / step.times;
         assert!(
@@ -623,7 +626,7 @@ fn a_report_tells_what_other_amplitudes_do() {
         assert!(limits.fails.iter().chain(&limits.open).all(outside), "{limits:?}");
         // Between and at both ends all hold, and beside them not.
         let told = found.steps.iter().filter(|step| (from..=to).contains(&step.times)).count();
-        assert!(told + limits.fails.len() + limits.open.len() <= 9, "{limits:?}");
+        assert!(told + limits.fails.len() + limits.open.len() <= 11, "{limits:?}");
     }
     // Three absorbers of 5, 10 and 20 mm on one mode: sqrt(R/(1 + R)) and the symmetry breaking of PHYSICS, r = 0.6.
     let (graded, _) =

@@ -146,7 +146,9 @@ fn one_number_has_one_error() {
         assert_eq!(rows.len(), 5, "{checked}");
         assert!(rows.iter().any(|row| row[3].contains(mark)), "{checked}");
         for row in rows {
-            let found = row[3];
+            // Behind the number stands of which share of places it is the worst.
+            let (found, of_places) = row[3].split_once(", worst of ").expect("a share");
+            assert!(of_places.ends_with(" % of places"), "{of_places}");
             // Of one record, only where the last places have added something.
             assert!(mark == "(" || found.contains(mark), "{found} {checked}");
             let reduction = row[0].starts_with("reduction");

@@ -4,7 +4,10 @@ use std::fs;
 
 use serde_json::Value;
 use vinesink::case::Case;
-use vinesink::transient::DecayStudy;
+use vinesink::executor::Serial;
+use vinesink::flights::Places;
+use vinesink::measure::Measure;
+use vinesink::transient::{DecayStudy, Study};
 
 use super::run::{message, refused, vinesink};
 
@@ -203,4 +206,107 @@ fn what_does_not_happen_is_said() {
             assert!(text.contains(sentence) && !text.contains("without limit"), "{text}");
         }
     }
+}
+
+/// A structure that is let go: mass, natural frequency, damping ratio, absorber, clearance, restitution and displacement.
+fn let_go([mass, hertz, damping, absorber, clearance, restitution, from]: [f64; 7]) -> String {
+    format!(
+        "title = 't'\nsource = 's'\n[oscillator]\nmass = \"{mass:?} kg\"\nfrequency = \"{hertz:?} Hz\"\n\
+         damping_ratio = {damping:?}\n[absorber]\nmass = \"{absorber:?} kg\"\nclearance = \"{clearance:?} m\"\n\
+         restitution = {restitution:?}\n[excitation]\nkind = \"free\"\ndisplacement = \"{from:?} m\"\n\
+         [criteria]\ndecay_time = \"<= 1000 s\"\n"
+    )
+}
+
+const LET_GO: [[f64; 7]; 3] = [
+    [37.689_31, 1.513_504, 0.008_395_775, 2.241_567, 0.003_703_672, 0.607, 0.009_074_807],
+    [120.0, 4.2, 0.006, 4.1, 0.002, 0.52, 0.007],
+    [2.5, 17.0, 0.004, 0.08, 0.000_4, 0.71, 0.001_3],
+];
+
+/// What was flown is the worst of a share of all places, and no more is said: wherever such a number stands that share stands
+/// beside it.
+#[test]
+fn the_share_of_places_is_said_beside_their_worst() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let with_criteria = |name: &str, criteria: &str| {
+        let text = fs::read_to_string(format!("cases/{name}.toml")).expect("a case");
+        let before = text.split_once("[criteria]").map_or(text.as_str(), |(before, _)| before);
+        let before = before.replace("\"tower-record.csv\"", "\"record.csv\"");
+        format!("{before}\n[criteria]\n{criteria}\n")
+    };
+    fs::copy("cases/tower-record.csv", folder.path().join("record.csv")).expect("copied");
+    let cases = [
+        ("let-go", let_go(LET_GO[0])),
+        ("sweep", with_criteria("sweep-fast", "peak_displacement = \"<= 1 m\"")),
+        ("record", with_criteria("tower-record", "rms_displacement = \"<= 1 m\"")),
+    ];
+    for (name, text) in cases {
+        let path = folder.path().join(format!("{name}.toml"));
+        fs::write(&path, text).expect("written");
+        let [path, out] = [&path, &out].map(|path| path.to_str().expect("UTF-8"));
+        let told =
+            |arguments: &[&str]| String::from_utf8(vinesink(arguments).stdout).expect("UTF-8");
+        let checked = told(&["check", path, "--criteria-only"]);
+        assert!(checked.contains(", worst of 95.4 % of places"), "{checked}");
+        assert!(checked.contains("at most 4.6 % of all places are worse"), "{checked}");
+        let json = json(&["check", path, "--criteria-only", "--format", "json"], 0);
+        let sample = &json["cases"][0]["criteria"][0]["sample"];
+        assert_eq!((&sample["even"], &sample["all"]), (&64.into(), &96.into()), "{sample}");
+        assert!((sample["share_above"].as_f64().expect("a share") - 0.045_7).abs() < 1e-3);
+        let simulated = told(&["simulate", path]);
+        assert!(
+            simulated.contains("from the worst of 95.4 % of the absorber's places"),
+            "{simulated}"
+        );
+        let mut all = vec![checked, simulated];
+        // Those of a sweep and of a record take long.
+        if name == "let-go" {
+            vinesink(&["report", path, "--out", out]);
+            let page = |kind: &str| fs::read_to_string(format!("{out}/{name}/report.{kind}"));
+            let pages = ["md", "html"].map(|kind| page(kind).expect("a page"));
+            let said = "from the worst of 95.4 % of the absorber's places";
+            assert!(pages[0].contains(said), "{}", pages[0]);
+            all.extend(pages);
+        }
+        for text in all {
+            assert!(!text.contains("worst place of the absorber"), "{text}");
+        }
+    }
+}
+
+/// 2000 even places of three releases and of a sweep, none of which is one that a study flies: some are worse than the worst
+/// that the study has, so that this is not that of all places, and no more of them than it says.
+#[test]
+fn no_larger_share_of_places_is_worse_than_is_said() {
+    let of = |even, closer| Places { even, closer, shaking: false, executor: &Serial };
+    let shares = LET_GO.map(|numbers| {
+        let case = Case::parse("case.toml", &let_go(numbers)).expect("a case");
+        let (system, units, release) =
+            (case.system(), case.units(), case.design.release().expect("released"));
+        let starts = |places| {
+            let study = DecayStudy::of(&system, &units, &release, case.decay_level, places);
+            study.expect("flown").starts
+        };
+        let told = starts(of(64, true));
+        let [worst, _] = told.largest(Measure::DecayTime).expect("flown");
+        let all = starts(of(2000, false)).all;
+        let worse = all.iter().filter(|(_, one)| one.oscillations > worst).count();
+        (worse as f64 / all.len() as f64, told.sample().share_above())
+    });
+    println!("{shares:?}");
+    assert!(shares.iter().all(|(share, most)| share <= most), "{shares:?}");
+    assert!(shares.iter().any(|(share, _)| *share > 0.0), "{shares:?}");
+    let text = fs::read_to_string("cases/sweep-fast.toml").expect("the case");
+    let case = Case::parse("case.toml", &text).expect("a case");
+    let starts = |places| match Study::brief_of_case(&case, places).expect("a sweep") {
+        Ok(Study::Sweep(study)) => study.starts,
+        other => panic!("{other:?}"),
+    };
+    let told = starts(of(64, true));
+    let [worst, _] = told.largest(Measure::Peak).expect("flown");
+    let all = starts(of(500, false)).all;
+    let worse = all.iter().filter(|(_, one)| one.peak()[1] > worst).count();
+    assert!(worse as f64 / all.len() as f64 <= told.sample().share_above(), "{worse}");
 }

@@ -2,8 +2,9 @@
 
 use crate::common;
 use std::fs;
+use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -738,4 +739,96 @@ fn a_chunk_that_does_not_fit_loses_nothing() {
     done(apart.path(), &["map.toml"]);
     let bytes = |folder: &Path| fs::read(merged(folder)).expect("merged");
     assert!(bytes(folder.path()) == bytes(apart.path()));
+}
+
+/// Three commands on one sweep at the same time, as somebody starts who does not see that one runs: each ends well, who has to
+/// wait says for whom, and the results are those of one alone.
+#[test]
+fn sweeps_at_the_same_time_lose_nothing() {
+    for (count, verbs) in [
+        (60, [&[][..], &[], &[]]),
+        (40, [&["run"][..], &[], &["run"]]),
+        (20, [&[][..], &["run"], &["run"]]),
+    ] {
+        let folder = folder(count);
+        let begun = verbs.map(|verb| {
+            let arguments = [verb, &["map.toml"]].concat();
+            let mut command = command(folder.path(), &arguments);
+            command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it runs")
+        });
+        for one in begun {
+            let output = one.wait_with_output().expect("it ends");
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(0), "{said}");
+            assert!(!said.contains("cannot write"), "{said}");
+        }
+        let apart = self::folder(count);
+        done(apart.path(), &["map.toml"]);
+        done(folder.path(), &["merge", "map.toml"]);
+        let bytes = |folder: &Path| fs::read(merged(folder)).expect("merged");
+        assert!(bytes(folder.path()) == bytes(apart.path()));
+        let chunks = chunk(folder.path(), 0).parent().expect("a folder").to_owned();
+        let left =
+            fs::read_dir(chunks).expect("chunks").map(|one| one.expect("a file").file_name());
+        let left: Vec<_> = left.filter(|name| !name.to_string_lossy().starts_with('0')).collect();
+        assert!(left.is_empty(), "{left:?}");
+    }
+}
+
+/// Who holds a sweep is said at once, and the other one waits for it.
+#[cfg(unix)]
+#[test]
+fn a_sweep_waits_for_another_one_and_says_so() {
+    let folder = folder(20);
+    done(folder.path(), &["map.toml"]);
+    let chunks = chunk(folder.path(), 0).parent().expect("a folder").to_owned();
+    let held = fs::File::open(&chunks).expect("a folder");
+    held.lock().expect("free");
+    let mut command = command(folder.path(), &["map.toml"]);
+    let mut waiting =
+        command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("it runs");
+    let mut said = String::new();
+    let mut lines = BufReader::new(waiting.stderr.take().expect("piped"));
+    while !said.contains("waiting until it is done") {
+        assert!(lines.read_line(&mut said).expect("a line") > 0, "{said}");
+    }
+    assert!(
+        said.contains("Another process works on this sweep in") && said.contains("chunks"),
+        "{said}"
+    );
+    assert_eq!(waiting.try_wait().expect("it runs"), None);
+    held.unlock().expect("held");
+    assert_eq!(waiting.wait().expect("it ends").code(), Some(0));
+}
+
+/// Chunks that are damaged, cut short or of another sweep are said before anything is worked out, and one that cannot be read
+/// ends the run before that.
+#[test]
+fn damaged_chunks_are_found_before_work_begins() {
+    let folder = folder(40);
+    done(folder.path(), &["map.toml"]);
+    let expected = fs::read(merged(folder.path())).expect("merged");
+    let last = (0..).take_while(|k| chunk(folder.path(), *k).exists()).last().expect("chunks");
+    assert!(last > 1, "{last} chunks");
+    let whole = fs::read(chunk(folder.path(), 1)).expect("a chunk");
+    for damaged in [&whole[..whole.len() / 2], b"another file", &[]] {
+        fs::write(chunk(folder.path(), 1), damaged).expect("written");
+        let output = run(folder.path(), &["map.toml"]);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{said}");
+        let named = format!("{:09}.parquet: damaged, or of another sweep", 1);
+        assert!(said.contains(&named), "{said}");
+        assert!(fs::read(merged(folder.path())).expect("merged") == expected);
+    }
+    // All are to be worked out again but one, which nobody can read.
+    for k in 0..last {
+        fs::remove_file(chunk(folder.path(), k)).expect("there");
+    }
+    fs::remove_file(chunk(folder.path(), last)).expect("there");
+    fs::create_dir(chunk(folder.path(), last)).expect("made");
+    let output = run(folder.path(), &["map.toml"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains(&format!("{last:09}.parquet")), "{said}");
+    assert!((0..last).all(|k| !chunk(folder.path(), k).exists()), "nothing was worked out");
 }

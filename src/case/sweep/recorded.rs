@@ -73,11 +73,11 @@ names! { key:
         Motions = "motions",
         /// Whether a start leads to the exact symmetric orbit that attracts; nothing where none does.
         OrbitReached = "orbit_reached",
-        /// Time in which a structure that is released or struck comes to rest, from the worst place of the absorber.
+        /// Time in which a structure that is released or struck comes to rest, from the worst of the absorber's places that are flown.
         DecayTime = "decay_time",
         /// Frequency of the largest displacement in a sweep through resonance.
         PeakFrequency = "peak_frequency",
-        /// Impacts of the absorber from its worst place; of several records under the first.
+        /// Impacts of the absorber from the worst of its places that are flown; of several records under the first.
         Impacts = "impacts",
         /// Reduction of the peak against a tuned mass damper of the absorber's mass.
         ReductionDbTmd = "reduction_db_tmd",

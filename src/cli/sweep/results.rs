@@ -9,7 +9,7 @@ use vinesink::digest::sha256;
 use vinesink::program::progress::Progress;
 use vinesink::program::{output, reports};
 use vinesink::report::sweep::{MOST_POINTS, Swept};
-use vinesink::store::{self, Growing, Output};
+use vinesink::store::{self, Growing, Output, Turn};
 use vinesink::sweep::columns::Column;
 use vinesink::sweep::csv;
 use vinesink::sweep::parquet;
@@ -28,17 +28,23 @@ pub struct ResultFiles {
 }
 
 impl Sweep {
-    /// Puts all chunks together, one at a time, and writes what else is wanted.
-    pub(super) fn merge(&self, wanted: &ResultFiles) -> Result<bool> {
+    /// Refuses a sweep of which chunks are not there.
+    pub(super) fn is_whole(&self) -> Result<()> {
         if let [first, ..] = self.missing()?.as_slice() {
             return Err(miette!(
                 help = "`vinesink sweep run CASE` works out what is missing",
                 "chunk {first} is not there, or is damaged"
             ));
         }
+        Ok(())
+    }
+
+    /// Puts all chunks together, one at a time, and writes what else is wanted, while nobody else works on them.
+    pub(super) fn merge(&self, wanted: &ResultFiles, turn: &Turn) -> Result<bool> {
+        self.is_whole()?;
         let path = self.folder.join("sweep.parquet");
         self.put_together(&path).wrap_err_with(|| unfinished(&path))?;
-        self.shards()?.sweep_up()?;
+        self.shards()?.sweep_up(turn)?;
         output::print_path(&path)?;
         if wanted.csv {
             let text = self.folder.join("sweep.csv");

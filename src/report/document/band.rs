@@ -58,6 +58,8 @@ pub(in crate::report) fn damper(
     json!({
         "frequency": scale.damper_frequency(damper.tuning),
         "damping_ratio": Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, ClosedForm),
+        // What it is where the search for it ended at a bound.
+        "at_bound": rivals.at_bound(),
         "peak": length(&of::DAMPER_PEAK, damped.amplitude),
         "at": along.map(|one| scale.place(one.over, damped.at)),
         "stroke": length(&of::DAMPER_STROKE, damped.stroke),

@@ -11,6 +11,13 @@ use crate::method::Method;
 use crate::motions::Motions;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
+use crate::transient::Sample;
+
+/// From which places of the absorber numbers are known: even ones, all, and the share of places that are worse than the
+/// worst of them, at most, at odds of 19 to 1.
+pub fn sample(of: Sample) -> Value {
+    json!({ "even": of.even, "all": of.all, "share_above": of.share_above() })
+}
 
 /// What all criteria together came to; none where the case asks for nothing.
 pub fn badge(judged: &[Judged]) -> Option<Word> {
@@ -95,6 +102,9 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
         "outcome": judged.outcome().name(),
         "holds": judged.holds,
         "at": at,
+        // From which places of the absorber it is known where it is not driven steadily, and under how many records.
+        "sample": judged.sample.map(sample),
+        "records": judged.records,
         // Share of the resting places from which the absorber stays inactive, where that motion decides.
         "inactive_share": judged.inactive.map(share),
         // The motion that decides, in the list of its place.

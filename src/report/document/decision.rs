@@ -144,6 +144,8 @@ fn told(case: &Case, found: &Alternatives, row: &Row) -> Value {
         "stroke": stroke(case, row).map(with_unit),
         "frequency": row.damper.map(frequency),
         "damping_ratio": row.damper.map(damping_ratio),
+        // What it is where the search for it ended at a bound.
+        "at_bound": row.at_bound(),
     })
 }
 
@@ -190,6 +192,7 @@ fn reliability(case: &Case, found: &Reliability) -> Value {
         "samples": found.samples,
         "hold": found.hold,
         "undecided": found.undecided,
+        "fail": found.samples - found.hold - found.undecided,
         "examined": found.examined,
         "causes": found.causes.iter().map(cause).collect::<Vec<_>>(),
     })
@@ -253,6 +256,7 @@ fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
         "from_open": found.open[0],
         "to_open": found.open[1],
         "holds": found.holds,
+        "tried": found.tried,
         "undecided": found.undecided,
         "further": [],
     });
@@ -264,6 +268,8 @@ fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
         "from_open": found.open[0],
         "to_open": found.open[1],
         "holds": found.holds.map(|ends| ends.map(quantity)),
+        // Designs that were judged as the case itself, in what holds.
+        "tried": found.tried.len(),
         // By how much of itself the number may be off.
         "off": found.holds.filter(|_| found.value != 0.0).map(|ends| ends.map(change)),
         "only_here": found.holds == Some([found.value; 2]),

@@ -349,13 +349,14 @@ pub fn document(
         })
     });
     let dampers = beside.dampers.iter().map(|one| {
-        let each = one.dampers.iter().zip(&one.strokes).zip(&one.places);
-        let each = each.map(|((damper, stroke), place)| {
+        let each = one.dampers.iter().zip(&one.strokes).zip(one.places.iter().zip(&one.at_bound));
+        let each = each.map(|((damper, stroke), (place, at_bound))| {
             json!({
                 "place": case.places[*place],
                 "mass": mass(case, &of::ABSORBER_MASS, damper.mass),
                 "frequency": closed(&of::DAMPER_FREQUENCY, damper.frequency * case.modes[0].frequency_hz),
                 "damping_ratio": closed(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio),
+                "at_bound": at_bound,
                 "stroke": closed(&of::DAMPER_STROKE, *stroke),
             })
         });

@@ -14,14 +14,13 @@ use serde_json::{Value, json};
 pub use flight::{flight, flight_text};
 pub use optimum::{optimum, optimum_text};
 
-use super::document::criteria::{badge, criteria};
+use super::document::criteria::{badge, criteria, sample};
 use super::document::{Content, NOTICEABLE, Word, answer, cavity, figure_row};
 use super::figure::{Color, Dash, Figure, Style};
 use super::render::{Files, RenderError, in_lines, page_files};
 use super::template::{render, worded};
 use crate::case::Case;
 use crate::criteria::Judged;
-use crate::flights::share_above;
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::quantity::Quantity;
@@ -158,12 +157,6 @@ pub fn document(
         Study::Record(of) => record::add(case, study, of, &mut document),
     }
     document
-}
-
-/// From which places of the absorber numbers are known: even ones, all, and the share of places that are worse than the
-/// worst of the even ones, at most, at odds of 19 to 1.
-fn sample<R>(runs: &Runs<R>) -> Value {
-    json!({ "even": runs.even, "all": runs.all.len(), "share_above": share_above(runs.even) })
 }
 
 /// Starts that a page lists.

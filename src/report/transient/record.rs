@@ -36,7 +36,7 @@ pub(super) fn add(case: &Case, all: &Study, study: &RecordStudy, facts: &mut Val
     // Under the first record.
     if let Some(first) = study.first() {
         facts["worst"] = worst_rows(case, &first.places, Measure::Peak, place);
-        facts["sample"] = sample(&first.places);
+        facts["sample"] = sample(first.places.sample());
         facts["places"] = first.places.by_place().into_iter().map(place).collect();
     }
     let exact = |kind, peak| scale.units.quantity(kind, peak, Method::ClosedForm);

@@ -25,7 +25,7 @@ pub(super) fn add(case: &Case, study: &DecayStudy, document: &mut Value) {
     let row = |(w, start): &(f64, Decay)| row(&scale, *w, start);
     document["starts"] = study.starts.by_place().into_iter().map(row).collect();
     document["worst"] = worst_rows(case, &study.starts, Measure::DecayTime, row);
-    document["sample"] = sample(&study.starts);
+    document["sample"] = sample(study.starts.sample());
     // The lowest and the highest place of an absorber that no wall reaches.
     let place = |w| scale.units.quantity(&of::RELATIVE_DISPLACEMENT, w, Method::ClosedForm);
     document["inactive"] = json!(study.inactive.places.map(|ends| ends.map(place)));

@@ -47,7 +47,7 @@ pub(super) fn add(case: &Case, study: &SweepStudy, document: &mut Value) {
     // One for each place of the absorber.
     document["starts"] = study.starts.by_place().into_iter().map(start).collect();
     document["worst"] = worst_rows(case, &study.starts, Measure::Peak, start);
-    document["sample"] = sample(&study.starts);
+    document["sample"] = sample(study.starts.sample());
     document["places_beside"] = study.starts.even.min(SweepStudy::STARTS_BESIDE.into()).into();
     document["down"] = (study.sweep.from > study.sweep.to).into();
     // In the case's direction, and in the other.

@@ -44,7 +44,10 @@ fn history(case: &Case, study: &RecordStudy) -> Option<Figure> {
             Layer::curve(Role::BareOscillator, line(&first.bare.trace))
                 .labelled("without absorber"),
         )
-        .with(Layer::curve(Role::Simulation, line(&worst.trace)).labelled("absorber, worst place"));
+        .with(
+            Layer::curve(Role::Simulation, line(&worst.trace))
+                .labelled("absorber, worst place flown"),
+        );
     Some(Figure::new("history", "").with_panel(panel))
 }
 
@@ -65,6 +68,9 @@ fn spectrum(case: &Case, study: &RecordStudy) -> Figure {
         .with(Layer::vertical(1.0, Role::Guide).labelled("this structure"))
         .with(Layer::curve(Role::BareOscillator, line(|one| one.bare)).labelled("without absorber"))
         .with(Layer::curve(DAMPER, line(|one| one.damped)).labelled("tuned mass damper"))
-        .with(Layer::curve(ABSORBER, line(|one| one.absorber)).labelled("absorber, worst place"));
+        .with(
+            Layer::curve(ABSORBER, line(|one| one.absorber))
+                .labelled("absorber, worst place flown"),
+        );
     Figure::new("response-spectrum", "").with_panel(panel)
 }

@@ -59,7 +59,7 @@ fn envelope(case: &Case, study: &DecayStudy) -> Option<Figure> {
         )
         .with(
             Layer::curve(Role::Simulation, sampled(&found.amplitudes))
-                .labelled("absorber, slowest start"),
+                .labelled("absorber, slowest start flown"),
         )
         .with(Layer::curve(THEORY, line(study.predicted.path.clone())).labelled("theory"));
     if study.predicted.residual > study.level && study.system.cavity().is_ideal() {

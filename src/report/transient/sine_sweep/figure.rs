@@ -89,6 +89,6 @@ fn rates(case: &Case, study: &SweepStudy) -> Figure {
     let panel = Panel::new(x, y)
         .with(Layer::curve(Role::BareOscillator, line(1)).labelled("without absorber"))
         .with(Layer::curve(DAMPER, line(2)).labelled("tuned mass damper"))
-        .with(Layer::curve(Role::Simulation, line(0)).labelled("with absorber, worst start"));
+        .with(Layer::curve(Role::Simulation, line(0)).labelled("with absorber, worst start flown"));
     Figure::new("rates", "").with_panel(panel)
 }
