@@ -50,15 +50,19 @@ impl Shards {
     /// system knows no locks, nobody waits.
     pub fn take_turn(&self, sharing: Sharing, waits: impl FnOnce(&Path)) -> Turn {
         let file = lockable(&self.folder);
-        let (at_once, lock): (fn(&File) -> _, fn(&File) -> _) = match sharing {
-            Sharing::WithOthers => (File::try_lock_shared, File::lock_shared),
-            Sharing::Alone => (File::try_lock, File::lock),
+        let at_once = |file: &File| match sharing {
+            Sharing::WithOthers => file.try_lock_shared(),
+            Sharing::Alone => file.try_lock(),
+        };
+        let in_time = |file: &File| match sharing {
+            Sharing::WithOthers => file.lock_shared(),
+            Sharing::Alone => file.lock(),
         };
         let lock = file.filter(|file| match at_once(file) {
             Ok(()) => true,
             Err(TryLockError::WouldBlock) => {
                 waits(&self.folder);
-                lock(file).is_ok()
+                in_time(file).is_ok()
             }
             Err(TryLockError::Error(_)) => false,
         });
