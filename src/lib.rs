@@ -25,6 +25,7 @@ pub mod case;
 pub mod case_input;
 pub mod case_optimum;
 pub mod case_report;
+pub mod contact;
 pub mod criteria;
 pub mod dampers;
 pub mod diff;

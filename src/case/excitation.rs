@@ -223,7 +223,8 @@ pub(super) static KINDS: [KindRow; 6] = [
         ],
         lines: "quantity = \"base-acceleration\" # or \"base-displacement\", \"force\"\n\
                 spectrum = [[5, 0.02], [12, 0.02]] # (m/s²)²/Hz over Hz; or a file = \"quake.csv\" and none of what follows\n\
-                duration = \"60 s\"\nseed = 1                      # and realisations = 20\n",
+                duration = \"60 s\"             # a file may need column = \"ch3\", time_column = \"t\", unit = \"g\", rate = \"2 kHz\", gaps = \"linear\"\n\
+                seed = 1                      # and realisations = 20\n",
         ..NO_KEYS
     },
 ];

@@ -1,7 +1,7 @@
 //! A case with another number, of which nothing is written.
 
 use super::{Case, Design};
-use crate::criteria::contact::Impacts;
+use crate::contact::Impacts;
 use crate::system::{Excitation, Parameter};
 
 impl Case {

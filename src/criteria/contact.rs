@@ -1,172 +1,29 @@
-//! What the time that an impact takes does to a prediction.
-//!
-//! The model's impacts take no time. One of a time `T` on a wall that is a linear spring and damper without tension acts
-//! like one of no time with the clearance `b + s v T` and the restitution `r + q a T/v`, to first order in `T`: `v` is the relative
-//! speed towards the wall and `a` the relative acceleration towards it just before, `s` the share of the contact after which its impulse
-//! acts. The motions of that pair are looked for as well: their difference is an error of every number of a motion, and
-//! where another motion decides there, nothing is decided.
-
-use std::f64::consts::PI;
+//! Criteria where impacts take time: the motions of the clearance and restitution that act like it are looked for as well
+//! ([`crate::contact`]). Their difference is an error of every number of a motion, and where another motion decides there, nothing
+//! is decided.
 
 use super::{Judged, Outcome};
 use crate::band::Survey;
-use crate::case::{Case, ModalCase};
+use crate::case::Case;
+use crate::contact::Impacts;
 use crate::measure::{Device, Measure};
-use crate::motions::{Motion, Motions};
-use crate::numerics::bracket::bisected;
-use crate::simulation::{
-    Impact, ModalImpact, ModalObserver, ModalSimulation, Observer, Segment, Simulation,
-};
-use crate::system::{ModalState, ModalSystem, System};
+use crate::motions::Motions;
 use crate::transient::Study;
 
-/// What impacts are like: mean speed towards the wall, and mean acceleration towards it just before, in units that belong to a clearance and
-/// a time.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Impacts {
-    /// `v`.
-    pub speed: f64,
-    /// `a`.
-    pub acceleration: f64,
-}
-
-impl Impacts {
-    /// The clearance and restitution without a contact time that act like these with one.
-    pub fn act_like(self, [clearance, restitution]: [f64; 2], time: f64) -> [f64; 2] {
-        let Self { speed, acceleration } = self;
-        let [s, q] = pad(restitution);
-        let shifted = restitution + q * acceleration * time / speed;
-        [clearance + s * speed * time, shifted.clamp(0.0, 1.0)]
-    }
-}
-
-/// `s` and `q` of a wall that is a linear spring and damper and lets go where its force is zero, by its restitution.
-pub fn pad(restitution: f64) -> [f64; 2] {
-    if restitution <= 0.0 {
-        // The harder it is damped, the sooner its impulse has acted.
-        return [0.0, 1.0];
-    }
-    // r = exp(-z T w), and T w from the zero of its force: it falls with the damping ratio z.
-    let off = |z: f64| libm::exp(-z * duration(z)) - restitution;
-    let z = bisected([0.0, MOST_DAMPED], off).unwrap_or_default();
-    let s = (restitution + 2.0 * z * restitution / duration(z)) / (1.0 + restitution);
-    [s, (1.0 + restitution) * (1.0 - 2.0 * s)]
-}
-
-/// Damping ratio beyond which the restitution is below 1e-7.
-const MOST_DAMPED: f64 = 1e3;
-
-/// Contact time of such a wall over `1/w` of its undamped oscillation, by its damping ratio.
-fn duration(z: f64) -> f64 {
-    let square = 1.0 - z * z;
-    if square > 1e-8 {
-        let w = square.sqrt();
-        (PI - libm::atan2(2.0 * z * w, 1.0 - 2.0 * z * z)) / w
-    } else if square < -1e-8 {
-        let w = (-square).sqrt();
-        libm::atanh(2.0 * z * w / (2.0 * z * z - 1.0)) / w
-    } else {
-        2.0
-    }
-}
-
-/// Excitation periods in which impacts are looked at, and of several modes as many that are left out before, over the decay of
-/// the slowest.
-const PERIODS: u64 = 64;
-const DECAYS: f64 = 8.0;
-const MOST_IMPACTS: u64 = 100_000;
-
-/// Adds up what impacts are like.
-#[derive(Default)]
-struct Sums {
-    impacts: f64,
-    speed: f64,
-    acceleration: f64,
-    /// The structure's acceleration at the end of the last flight.
-    last: f64,
-}
-
-impl Sums {
-    fn add(&mut self, speed: f64, acceleration: f64) {
-        self.impacts += 1.0;
-        self.speed += speed;
-        self.acceleration += acceleration;
-    }
-
-    fn mean(&self) -> Option<Impacts> {
-        let Self { impacts, speed, acceleration, .. } = *self;
-        let found = Impacts { speed: speed / impacts, acceleration: acceleration / impacts };
-        (impacts > 0.0 && found.speed > 0.0).then_some(found)
-    }
-}
-
-impl Observer for Sums {
-    fn segment(&mut self, segment: &Segment) {
-        let (motion, end) = (&segment.motion, segment.duration);
-        self.last = motion.acceleration(end, motion.at(end));
-    }
-
-    fn impact(&mut self, impact: &Impact) {
-        let speed = impact.x_velocity_before - impact.y_velocity_before;
-        self.add(speed.abs(), self.last * impact.side.sign());
-    }
-}
-
-impl Impacts {
-    /// Those of a motion, over the clearance in fast time; none where there are none. An absorber in flight does not accelerate but
-    /// along a tilted cavity, where both walls together see no more.
-    pub fn of(system: &System, motion: &Motion) -> Option<Self> {
-        let mut sums = Sums::default();
-        let mut simulation = Simulation::new(system, motion.state(), 0.0).ok()?;
-        simulation.run(PERIODS, MOST_IMPACTS, &mut sums);
-        sums.mean()
-    }
-
-    /// The fastest of the motions where criteria are worst along a survey, whether it is those that decide or others.
-    fn fastest(survey: &Survey, judged: &[Judged]) -> Option<Self> {
-        let mut places: Vec<f64> = Vec::new();
-        for at in judged.iter().map(|one| one.at.unwrap_or_else(|| survey.band().own())) {
-            if !places.contains(&at) {
-                places.push(at);
-            }
+/// The fastest of the motions where criteria are worst along a survey, whether it is those that decide or others.
+fn fastest(survey: &Survey, judged: &[Judged]) -> Option<Impacts> {
+    let mut places: Vec<f64> = Vec::new();
+    for at in judged.iter().map(|one| one.at.unwrap_or_else(|| survey.band().own())) {
+        if !places.contains(&at) {
+            places.push(at);
         }
-        let each = places.into_iter().flat_map(|at| {
-            let system = survey.band().system(at).ok();
-            let motions = survey.motions.at(at).into_iter().flat_map(Motions::iter);
-            motions.filter_map(move |motion| Self::of(&system?, motion))
-        });
-        each.max_by(|a, b| a.speed.total_cmp(&b.speed))
     }
-}
-
-/// Those of each absorber of several modes at one excitation.
-struct OfAbsorbers {
-    each: Vec<Sums>,
-    square: f64,
-}
-
-impl ModalObserver for OfAbsorbers {
-    fn impact(&mut self, impact: &ModalImpact) {
-        let speed = impact.x_velocity[0] - impact.y_velocity[0];
-        // Nearly harmonic: the acceleration is that of its displacement.
-        let acceleration = -self.square * impact.x * impact.side.sign();
-        self.each[impact.absorber].add(speed.abs(), acceleration);
-    }
-}
-
-/// Impacts of each absorber from rest, in the units of the system; none of one that rests.
-pub fn of_absorbers(system: &ModalSystem) -> Vec<Option<Impacts>> {
-    let frequency = system.frequency_ratio();
-    let none = || system.absorbers().iter().map(|_| Sums::default()).collect();
-    let mut found = OfAbsorbers { each: none(), square: frequency * frequency };
-    let slowest = system.modes().iter().map(|mode| mode.damping_ratio * mode.frequency);
-    let slowest = slowest.filter(|rate| *rate > 0.0).fold(f64::INFINITY, f64::min);
-    let settling = (DECAYS / slowest / (2.0 * PI / frequency)).min(PERIODS as f64 * 64.0) as u64;
-    if let Ok(mut simulation) = ModalSimulation::new(system, &ModalState::AT_REST, 0.0) {
-        simulation.run(settling, MOST_IMPACTS, &mut ());
-        simulation.run(PERIODS, MOST_IMPACTS, &mut found);
-    }
-    found.each.iter().map(Sums::mean).collect()
+    let each = places.into_iter().flat_map(|at| {
+        let system = survey.band().system(at).ok();
+        let motions = survey.motions.at(at).into_iter().flat_map(Motions::iter);
+        motions.filter_map(move |motion| Impacts::of(&system?, motion))
+    });
+    each.max_by(|a, b| a.speed.total_cmp(&b.speed))
 }
 
 /// What a motion is, as far as a limit of it is one: at rest, one to one, or another.
@@ -191,7 +48,7 @@ pub fn judge_in_contact<E>(
     let (mut there, mut judged) = (survey.clone(), own.clone());
     // Speeds at the pair itself: one more step is of second order.
     for _ in 0..2 {
-        let Some(impacts) = Impacts::fastest(&there, &judged) else { break };
+        let Some(impacts) = fastest(&there, &judged) else { break };
         let Some(shifted) = case.acting_like(impacts, time) else { break };
         there = again(&shifted)?;
         judged = super::judge(&shifted, &there);
@@ -229,26 +86,6 @@ pub fn judge_transient_in_contact<E>(
     Ok(own.into_iter().zip(&there).map(|(one, there)| one.in_contact(there, false)).collect())
 }
 
-impl ModalCase {
-    /// The same with the clearances and restitutions that act like its impacts, which take time; none where they take none, or there
-    /// are none.
-    pub(crate) fn acting_like(&self, impacts: &[Option<Impacts>]) -> Option<Self> {
-        if self.contact_is_sensors {
-            return None;
-        }
-        let mut case = self.clone();
-        let omega = self.omega();
-        let mut any = false;
-        for (one, found) in case.absorbers.iter_mut().zip(impacts) {
-            let (Some(time), Some(found)) = (one.contact_time_s, found) else { continue };
-            let pair = found.act_like([one.clearance_m, one.restitution], time * omega);
-            [one.clearance_m, one.restitution] = pair;
-            any = true;
-        }
-        any.then_some(case)
-    }
-}
-
 /// What a contact time makes of a criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
@@ -276,44 +113,5 @@ impl Judged {
         let near_limit =
             near_limit && undecided.is_none() && self.outcome() != Outcome::NotMeasured;
         Self { error: room - least, holds, near_limit, undecided, contact, ..self }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Impacts, pad};
-
-    /// The table of a pad by two programs, three digits.
-    #[test]
-    fn the_impulse_of_a_pad_acts_where_it_should() {
-        for (r, s, q) in [
-            (0.3, 0.326, 0.454),
-            (0.4, 0.364, 0.381),
-            (0.5, 0.396, 0.312),
-            (0.6, 0.423, 0.246),
-            (0.7, 0.446, 0.184),
-            (0.8, 0.467, 0.121),
-            (0.9, 0.484, 0.061),
-            (1.0, 0.5, 0.0),
-        ] {
-            let [found_s, found_q] = pad(r);
-            assert!(
-                (found_s - s).abs() < 6e-4 && (found_q - q).abs() < 1.6e-3,
-                "{r} {found_s} {found_q}"
-            );
-        }
-        assert!((pad(0.2)[0] - 0.277).abs() < 6e-4);
-        // Across critical damping, exp(-2), and down to none.
-        let [below, above] = [0.1353, 0.13537].map(|r| pad(r)[0]);
-        assert!((below - above).abs() < 1e-4);
-        assert!(pad(0.01)[0] > 0.0 && pad(0.01)[0] < pad(0.1)[0]);
-        assert_eq!(pad(0.0), [0.0, 1.0]);
-    }
-
-    #[test]
-    fn the_pair_is_that_of_the_formula() {
-        let [b, r] = Impacts { speed: 0.8, acceleration: 6.0 }.act_like([0.016, 0.6], 0.001);
-        let [s, q] = pad(0.6);
-        assert!((b - 0.016 - s * 0.0008).abs() < 1e-15 && (r - 0.6 - q * 0.0075).abs() < 1e-15);
     }
 }

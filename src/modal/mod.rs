@@ -15,7 +15,7 @@ mod rest;
 mod sensors;
 
 use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion, RewriteError};
-use crate::criteria::contact::of_absorbers;
+use crate::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
 use crate::measure::PlaceMeasure;

@@ -65,12 +65,15 @@ const ROOMS: &[(&str, &[&str])] = &[
             "system",
         ],
     ),
+    // What the time that an impact takes does to a motion.
+    ("contact", &["motions", "numerics", "simulation", "system"]),
     // The same of structures of several modes with several absorbers.
     (
         "modal",
         &[
             "analysis",
             "case",
+            "contact",
             "criteria",
             "dampers",
             "executor",
@@ -144,6 +147,7 @@ const ROOMS: &[(&str, &[&str])] = &[
         &[
             "band",
             "case",
+            "contact",
             "linear",
             "measure",
             "method",
@@ -276,8 +280,9 @@ const ROOMS: &[(&str, &[&str])] = &[
     ),
     (
         "case",
-        // What a structure alone does says which numbers of a case are slips.
+        // What a structure alone does says which numbers of a case are slips; what acts like impacts that take time is a case.
         &[
+            "contact",
             "digest",
             "excitation",
             "linear",

@@ -126,7 +126,7 @@ fn what_has_no_meaning_is_refused() {
             "[band] has no meaning",
         ),
         ("[criteria]", "[simulation]\nperiods = 3\n[criteria]", "`periods` has no meaning"),
-        ("[criteria]", "[report]\n[criteria]", "[report] has no meaning"),
+        ("[criteria]", "[report]\nfigures = [\"areas\"]\n[criteria]", "`figures` has no meaning"),
         (
             "releases",
             "objective = \"margin\"\nreleases",

@@ -26,6 +26,7 @@ use super::document;
 use super::error::{CaseError, Problem};
 use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
+use crate::contact::Impacts;
 use crate::digest::text_sha256;
 use crate::measure::PlaceMeasure;
 use crate::quantity::Kind;
@@ -382,5 +383,25 @@ impl ModalCase {
             frequency_ratio: frequency_hz / first,
             base_amplitude: moves,
         })
+    }
+}
+
+impl ModalCase {
+    /// The same with the clearances and restitutions that act like its impacts, which take time; none where they take none, or there
+    /// are none.
+    pub(crate) fn acting_like(&self, impacts: &[Option<Impacts>]) -> Option<Self> {
+        if self.contact_is_sensors {
+            return None;
+        }
+        let mut case = self.clone();
+        let omega = self.omega();
+        let mut any = false;
+        for (one, found) in case.absorbers.iter_mut().zip(impacts) {
+            let (Some(time), Some(found)) = (one.contact_time_s, found) else { continue };
+            let pair = found.act_like([one.clearance_m, one.restitution], time * omega);
+            [one.clearance_m, one.restitution] = pair;
+            any = true;
+        }
+        any.then_some(case)
     }
 }
