@@ -3,11 +3,13 @@
 //! is decided.
 
 use super::{Judged, Outcome};
-use crate::band::Survey;
+use crate::band::{Survey, SurveySettings};
 use crate::case::Case;
 use crate::contact::Impacts;
+use crate::executor::Executor;
 use crate::measure::{Device, Measure};
-use crate::motions::Motions;
+use crate::motions::{Effort, Motions};
+use crate::simulation::StartError;
 use crate::transient::Study;
 
 /// The fastest of the motions where criteria are worst along a survey, whether it is those that decide or others.
@@ -33,16 +35,17 @@ fn kind(survey: &Survey, judged: &Judged) -> Option<[bool; 2]> {
     Some([motion.rest().is_some(), motion.is_one_to_one()])
 }
 
-/// The criteria of a case that is driven steadily, with what a contact time makes of them: `survey` is its own, `again` looks along
-/// that of another case in the same way.
+/// The criteria of a case that is driven steadily, by a survey of it, with what a contact time makes of them: the range of the pair that
+/// acts like it is looked along with the same effort.
 ///
 /// # Errors
-/// Those of `again`.
-pub fn judge_in_contact<E>(
+/// [`StartError`] where a start of a simulation is not finite.
+pub fn judge_in_contact(
     case: &Case,
     survey: &Survey,
-    again: impl Fn(&Case) -> Result<Survey, E>,
-) -> Result<Vec<Judged>, E> {
+    effort: Effort,
+    on: &dyn Executor,
+) -> Result<Vec<Judged>, StartError> {
     let own = super::judge(case, survey);
     let Some(time) = case.impacts_take() else { return Ok(own) };
     let (mut there, mut judged) = (survey.clone(), own.clone());
@@ -50,7 +53,11 @@ pub fn judge_in_contact<E>(
     for _ in 0..2 {
         let Some(impacts) = fastest(&there, &judged) else { break };
         let Some(shifted) = case.acting_like(impacts, time) else { break };
-        there = again(&shifted)?;
+        let settings = super::settings(&shifted);
+        // An absorber at rest meets its walls where they are.
+        let effort = settings.effort.map(|_| effort);
+        let settings = SurveySettings { effort, count_rest: false, ..settings };
+        there = Survey::of(&shifted.range(), &settings, None, on)?;
         judged = super::judge(&shifted, &there);
     }
     let each = own.into_iter().zip(&judged).map(|(own, shifted)| {
@@ -101,11 +108,15 @@ impl Judged {
     #[must_use]
     pub fn in_contact(self, there: &Self, crosses: bool) -> Self {
         let (Some(room), Some(shifted)) = (self.margin, there.margin) else { return self };
-        let contact = Some(Contact { found: there.found, crosses });
         if !self.criterion.measure.is_of_motions() {
             return self;
         }
-        let least = (room - self.error).min(shifted - there.error);
+        let contact = Some(Contact { found: there.found, crosses });
+        let [own, there_least] = [room - self.error, shifted - there.error];
+        if self.inactive.is_some() && there_least >= own {
+            return self;
+        }
+        let least = own.min(there_least);
         let same = self.outcome() == there.outcome();
         let holds = self.holds.map(|holds| holds && there.holds == Some(true));
         let undecided = self.undecided.or(there.undecided);

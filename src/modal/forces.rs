@@ -99,17 +99,24 @@ impl OverForce {
         let found = map(on, "motions under other amplitudes", times.len() * at.len(), look);
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         let step = |(step, found): (usize, &[AtFrequency])| {
-            let (load, places) = (with(step), found.to_vec());
+            let load = with(step);
             let here = ModalCase { loads: vec![load], ..usual.clone() };
             let bare = at.iter().map(|at| linear_peak(case, &load, *at, &[]));
             let bare = bare.fold(0.0, f64::max);
             let motions = found.iter().flat_map(|one| one.motions.iter().cloned()).collect();
-            let along = AlongLoad { load, places, bare: along.bare.clone(), modes: Vec::new() };
-            let outcomes = ModalAnswer::judged(&here, vec![along]).criteria();
-            let outcomes = outcomes.iter().map(Judged::outcome).collect();
-            ForceStep { times: times[step], motions, bare, outcomes }
+            let answer = |case: &ModalCase, places: Vec<AtFrequency>| {
+                let along = AlongLoad { load, places, bare: along.bare.clone(), modes: Vec::new() };
+                ModalAnswer::judged(case, vec![along])
+            };
+            let judged = answer(&here, found.to_vec()).in_contact(&here, |shifted| {
+                let places = at.iter().map(|at| AtFrequency::of(shifted, &load, *at, starts));
+                Ok(answer(shifted, places.collect::<Result<_, _>>()?))
+            })?;
+            let outcomes = judged.criteria().iter().map(Judged::outcome).collect();
+            Ok(ForceStep { times: times[step], motions, bare, outcomes })
         };
-        let steps = found.chunks(at.len()).enumerate().map(step).collect();
+        let steps = found.chunks(at.len()).enumerate().map(step);
+        let steps = steps.collect::<Result<_, ModalError>>()?;
         let exact = stable_amplitudes(case, load, centre).ok().map(|found| (centre, found));
         Ok(Some(Self { at, steps, working: working(case, driven_mode(case, load)), exact }))
     }

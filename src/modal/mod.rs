@@ -73,18 +73,34 @@ impl ModalAnswer {
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
     pub fn of(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
-        let own = Self::in_no_time(case, on)?;
-        let worst = own.judged.iter().map(|one| &one.worst).filter(|one| !one.rests);
-        let worst = worst.max_by(|a, b| a.value.total_cmp(&b.value)).copied();
-        let Some(worst) = worst else { return Ok(own) };
-        let Ok(system) = case.system(&case.loads[worst.load], worst.at) else { return Ok(own) };
-        let Some(shifted) = case.acting_like(&of_absorbers(&system)) else { return Ok(own) };
-        let there = Self::in_no_time(&shifted, on)?;
-        let judged = own.judged.into_iter().zip(&there.judged).map(|(one, shifted)| JudgedPlace {
-            judged: one.judged.in_contact(&shifted.judged, one.worst.rests != shifted.worst.rests),
-            ..one
-        });
-        Ok(Self { judged: judged.collect(), along: own.along })
+        Self::in_no_time(case, on)?.in_contact(case, |shifted| Self::in_no_time(shifted, on))
+    }
+
+    /// The same with what it makes of the criteria that impacts take time: `again` looks at another case in the same way.
+    fn in_contact(
+        self,
+        case: &ModalCase,
+        again: impl Fn(&ModalCase) -> Result<Self, ModalError>,
+    ) -> Result<Self, ModalError> {
+        let worst = self.judged.iter().map(|one| &one.worst).filter(|one| !one.rests);
+        let worst = worst.max_by(|a, b| a.value.total_cmp(&b.value));
+        let Some(worst) = worst else { return Ok(self) };
+        let Ok(system) = case.system(&case.loads[worst.load], worst.at) else { return Ok(self) };
+        let Some(shifted) = case.acting_like(&of_absorbers(&system)) else { return Ok(self) };
+        let there = again(&shifted)?;
+        let in_contact = |(one, shifted): (JudgedPlace, &JudgedPlace)| {
+            let rest = [one.worst.rests, shifted.worst.rests];
+            match rest {
+                // Absorbers at rest meet their walls where they are.
+                [true, true] => one,
+                [own, there] => JudgedPlace {
+                    judged: one.judged.in_contact(&shifted.judged, own != there),
+                    ..one
+                },
+            }
+        };
+        let judged = self.judged.into_iter().zip(&there.judged).map(in_contact);
+        Ok(Self { judged: judged.collect(), along: self.along })
     }
 
     /// The same where impacts take no time.

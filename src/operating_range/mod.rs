@@ -433,27 +433,24 @@ fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenE
 
 /// Those of a case that is driven steadily.
 fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
-    let survey = |case: &Case, effort: Effort| {
+    let survey = |effort: Effort| {
         let settings = criteria::settings(case);
         let settings = SurveySettings { effort: settings.effort.map(|_| effort), ..settings };
         Survey::of(&case.range(), &settings, None, &Serial)
     };
-    let in_contact = |found: &Survey, effort: Effort| {
-        judge_in_contact(case, found, |shifted| survey(shifted, effort))
-    };
     if how == Look::AsCheck {
-        return Ok(in_contact(&survey(case, *effort)?, *effort)?);
+        return Ok(judge_in_contact(case, &survey(*effort)?, *effort, &Serial)?);
     }
     // Most of a search goes into telling a long transient from a motion: first it counts as one, and then places that do not
     // hold by what only a window shows are searched with patience.
     let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
-    let mut found = survey(case, few.short())?;
+    let mut found = survey(few.short())?;
     let mut known: Vec<f64> = Vec::new();
     loop {
         let judged = criteria::judge(case, &found);
         let mut open = criteria::open(case, &found, &judged, &known);
         if open.is_empty() {
-            return Ok(in_contact(&found, few.short())?);
+            return Ok(judge_in_contact(case, &found, few.short(), &Serial)?);
         }
         open.truncate(AT_A_TIME);
         found.motions.look_again(&open, &few, &Serial)?;

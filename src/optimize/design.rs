@@ -5,6 +5,7 @@ use super::OptimizeError;
 use super::task::Task;
 use crate::band::{Survey, Worst};
 use crate::case::{self, Objective, Relation, Rewritten, Rounding};
+use crate::criteria::contact::judge_in_contact;
 use crate::criteria::{self, Judged};
 use crate::executor::Executor;
 use crate::measure::Measure;
@@ -157,7 +158,7 @@ impl Judge<'_> {
             value,
             error,
             worst,
-            criteria: criteria::judge(case, &survey),
+            criteria: judge_in_contact(case, &survey, case.effort(), executor)?,
             survey,
             written,
         })

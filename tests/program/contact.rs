@@ -111,3 +111,20 @@ fn a_release_has_it_too() {
     let [own, there] = [number(&found["found"]), number(&found["contact"]["found"])];
     assert!(own != there && number(&found["error"]) >= there - own, "{found}");
 }
+
+/// An absorber at rest meets its walls where they are: what is worst in it has no such error, and a motion that is worst only with the
+/// contact time counts.
+#[test]
+fn an_absorber_at_rest_knows_no_contact_time() {
+    let board = "title = 't'\nsource = 's'\n[oscillator]\nmass = '180 g'\nfrequency = '200 Hz'\ndamping_ratio = '0.9 %'\n\
+                 [absorber]\nmass = '5 g'\nclearance = '0.04566 mm'\nrestitution = 0.45\ncontact_time = '0.06 ms'\n\
+                 [excitation]\nkind = 'base-displacement'\namplitude = '1.5 um'\nfrequency = '200 Hz'\n\
+                 [band]\nfrom = '190 Hz'\nto = '208 Hz'\n[criteria]\npeak_displacement = '<= 0.0365 mm'\n";
+    let [timed, none] = [board.to_owned(), board.replace("contact_time = '0.06 ms'\n", "")]
+        .map(|text| check(&text)[0].clone());
+    assert!(timed["inactive_share"].is_number() && timed.get("contact").is_none(), "{timed}");
+    assert_eq!(
+        (&timed["holds"], &timed["found"], &timed["error"]),
+        (&none["holds"], &none["found"], &none["error"])
+    );
+}

@@ -9,6 +9,13 @@ pub(super) struct Alike {
     pub equal: bool,
 }
 
+impl Alike {
+    /// How many modes they are.
+    pub fn words(self) -> &'static str {
+        if self.equal { "one" } else { "nearly one" }
+    }
+}
+
 /// Up to which difference of frequencies, over the lower one, and sine of the angle between their shapes two modes are one: what
 /// rounding to seven and to four digits leaves. Shapes may be scaled otherwise.
 const EQUAL: [f64; 2] = [1e-6, 1e-3];

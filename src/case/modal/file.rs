@@ -139,16 +139,12 @@ pub(super) fn modes_of_file(
         });
         let help =
             "keep one of them with `numbers`, where they are one mode that was written twice";
-        let (words, label) = match pair.equal {
-            true => ("have one frequency and one shape", "expected each mode once"),
-            false => {
-                ("have nearly one frequency and one shape", "each of them takes its part of a load")
-            }
-        };
-        let message = format!("{} and {} {words}", told[0], told[1]);
+        let message =
+            format!("{} and {} have {} frequency and one shape", told[0], told[1], pair.words());
+        let (span, twice) = (table.span_of("file"), "each of them takes its part of a load");
         match pair.equal {
-            true => reader.report(table.span_of("file"), message, label, help),
-            false => reader.warn(table.span_of("file"), message, label, help),
+            true => reader.report(span, message, "expected each mode once", help),
+            false => reader.warn(span, message, twice, help),
         }
     }
     let path = table.value("file").and_then(|value| value.get_ref().as_str()).unwrap_or_default();

@@ -65,7 +65,7 @@ impl ModesListing {
         let mut warnings: Vec<String> = alike(&shapes)
             .into_iter()
             .map(|pair| {
-                let words = if pair.equal { "one" } else { "nearly one" };
+                let words = pair.words();
                 let [first, second] = [pair.first + 1, pair.second + 1];
                 format!("modes {first} and {second} have {words} frequency and one shape")
             })

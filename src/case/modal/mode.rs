@@ -76,7 +76,7 @@ pub(super) fn read_modes(
         let [first, second] = [&modes[pair.first], &modes[pair.second]].map(|one| one.frequency_hz);
         let [line, span] = [pair.first, pair.second].map(|k| shapes[k].0.clone());
         let line = reader.line_of(line.start);
-        let words = if pair.equal { "one" } else { "nearly one" };
+        let words = pair.words();
         let unit = if reader.plain { "times the first" } else { "Hz" };
         let message = format!(
             "mode {} at {second} {unit} has {words} frequency and one shape with mode {}, at {first} {unit} in line {line}",

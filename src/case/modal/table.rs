@@ -5,9 +5,9 @@ use std::collections::HashSet;
 use super::StructuralMode;
 use super::universal::{self, line_of};
 use crate::case::error::{CaseError, Problem};
+use crate::case::number_table::{NumberTable, Reading, text_of};
 use crate::case::quantity::unit_in_brackets;
 use crate::case::record::{lines, problem};
-use crate::case::record_file::{Reading, RecordTable, text_of};
 use crate::digest::file_sha256;
 use crate::quantity::Dimension;
 use crate::quantity::unit::Unit;
@@ -108,7 +108,7 @@ pub(super) fn read(
 ) -> Result<Columns, CaseError> {
     let text = file.text();
     let refused = |problems| CaseError::new(&file.name, text, problems, 0);
-    let found = RecordTable::of(text, false);
+    let found = NumberTable::of(text, false);
     // Its head is the first line that has names of a head; what stands above it is not read.
     let has_names = |reading: Reading, line: &str| {
         let cells = reading.cells(line);
