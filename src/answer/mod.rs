@@ -215,10 +215,11 @@ impl Answer {
             Survey::of(&case.range(), &settings, found.as_ref(), on)
         });
         let survey = survey.transpose()?;
-        let judged = survey
-            .as_ref()
-            .filter(|_| judges)
-            .map(|survey| criteria::contact::judge_in_contact(case, survey, effort, on));
+        let judged = survey.as_ref().filter(|_| judges).map(|survey| {
+            criteria::contact::judge_in_contact(case, survey, effort, |band, settings| {
+                Survey::of(band, settings, None, on)
+            })
+        });
         let judged = judged.transpose()?.unwrap_or_default();
         let study = study.map(|study| match survey.as_ref().filter(|_| along) {
             Some(survey) => study.along(survey.clone()),

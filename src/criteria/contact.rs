@@ -3,13 +3,11 @@
 //! is decided.
 
 use super::{Judged, Outcome};
-use crate::band::{Survey, SurveySettings};
+use crate::band::{Band, Survey, SurveySettings};
 use crate::case::Case;
 use crate::contact::Impacts;
-use crate::executor::Executor;
 use crate::measure::{Device, Measure};
 use crate::motions::{Effort, Motions};
-use crate::simulation::StartError;
 use crate::transient::Study;
 
 /// The fastest of the motions where criteria are worst along a survey, whether it is those that decide or others.
@@ -36,16 +34,16 @@ fn kind(survey: &Survey, judged: &Judged) -> Option<[bool; 2]> {
 }
 
 /// The criteria of a case that is driven steadily, by a survey of it, with what a contact time makes of them: the range of the pair that
-/// acts like it is looked along with the same effort.
+/// acts like it is looked along by `again` with the same effort.
 ///
 /// # Errors
-/// [`StartError`] where a start of a simulation is not finite.
-pub fn judge_in_contact(
+/// Those of `again`.
+pub fn judge_in_contact<E>(
     case: &Case,
     survey: &Survey,
     effort: Effort,
-    on: &dyn Executor,
-) -> Result<Vec<Judged>, StartError> {
+    again: impl Fn(&Band, &SurveySettings) -> Result<Survey, E>,
+) -> Result<Vec<Judged>, E> {
     let own = super::judge(case, survey);
     let Some(time) = case.impacts_take() else { return Ok(own) };
     let (mut there, mut judged) = (survey.clone(), own.clone());
@@ -57,7 +55,7 @@ pub fn judge_in_contact(
         // An absorber at rest meets its walls where they are.
         let effort = settings.effort.map(|_| effort);
         let settings = SurveySettings { effort, count_rest: false, ..settings };
-        there = Survey::of(&shifted.range(), &settings, None, on)?;
+        there = again(&shifted.range(), &settings)?;
         judged = super::judge(&shifted, &there);
     }
     let each = own.into_iter().zip(&judged).map(|(own, shifted)| {

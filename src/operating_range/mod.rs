@@ -13,7 +13,7 @@ mod varied;
 
 use serde::Serialize;
 
-use crate::band::{Survey, SurveySettings};
+use crate::band::{Band, Survey, SurveySettings};
 use crate::case::Case;
 use crate::criteria::contact::{judge_in_contact, judge_transient_in_contact};
 use crate::criteria::{self, Judged, Outcome};
@@ -438,8 +438,9 @@ fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, Dr
         let settings = SurveySettings { effort: settings.effort.map(|_| effort), ..settings };
         Survey::of(&case.range(), &settings, None, &Serial)
     };
+    let again = |band: &Band, settings: &SurveySettings| Survey::of(band, settings, None, &Serial);
     if how == Look::AsCheck {
-        return Ok(judge_in_contact(case, &survey(*effort)?, *effort, &Serial)?);
+        return Ok(judge_in_contact(case, &survey(*effort)?, *effort, again)?);
     }
     // Most of a search goes into telling a long transient from a motion: first it counts as one, and then places that do not
     // hold by what only a window shows are searched with patience.
@@ -450,7 +451,7 @@ fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, Dr
         let judged = criteria::judge(case, &found);
         let mut open = criteria::open(case, &found, &judged, &known);
         if open.is_empty() {
-            return Ok(judge_in_contact(case, &found, few.short(), &Serial)?);
+            return Ok(judge_in_contact(case, &found, few.short(), again)?);
         }
         open.truncate(AT_A_TIME);
         found.motions.look_again(&open, &few, &Serial)?;

@@ -158,7 +158,9 @@ impl Judge<'_> {
             value,
             error,
             worst,
-            criteria: judge_in_contact(case, &survey, case.effort(), executor)?,
+            criteria: judge_in_contact(case, &survey, case.effort(), |band, settings| {
+                Survey::of(band, settings, None, executor)
+            })?,
             survey,
             written,
         })
