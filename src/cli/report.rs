@@ -127,7 +127,7 @@ fn without_case(arguments: &Arguments, names: &[String]) -> Result<(usize, Vec<S
         return Ok((0, Vec::new()));
     }
     let stored = store::read_reports(out, arguments.reading.reach())?;
-    let project = cases::project(out).map_or(Vec::new(), |root| cases::below(&root));
+    let project = cases::of_project(out);
     let beside = |name: &str| {
         let own = arguments.cases.iter().map(|path| path.with_file_name(format!("{name}.toml")));
         own.into_iter().any(|path| path.is_file())

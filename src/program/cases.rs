@@ -38,6 +38,12 @@ pub fn project(reports: &Path) -> Option<PathBuf> {
     reports.ancestors().find(is_repository).map(Path::to_owned)
 }
 
+/// The files that may be cases of reports: those of their project. Reports that are elsewhere, as a review writes them, may be
+/// of the cases of the working folder.
+pub fn of_project(reports: &Path) -> Vec<PathBuf> {
+    below(&project(reports).unwrap_or_default())
+}
+
 /// TOML files in a folder and in those below it, but for what is hidden and what links lead to; a folder that cannot be read
 /// holds none. Those that are deeper come later.
 pub fn below(folder: &Path) -> Vec<PathBuf> {

@@ -95,7 +95,7 @@ pub fn warn_of_letter_case(names: &[String]) {
 /// The reports among some folders; a folder without one is something else.
 fn members(folder: &Path, names: Vec<String>, reach: Reach) -> Result<Vec<IndexedReport>> {
     let mut members = Vec::new();
-    let project = cases::project(folder).map_or(Vec::new(), |root| cases::below(&root));
+    let project = cases::of_project(folder);
     for name in names {
         let path = Path::new(&name).join("report.json");
         let Some(text) = store::read_text_below(folder, &path, reach)? else { continue };

@@ -710,6 +710,18 @@ fn cases_and_reports_that_lost_each_other_are_named() {
         let [damper, mast, tower] = cases.each_ref().map(String::as_str);
         let all = repository.diff(&["main", "HEAD"], 0);
         assert!(all.contains("Checked against their cases: 3 of 3 reports."), "{folder}: {all}");
+        // Reports that are elsewhere are of the cases here, in whatever folder these are.
+        let elsewhere = TempDir::new().expect("a folder");
+        let out = elsewhere.path().to_str().expect("text");
+        repository.write("cases/mast.toml", CASE);
+        for (program, arguments) in
+            [("cp", &["-r", "reports/.", out][..]), ("vinesink", &["index", out])]
+        {
+            assert!(repository.run(program, arguments, &[]).status.success());
+        }
+        let index = fs::read_to_string(elsewhere.path().join("README.md")).expect("an index");
+        assert!(!index.contains("gone"), "{folder}: {index}");
+        fs::remove_dir_all(repository.path().join("cases")).expect("removed");
         // Changed, and not reported.
         repository.replace(damper, "clearance = 1.0", "clearance = 1.3");
         let named = repository.diff(&["main", "reports"], 1);

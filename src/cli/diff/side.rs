@@ -208,12 +208,10 @@ impl ComparedSide {
     /// All TOML files of the project, or of the folder that was named.
     fn toml_files(&self, named: Option<&str>) -> Result<Vec<PathBuf>> {
         let Some((commit, before)) = &self.revision else {
-            let root = match named {
-                Some(named) => Some(PathBuf::from(named)),
-                // Reports that are elsewhere, as a review writes them, may be of the cases here.
-                None => Some(cases::project(&self.folder).unwrap_or_default()),
-            };
-            return Ok(root.map_or(Vec::new(), |root| cases::below(&root)));
+            return Ok(match named {
+                Some(named) => cases::below(Path::new(named)),
+                None => cases::of_project(&self.folder),
+            });
         };
         let all = store::toml_files_at(commit, !before.ends_with("./"))?;
         let is_wanted = |path: &PathBuf| named.is_none_or(|named| path.starts_with(named));
