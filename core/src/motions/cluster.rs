@@ -26,11 +26,13 @@ pub(super) struct Cluster {
     /// Which flights they are.
     pub members: Vec<usize>,
     samples: Vec<WindowSample>,
+    /// Excitation periods of a case's window: largest values are spoken of for ten times as long.
+    periods: u64,
 }
 
 impl Cluster {
-    /// Puts together what wanders, in the order of the starts.
-    pub fn all(samples: impl Iterator<Item = (usize, WindowSample)>) -> Vec<Self> {
+    /// Puts together what wanders, in the order of the starts, in a case with a window of so many periods.
+    pub fn all(samples: impl Iterator<Item = (usize, WindowSample)>, periods: u64) -> Vec<Self> {
         let mut clusters: Vec<Self> = Vec::new();
         for (member, sample) in samples {
             match clusters.iter_mut().find(|one| one.holds(&sample)) {
@@ -38,7 +40,9 @@ impl Cluster {
                     one.members.push(member);
                     one.samples.push(sample);
                 }
-                None => clusters.push(Self { members: vec![member], samples: vec![sample] }),
+                None => {
+                    clusters.push(Self { members: vec![member], samples: vec![sample], periods })
+                }
             }
         }
         clusters
@@ -70,18 +74,10 @@ impl Cluster {
         peak.error > VAGUE * peak.value
     }
 
-    /// Those of all its windows together. Starts of one age may be at one stage of a slow modulation, and so are not independent:
-    /// by what most of them change from their first halves to their second the root mean square is not known any better.
+    /// Those of all its windows together.
     fn facts(&self) -> Facts {
-        let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
-        let mut facts = Facts::pooled(&windows);
-        let [change, chance] = self.change();
-        if windows.len() >= MANY && change.abs() > chance {
-            // The square varies twice as much as its root.
-            let off = change.abs() / (2.0 * facts.rms.value);
-            facts.rms.error = facts.rms.error.max(off);
-        }
-        facts
+        let windows: Vec<_> = self.samples.iter().map(|one| (one.facts, &one.course)).collect();
+        Facts::pooled(&windows, self.periods)
     }
 
     /// By how much the mean square goes up from the first halves of its windows to the second, with twice its standard error.

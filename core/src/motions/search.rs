@@ -382,7 +382,7 @@ impl Ground {
         let samples: Vec<(usize, WindowSample)> = open.iter().filter_map(of).collect();
         let measured = samples.len() == open.len();
         let count = open.len() as u64;
-        let clusters = if measured { Cluster::all(samples.into_iter()) } else { Vec::new() };
+        let clusters = if measured { Cluster::all(samples.into_iter(), self.periods) } else { Vec::new() };
         let young = self.measured < FEWEST;
         let settles = clusters.len() > 1 || clusters.iter().any(|one| one.settles(young));
         let restless = settles && !self.creeps && self.measured <= LONGEST;
@@ -416,10 +416,10 @@ impl Ground {
 
     /// The list, of which the first `counted` starts are counted.
     fn motions(self, counted: usize) -> Motions {
-        let Self { mut known, mut led, late, open, impatient, followed, .. } = self;
+        let Self { mut known, mut led, late, open, impatient, followed, periods, .. } = self;
         let is_counted = |start: &usize| *start < counted;
         let samples = open.into_iter().enumerate().filter_map(|(start, one)| Some((start, one?)));
-        let wanders = Cluster::all(samples);
+        let wanders = Cluster::all(samples, periods);
         let mut all: Vec<Motion> = Vec::new();
         for (index, one) in known.drain(..).enumerate() {
             let led = || (0..led.len()).filter(|start| led[*start] == Some(index));
