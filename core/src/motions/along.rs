@@ -164,6 +164,8 @@ const SPARSE: usize = 4;
 /// Share of the patience with what may be a transient that is left where it was told from one before: at the same place, or
 /// on either side of it.
 const WAITED: f64 = 0.25;
+/// Patience with the last starts of a place that sets how bad a number may be: of some on a transient the last outlast the usual rounds.
+const TO_THE_END: f64 = 2.0;
 /// Places that are added before the next gaps are chosen.
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.
@@ -401,8 +403,8 @@ impl Sampler<'_> {
         Ok((spots.into_iter().map(Spot::place).collect(), unresolved))
     }
 
-    /// Searches places again as thoroughly as a case with one place, while what wanders there, and was not flown for as long, sets
-    /// how bad a number may be along the band: it may be a transient. Whether there were any.
+    /// Searches places again, each start for as long as in a case with one place, while what wanders there, and was not flown for
+    /// as long, sets how bad a number may be along the band: it may be a transient. Whether there were any.
     fn fly_in_full(&self, spots: &mut [Spot]) -> Result<bool, StartError> {
         if self.effort.patience < 1.0 || self.effort.band.even < BandEffort::FULL.even {
             return Ok(false);
@@ -419,7 +421,8 @@ impl Sampler<'_> {
         let place = |k: &usize| {
             let system = self.band.system(spots[*k].at).ok()?;
             let further = spots[*k].moving().map(Motion::state).collect();
-            Some((*k, Place { further, ..Place::new(&system, self.effort.starts) }))
+            let place = Place::new(&system, self.effort.band.starts);
+            Some((*k, Place { further, patience: TO_THE_END, ..place }))
         };
         let (chosen, places): (Vec<usize>, Vec<Place>) = chosen.iter().filter_map(place).unzip();
         let found = motions(&places, &self.effort.between(), self.on)?;

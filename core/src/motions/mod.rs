@@ -130,7 +130,9 @@ pub struct Place {
     pub further: Vec<State>,
     /// Motions that are known already; they keep their places in the list.
     pub known: Vec<Motion>,
-    /// Share of [`Effort::patience`] with what may be a transient, 0 to 1: less than 1 where that was told from one beside it.
+    /// Share of [`Effort::patience`] with what may be a transient: less than 1 where that was told from one beside it. More than 1:
+    /// each start is flown for as long as where a search has all [`Effort::starts`], and those that still wander after the usual
+    /// rounds for so many times as many.
     pub patience: f64,
 }
 

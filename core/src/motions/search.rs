@@ -234,6 +234,8 @@ impl Ground {
         let orbits: Vec<Orbit> =
             known.iter().filter_map(|one| one.motion.orbit().cloned()).collect();
         let count = place.starts.len() + place.further.len();
+        let as_alone = place.patience > 1.0;
+        let thorough = if as_alone { effort.starts as usize } else { place.starts.len() };
         Self {
             left_out: effort
                 .discard
@@ -246,9 +248,9 @@ impl Ground {
             late: Vec::new(),
             open: vec![None; count],
             periods: effort.periods.max(1),
-            patience: effort.patience * place.patience,
-            most_rounds: (effort.patience * ROUNDS as f64) as usize,
-            alone: ALONE * place.starts.len().min(MOST) as f64,
+            patience: effort.patience * place.patience.min(1.0),
+            most_rounds: (effort.patience * place.patience.max(1.0) * ROUNDS as f64) as usize,
+            alone: ALONE * thorough.min(MOST) as f64,
             settled: false,
             flown: 0,
             quiet: 0.0,

@@ -55,18 +55,19 @@ pub const LONGER: f64 = 10.0;
 const ODDS: f64 = 19.0;
 /// Blocks of a window at most; shorter ones say nothing of its largest values.
 const MOST_BLOCKS: usize = 16;
-/// Memories of a motion that a block of largest values is long: then blocks are independent.
-const MEMORIES: f64 = 2.0;
-/// Correlation that is none.
+/// Fewest blocks of all windows together: fewer say nothing.
+const FEWEST_BLOCKS: usize = 4;
+/// Correlation that is none, and the same in standard errors of a correlation.
 const NO_CORRELATION: f64 = 0.05;
+const BY_CHANCE: f64 = 2.0;
 /// Stretches of a window between which correlation is looked for: of a longer one several count as one.
 const STRETCHES: usize = 1024;
 
 /// By how much the largest value of another run, `longer` times as long as these windows of one motion together, may exceed
 /// the largest seen in them, at odds of 19 to 1, from the largest values of stretches of equal length that follow one another
-/// in each; 0 for fewer than two independent blocks.
+/// in each; 0 for fewer than two.
 ///
-/// Blocks are twice as long as the motion remembers, so that a motion whose bursts are rare has few. Largest values of blocks
+/// Blocks are twice as long as the motion remembers, but for the stretch that all of it happens in, so that a motion whose bursts are rare has few. Largest values of blocks
 /// follow a Gumbel law with the scale `beta = s sqrt(6)/pi`, `s` their standard deviation, and the largest of `n` lies
 /// `beta ln n` higher (Gumbel, Statistics of Extremes, 1958; Coles, An Introduction to Statistical Modeling of Extreme Values,
 /// 2001, chapter 3). So the longer run is expected `beta ln(longer)` higher, and the difference of two such values is logistic:
@@ -74,18 +75,15 @@ const STRETCHES: usize = 1024;
 /// heavier than Gumbel's the largest quarter of all blocks says so: an exponential tail has the scale of its mean excess.
 pub fn error_of_largest(windows: &[&[f64]], longer: f64) -> f64 {
     let windows: Vec<Vec<f64>> = windows.iter().map(|one| shortened(one)).collect();
-    let block = MEMORIES * memory(&windows);
+    let block = 2.0 * memory(&windows) - 1.0;
+    let fewest = FEWEST_BLOCKS.div_ceil(windows.len().max(1));
     let largest = |block: &[f64]| block.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let of_window = |one: &Vec<f64>| {
-        let count = ((one.len() as f64 / block) as usize).clamp(1, MOST_BLOCKS);
+        let count = ((one.len() as f64 / block) as usize).clamp(fewest, MOST_BLOCKS);
         let length = (one.len() / count).max(1);
         one.chunks_exact(length).map(largest).collect::<Vec<f64>>()
     };
     let mut blocks: Vec<f64> = windows.iter().flat_map(of_window).collect();
-    if let ([_], [window]) = (blocks.as_slice(), windows.as_slice()) {
-        // All of it is one burst, as far as is seen: its halves say at least that.
-        blocks = window.chunks_exact((window.len() / 2).max(1)).map(largest).collect();
-    }
     let Some(deviation) = deviation(&blocks) else { return 0.0 };
     let whole = deviation * 6.0_f64.sqrt() / PI * few(blocks.len());
     blocks.sort_by(|a, b| b.total_cmp(a));
@@ -122,10 +120,10 @@ fn memory(windows: &[Vec<f64>]) -> f64 {
         let pairs = windows.iter().map(|one| one.len().saturating_sub(lag)).sum::<usize>();
         windows.iter().map(of).sum::<f64>() / pairs.max(1) as f64
     };
-    let variance = covariance(0);
+    let (variance, none) = (covariance(0), NO_CORRELATION.max(BY_CHANCE / count.sqrt()));
     let longest = windows.iter().map(Vec::len).max().unwrap_or(0) / 2;
     let each = (1..longest).map(|lag| covariance(lag) / variance);
-    1.0 + 2.0 * each.take_while(|one| *one >= NO_CORRELATION).sum::<f64>()
+    1.0 + 2.0 * each.take_while(|one| *one >= none).sum::<f64>()
 }
 
 /// Ratio of a straight line's slope to its standard error above which it is none of chance: ten blocks
