@@ -341,11 +341,7 @@ struct Sampler<'a> {
 
 impl Sampler<'_> {
     /// The places of a band with their motions, and by how much each number that is asked for may be worse between them.
-    fn sampled(
-        &self,
-        mut first: Vec<f64>,
-        own: Option<&Motions>,
-    ) -> Result<Sampled, StartError> {
+    fn sampled(&self, mut first: Vec<f64>, own: Option<&Motions>) -> Result<Sampled, StartError> {
         let at = self.band.own();
         let mut spots = Vec::new();
         if self.band.holds_own() {
@@ -505,7 +501,8 @@ impl Sampler<'_> {
     fn beyond(&self, spots: &[Spot], right: usize, of: Extreme) -> Option<f64> {
         let [one, other] = [&spots[right - 1], &spots[right]];
         let width = other.at - one.at;
-        let wanders = |spot: &Spot| spot.moving().any(|one| matches!(one.kind, MotionKind::Wanders));
+        let wanders =
+            |spot: &Spot| spot.moving().any(|one| matches!(one.kind, MotionKind::Wanders));
         let around = &spots[right.saturating_sub(2)..spots.len().min(right + 2)];
         if width > self.finest || one.is_exact() && other.is_exact() || around.iter().any(wanders) {
             return None;

@@ -16,8 +16,6 @@ const DRIFT: f64 = 1.5;
 /// in which it is sampled to a few per cent, and of many in which it comes and goes.
 const STAYS: std::ops::Range<f64> = 0.9..1.1;
 const MANY_STAY: std::ops::Range<f64> = 0.5..2.0;
-/// Relative error of a largest value from which on it is hardly known.
-const VAGUE: f64 = 0.5;
 /// Relative difference below which averages are the same whatever their errors: what nobody measures.
 const NO_DIFFERENCE: f64 = 1e-3;
 
@@ -67,11 +65,11 @@ impl Cluster {
         rms.error <= amplitude * rms.value && impacts_per_period.error <= impacts
     }
 
-    /// Whether a longer run may well have peaks half as large again: of a motion that is captured now and then windows of
-    /// which some have no peak at all are too short.
-    pub fn is_vague(&self) -> bool {
+    /// Whether a longer run may have peaks that are larger by more than this part of what was seen: of a motion that is captured
+    /// now and then windows of which some have no peak at all are too short.
+    pub fn is_vague(&self, from: f64) -> bool {
         let Facts { peak, .. } = self.facts();
-        peak.error > VAGUE * peak.value
+        peak.error > from * peak.value
     }
 
     /// Those of all its windows together.

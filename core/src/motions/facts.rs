@@ -150,7 +150,8 @@ impl Facts {
     /// them have seen, a largest value for a run ten times as long as so many `periods`.
     pub(super) fn pooled(all: &[(Self, &Course)], periods: u64) -> Self {
         let count = all.len().max(1) as f64;
-        let mean = |of: &dyn Fn(&Self) -> f64| all.iter().map(|one| of(&one.0)).sum::<f64>() / count;
+        let mean =
+            |of: &dyn Fn(&Self) -> f64| all.iter().map(|one| of(&one.0)).sum::<f64>() / count;
         let seen = all.iter().map(|(_, course)| course.peak.len()).sum::<usize>().max(1) as f64;
         let longer = LONGER * periods as f64 / seen;
         let windows = |of: fn(&Course) -> &Vec<f64>| -> Vec<&[f64]> {

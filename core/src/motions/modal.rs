@@ -346,7 +346,8 @@ impl ModalMotion {
             squares: of_sensors(|one| one.mean_square),
             impacts: (0..blocks[0].impacts.len()).map(impacts).collect(),
         };
-        let unknown = |one: &Sensor| SensorExtent { reads: one.reads, peak: 0.0, error: 0.0, rms: [0.0; 2] };
+        let unknown =
+            |one: &Sensor| SensorExtent { reads: one.reads, peak: 0.0, error: 0.0, rms: [0.0; 2] };
         let mut found = Self {
             sensors: sensors.iter().map(unknown).collect(),
             impacts_per_period: vec![[0.0; 2]; flight.impacts.len()],
@@ -370,7 +371,8 @@ impl ModalMotion {
         };
         for (n, sensor) in sensors.iter_mut().enumerate() {
             let peaks: Vec<&[f64]> = flights.iter().map(|one| one.peaks[n].as_slice()).collect();
-            let squares: Vec<&[f64]> = flights.iter().map(|one| one.squares[n].as_slice()).collect();
+            let squares: Vec<&[f64]> =
+                flights.iter().map(|one| one.squares[n].as_slice()).collect();
             let [square, error] = known(&squares);
             let rms = square.sqrt();
             sensor.peak = peaks.iter().copied().flatten().copied().fold(0.0, f64::max);

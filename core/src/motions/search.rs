@@ -43,6 +43,10 @@ const LONGEST: usize = 4;
 /// Excitation periods over which starts are measured together at most, where a case asks for accuracy: a minute of a fast
 /// machine.
 const MOST_PERIODS: u64 = 512_000;
+/// Relative error of a largest value from which on it is hardly known: where it may decide, and where a place of a band has few
+/// starts, which is searched again before it does.
+const VAGUE: f64 = 0.5;
+const VAGUE_OF_FEW: f64 = 1.0;
 /// Measurements after which what looks like a motion that repeats, but for a modulation that stays, is one that wanders.
 const FEWEST: usize = 3;
 /// Excitation periods over which a start is measured at least, where it does not repeat; several times the slowest
@@ -207,6 +211,7 @@ struct Ground {
     measured: usize,
     window: u64,
     accuracy: Option<[f64; 2]>,
+    vague: f64,
     /// Whether more was asked for when the last round was over.
     impatient: bool,
     /// Excitation periods that each start was flown, impacts of its simulation so far, and those per period of the last flight.
@@ -258,6 +263,7 @@ impl Ground {
             measured: 0,
             window: 0,
             accuracy: effort.accuracy,
+            vague: if thorough < effort.starts as usize { VAGUE_OF_FEW } else { VAGUE },
             impatient: false,
             followed: vec![0; count],
             impacts: vec![0; count],
@@ -384,13 +390,14 @@ impl Ground {
         let samples: Vec<(usize, WindowSample)> = open.iter().filter_map(of).collect();
         let measured = samples.len() == open.len();
         let count = open.len() as u64;
-        let clusters = if measured { Cluster::all(samples.into_iter(), self.periods) } else { Vec::new() };
+        let clusters =
+            if measured { Cluster::all(samples.into_iter(), self.periods) } else { Vec::new() };
         let young = self.measured < FEWEST;
         let settles = clusters.len() > 1 || clusters.iter().any(|one| one.settles(young));
         let restless = settles && !self.creeps && self.measured <= LONGEST;
         let loose = |limits| clusters.iter().any(|one| !one.is_within(limits));
         let again = self.accuracy.is_some_and(loose) && self.window * count < MOST_PERIODS;
-        let vague = self.measured <= LONGEST && clusters.iter().any(Cluster::is_vague);
+        let vague = self.measured <= LONGEST && clusters.iter().any(|one| one.is_vague(self.vague));
         self.impatient = missing > 0.0 || self.creeps;
         let busiest = open.iter().map(|flight| self.busy[flight.index - self.first]);
         let busy = busiest.fold(BUSY, f64::max) / BUSY;

@@ -49,7 +49,8 @@ impl InPeriods {
     /// of a root mean square two standard errors.
     fn wandering(&self) -> Shaking<Value> {
         let found = self.found();
-        let each = |of: &dyn Fn(&ShakingMeter) -> f64| self.periods.iter().map(of).collect::<Vec<_>>();
+        let each =
+            |of: &dyn Fn(&ShakingMeter) -> f64| self.periods.iter().map(of).collect::<Vec<_>>();
         let largest = |k: usize, value: f64| {
             Value::new(value, error_of_largest(&[&each(&|one| one.peaks()[k])], LONGER))
         };

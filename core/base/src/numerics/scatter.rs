@@ -24,8 +24,11 @@ pub fn twice_error_of_mean(windows: &[&[f64]]) -> f64 {
         return f64::INFINITY;
     }
     let of_parts = |parts: usize| {
-        let blocks: Vec<f64> =
-            windows.iter().flat_map(|one| one.chunks_exact((one.len() / parts).max(1))).map(mean).collect();
+        let blocks: Vec<f64> = windows
+            .iter()
+            .flat_map(|one| one.chunks_exact((one.len() / parts).max(1)))
+            .map(mean)
+            .collect();
         let too_few = parts < PARTS[0] && blocks.len() < FEWEST_PARTS;
         if too_few { 0.0 } else { twice_standard_error(&blocks) * student(blocks.len()) }
     };
@@ -159,7 +162,9 @@ fn deviation(sample: &[f64]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{LONGER, drifts, error_of_largest, student, twice_error_of_mean, twice_standard_error};
+    use super::{
+        LONGER, drifts, error_of_largest, student, twice_error_of_mean, twice_standard_error,
+    };
 
     #[test]
     fn the_error_is_that_of_a_mean() {
@@ -189,8 +194,14 @@ mod tests {
         let error = error_of_largest(&[&blocks], LONGER);
         let by_hand = (5.0_f64 / 3.0).sqrt() * 0.779_697 * 2.640_741 * 190.0_f64.ln();
         assert!((error - by_hand).abs() < 1e-4, "{error}");
-        assert!((error_of_largest(&[&blocks], 1.0) / error - 19.0_f64.ln() / 190.0_f64.ln()).abs() < 1e-12);
-        assert_eq!((error_of_largest(&[&[7.0; 16]], LONGER), error_of_largest(&[&[7.0]], LONGER)), (0.0, 0.0));
+        assert!(
+            (error_of_largest(&[&blocks], 1.0) / error - 19.0_f64.ln() / 190.0_f64.ln()).abs()
+                < 1e-12
+        );
+        assert_eq!(
+            (error_of_largest(&[&[7.0; 16]], LONGER), error_of_largest(&[&[7.0]], LONGER)),
+            (0.0, 0.0)
+        );
         assert!(error_of_largest(&[&blocks, &blocks, &blocks], LONGER) < 0.8 * error);
     }
 
@@ -214,7 +225,10 @@ mod tests {
         let (even, heavy): (Vec<f64>, Vec<f64>) = (0..64)
             .map(|k| {
                 let p = (f64::from(k * 37 % 64) + 0.5) / 64.0;
-                (-libm::log(-libm::log(p)), if p < 0.75 { p } else { 0.75 - 3.0 * libm::log(4.0 * (1.0 - p)) })
+                (
+                    -libm::log(-libm::log(p)),
+                    if p < 0.75 { p } else { 0.75 - 3.0 * libm::log(4.0 * (1.0 - p)) },
+                )
             })
             .unzip();
         // Gumbel's own numbers stay with their deviation: 1.2 with 64 blocks of twice the memory of one.
@@ -235,8 +249,9 @@ mod tests {
         let alone = twice_error_of_mean(&[&quick]);
         let independent = 2.0 * (1.0_f64 / 12.0 / 1000.0).sqrt();
         assert!(alone > 0.4 * independent && alone < 2.5 * independent, "{alone} {independent}");
-        let windows: Vec<Vec<f64>> =
-            (0..16).map(|w| (0..200).map(|k| f64::from(w % 4) + 0.01 * quick[k]).collect()).collect();
+        let windows: Vec<Vec<f64>> = (0..16)
+            .map(|w| (0..200).map(|k| f64::from(w % 4) + 0.01 * quick[k]).collect())
+            .collect();
         let windows: Vec<&[f64]> = windows.iter().map(Vec::as_slice).collect();
         // Sixteen windows of heights 0 to 3: variance 4/3.
         let of_windows = 2.0 * (4.0_f64 / 3.0 / 16.0).sqrt();
