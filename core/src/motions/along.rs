@@ -35,8 +35,13 @@ impl BandEffort {
 }
 
 impl Effort {
-    /// That at places other than the case's own.
+    /// That at places other than the case's own: what is hardly known there is measured for longer before it decides.
     fn between(&self) -> Self {
+        Self { vague: VAGUE, ..self.in_full() }
+    }
+
+    /// That at a place that decides.
+    fn in_full(&self) -> Self {
         Self { accuracy: None, ..*self }
     }
 }
@@ -166,6 +171,8 @@ const SPARSE: usize = 4;
 const WAITED: f64 = 0.25;
 /// Patience with the last starts of a place that sets how bad a number may be: of some on a transient the last outlast the usual rounds.
 const TO_THE_END: f64 = 2.0;
+/// Relative error of a largest value from which on it is hardly known at a place that may not decide.
+const VAGUE: f64 = 1.0;
 /// Places that are added before the next gaps are chosen.
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.
@@ -421,7 +428,7 @@ impl Sampler<'_> {
             Some((*k, Place { further, patience: TO_THE_END, ..place }))
         };
         let (chosen, places): (Vec<usize>, Vec<Place>) = chosen.iter().filter_map(place).unzip();
-        let found = motions(&places, &self.effort.between(), self.on)?;
+        let found = motions(&places, &self.effort.in_full(), self.on)?;
         for (k, found) in chosen.iter().zip(found) {
             (spots[*k].motions, spots[*k].in_full) = (found, true);
         }

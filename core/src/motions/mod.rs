@@ -81,6 +81,9 @@ pub struct Effort {
     /// that wanders is measured; none where its window will do.
     #[serde(skip)]
     pub accuracy: Option<[f64; 2]>,
+    /// Relative error of a largest value from which on what wanders is measured for longer, for up to sixteen times as long.
+    #[serde(skip)]
+    pub vague: f64,
     /// What a band asks for beside that.
     #[serde(skip)]
     pub band: BandEffort,
@@ -98,6 +101,7 @@ impl Default for Effort {
             patience: 1.0,
             most_impacts: 1000,
             accuracy: None,
+            vague: 0.25,
             band: BandEffort::FULL,
             shaking: false,
         }

@@ -43,10 +43,6 @@ const LONGEST: usize = 4;
 /// Excitation periods over which starts are measured together at most, where a case asks for accuracy: a minute of a fast
 /// machine.
 const MOST_PERIODS: u64 = 512_000;
-/// Relative error of a largest value from which on it is hardly known: where it may decide, and where a place of a band has few
-/// starts, which is searched again before it does.
-const VAGUE: f64 = 0.5;
-const VAGUE_OF_FEW: f64 = 1.0;
 /// Measurements after which what looks like a motion that repeats, but for a modulation that stays, is one that wanders.
 const FEWEST: usize = 3;
 /// Excitation periods over which a start is measured at least, where it does not repeat; several times the slowest
@@ -263,7 +259,7 @@ impl Ground {
             measured: 0,
             window: 0,
             accuracy: effort.accuracy,
-            vague: if thorough < effort.starts as usize { VAGUE_OF_FEW } else { VAGUE },
+            vague: effort.vague,
             impatient: false,
             followed: vec![0; count],
             impacts: vec![0; count],
