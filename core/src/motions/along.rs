@@ -42,7 +42,7 @@ impl Effort {
 
     /// That at a place that decides.
     fn in_full(&self) -> Self {
-        Self { accuracy: None, ..*self }
+        Self { accuracy: None, vague: self.vague.max(VAGUE_IN_FULL), ..*self }
     }
 }
 
@@ -173,6 +173,8 @@ const WAITED: f64 = 0.25;
 const TO_THE_END: f64 = 2.0;
 /// Relative error of a largest value from which on it is hardly known at a place that may not decide.
 const VAGUE: f64 = 1.0;
+/// The same where it may.
+const VAGUE_IN_FULL: f64 = 0.5;
 /// Places that are added before the next gaps are chosen.
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.
@@ -406,7 +408,7 @@ impl Sampler<'_> {
         Ok((spots.into_iter().map(Spot::place).collect(), unresolved))
     }
 
-    /// Searches places again, each start for as long as in a case with one place, while what wanders there, and was not flown for
+    /// Searches places again, each start for at least as long as in a case with one place, while what wanders there, and was not flown for
     /// as long, sets how bad a number may be along the band: it may be a transient. Whether there were any.
     fn fly_in_full(&self, spots: &mut [Spot]) -> Result<bool, StartError> {
         if self.effort.patience < 1.0 || self.effort.band.even < BandEffort::FULL.even {
@@ -424,7 +426,7 @@ impl Sampler<'_> {
         let place = |k: &usize| {
             let system = self.band.system(spots[*k].at).ok()?;
             let further = spots[*k].moving().map(Motion::state).collect();
-            let place = Place::new(&system, self.effort.band.starts);
+            let place = Place::new(&system, self.effort.band.starts_between);
             Some((*k, Place { further, patience: TO_THE_END, ..place }))
         };
         let (chosen, places): (Vec<usize>, Vec<Place>) = chosen.iter().filter_map(place).unzip();

@@ -44,7 +44,7 @@ impl Value {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Facts {
     /// Largest absolute displacement of the oscillator. Of a motion that wanders the largest that was seen; its error is
-    /// by how much a run ten times as long may exceed it, with 95 % confidence.
+    /// by how much a run ten times as long as the window of its search may exceed it, at odds of 19 to 1.
     pub peak: Value,
     /// Root mean square displacement of the oscillator; of a motion that wanders with two standard errors.
     pub rms: Value,

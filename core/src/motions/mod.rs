@@ -135,8 +135,8 @@ pub struct Place {
     /// Motions that are known already; they keep their places in the list.
     pub known: Vec<Motion>,
     /// Share of [`Effort::patience`] with what may be a transient: less than 1 where that was told from one beside it. More than 1:
-    /// each start is flown for as long as where a search has all [`Effort::starts`], and those that still wander after the usual
-    /// rounds for so many times as many.
+    /// each start is flown for as long as where a search has all [`Effort::starts`], for longer where others have left what it is
+    /// on, and those that still wander after the usual rounds for so many times as many.
     pub patience: f64,
 }
 

@@ -25,6 +25,9 @@ const BESIDE_ANOTHER: f64 = 20.0;
 /// The same for each start that has not settled, over the number of all starts, whatever else is known: a search with more
 /// starts is a thorougher one.
 const ALONE: f64 = 0.1;
+/// The same over the windows that a start of the place has wandered for on average until it settled, where that decides: one
+/// transient in twenty is then still taken for a motion.
+const LIVES: f64 = 3.0;
 /// Share of its steady amplitude within which a structure vibrates as if alone.
 const STEADY: f64 = 1e-6;
 /// Starts above which a search is no thorougher.
@@ -200,8 +203,11 @@ struct Ground {
     /// Of this round: whether a start has settled that wandered before, and periods that the others have flown.
     settled: bool,
     flown: u64,
-    /// Windows without a start that settled.
+    /// Windows without a start that settled, and all that starts have wandered for.
     quiet: f64,
+    wandered: f64,
+    /// Whether a start is flown as long as where a case has one place, and longer where others of its place have settled late.
+    as_alone: bool,
     /// How often starts were flown on, and measured, and over how many periods they were the last time.
     rounds: usize,
     measured: usize,
@@ -255,6 +261,8 @@ impl Ground {
             settled: false,
             flown: 0,
             quiet: 0.0,
+            wandered: 0.0,
+            as_alone,
             rounds: 0,
             measured: 0,
             window: 0,
@@ -370,6 +378,7 @@ impl Ground {
     /// Those that have not settled, with how far they go; none once they have shown what they are.
     fn further(&mut self, mut open: Vec<StartFlight>) -> Vec<StartFlight> {
         let periods = self.periods as f64;
+        self.wandered += self.flown as f64 / periods;
         self.quiet = if self.settled { 0.0 } else { self.quiet + self.flown as f64 / periods };
         (self.settled, self.flown) = (false, 0);
         if open.is_empty() {
@@ -379,6 +388,10 @@ impl Ground {
         let beside = self.known.iter().any(|one| one.motion.rest().is_none());
         let alone = self.alone * open.len() as f64;
         let windows = if beside { alone.max(BESIDE_ANOTHER) } else { alone };
+        // What starts have left is a transient, whose life is known.
+        let life = self.wandered / self.late.len() as f64;
+        let lives = if self.as_alone && !self.late.is_empty() { LIVES * life } else { 0.0 };
+        let windows = windows.max(lives);
         let missing = if self.creeps { 0.0 } else { self.patience * windows - self.quiet };
         let of = |flight: &StartFlight| {
             Some((flight.index, self.open[flight.index - self.first].clone()?))
