@@ -115,7 +115,7 @@ impl Along {
         };
         let again = self.places.iter().enumerate().filter_map(again);
         let (again, places): (Vec<usize>, Vec<Place>) = again.unzip();
-        for (k, found) in again.into_iter().zip(motions(&places, &effort.between(), on)?) {
+        for (k, found) in again.into_iter().zip(motions(&places, &effort.in_full(), on)?) {
             self.places[k].1 = found;
         }
         Ok(())
