@@ -101,7 +101,7 @@ impl Default for Effort {
             patience: 1.0,
             most_impacts: 1000,
             accuracy: None,
-            vague: 0.25,
+            vague: 0.3,
             band: BandEffort::FULL,
             shaking: false,
         }
