@@ -272,6 +272,7 @@ impl Measure {
             Self::Peak | Self::ReductionDb | Self::ReductionDbTmd => Fact::Peak,
             Self::Rms => Fact::Rms,
             Self::ImpactSpeed => Fact::ImpactSpeed,
+            Self::ImpactsPerPeriod => Fact::ImpactsPerPeriod,
             Self::PeakVelocity => Fact::PeakVelocity,
             Self::RmsVelocity => Fact::RmsVelocity,
             Self::PeakAcceleration => Fact::PeakAcceleration,
@@ -301,38 +302,30 @@ impl Measure {
         along.largest(|system| of(system).unwrap_or(f64::INFINITY)).1
     }
 
-    /// What a long-term motion has of it, with its error, in SI or the units of a reduced case; `peak` is its peak with the
-    /// error that it has along a band. A reduction is [`Self::against`] an amplitude: one that nothing limits says nothing.
+    /// What a long-term motion has of it, with its error, in SI or the units of a reduced case; `number` has those of the motion,
+    /// along a band with the error that they have between its places. A reduction is [`Self::against`] an amplitude: one that
+    /// nothing limits says nothing.
     pub fn of_motion(
         self,
         motion: &Motion,
-        peak: Value,
+        number: &dyn Fn(Fact) -> Option<Value>,
         against: f64,
         units: &Units,
     ) -> Option<[f64; 2]> {
-        let facts = motion.facts();
         let pair = |of: Value| [of.value, of.error];
-        // Between the places of a band a velocity may be larger by as much of itself as the displacement.
-        let along = |of: Value| {
-            [of.value, of.error.max(of.value * peak.error / peak.value.max(f64::MIN_POSITIVE))]
-        };
+        let known = |fact: Fact| number(fact).map(pair);
         let value = match self {
-            Self::Peak => pair(peak),
-            Self::Rms => pair(facts.rms),
             Self::ReductionDb | Self::ReductionDbTmd if against.is_finite() => {
-                reduction(pair(peak), against)
+                reduction(known(Fact::Peak)?, against)
             }
-            Self::ImpactSpeed => pair(facts.impact_speed),
+            Self::ReductionDb | Self::ReductionDbTmd => return None,
             Self::PeakAcceleration => {
-                let flights = along(self.fact()?.of(motion)?).map(|one| units.acceleration(one));
-                let speed = pair(facts.impact_speed).map(|one| units.velocity(one));
+                let flights = known(Fact::PeakAcceleration)?.map(|one| units.acceleration(one));
+                let speed = known(Fact::ImpactSpeed)?.map(|one| units.velocity(one));
                 return Some(with_pulse(&of::PEAK_ACCELERATION, flights, speed, units));
             }
-            Self::PeakVelocity => along(self.fact()?.of(motion)?),
-            Self::RmsVelocity | Self::RmsAcceleration => pair(self.fact()?.of(motion)?),
-            Self::ImpactsPerPeriod => pair(facts.impacts_per_period),
-            Self::Efficiency => pair(facts.efficiency?),
-            _ => return None,
+            Self::Efficiency => pair(motion.facts().efficiency?),
+            _ => known(self.fact()?)?,
         };
         let dimension = self.kind(Device::Absorber)?.dimension;
         Some(value.map(|one| units.number(dimension, one)))

@@ -5,7 +5,7 @@ use crate::band::{Survey, theory};
 use crate::case::Criterion;
 use crate::measure::{Device, Measure};
 use crate::method::Method;
-use crate::motions::{Motion, MotionKind};
+use crate::motions::{Fact, Motion, MotionKind};
 use crate::quantity::Units;
 use crate::validation::tolerance::asymptotic_error;
 
@@ -109,11 +109,16 @@ impl Scope<'_> {
         let least = all.iter().map(|(one, _)| room(one) - one.error).fold(f64::INFINITY, f64::min);
         let Judged { at, motion, inactive, .. } = *worst;
         let judged = criterion.judged(worst.found, room(worst) - least, worst.decided_by);
-        // What has settled may fail it, whatever else there is.
+        // What has settled may fail it, whatever else there is; what lies elsewhere, or between places, can only be worse.
         let fails = nearest(true).is_some_and(|(one, _)| room(one) < 0.0);
+        let misses = |(one, motion): &(Judged, &Motion)| {
+            let own = self.own(criterion, motion).map_or(one.error, |own| own[1]);
+            motion.settled() && criterion.is_open(room(one), own, 0) < (room(one) < 0.0)
+        };
+        let near_limit = judged.near_limit && !all.iter().any(misses);
         let open = all.iter().filter(|(_, motion)| !motion.settled());
         let undecided = open.map(|(_, motion)| motion.reached().followed).max().filter(|_| !fails);
-        Judged { at, motion, inactive, ..judged }.or_undecided(undecided)
+        Judged { at, motion, inactive, near_limit, ..judged }.or_undecided(undecided)
     }
 
     /// Places with a motion that only a window shows and which does not hold with its error or still settles, by the room
@@ -140,18 +145,29 @@ impl Scope<'_> {
         judged.outcome() == Outcome::Fails && !open
     }
 
+    /// What a motion has of a criterion with the error that is its own, whatever lies between places.
+    fn own(&self, criterion: &Criterion, motion: &Motion) -> Option<[f64; 2]> {
+        let number = |fact: Fact| fact.of(motion);
+        criterion.measure.of_motion(motion, &number, self.against(criterion), &self.units)
+    }
+
+    /// The amplitude that a criterion compares with.
+    fn against(&self, criterion: &Criterion) -> f64 {
+        match criterion.measure.against() {
+            Some(Device::Without) => self.survey.bare().1,
+            Some(Device::Damper) => self.survey.rivals().damped.amplitude,
+            _ => f64::NAN,
+        }
+    }
+
     fn of<'m>(
         &self,
         criterion: &Criterion,
         (at, index, motion): (f64, usize, &'m Motion),
     ) -> Option<(Judged, &'m Motion)> {
-        let peak = self.survey.motions.peak_of(motion);
-        let against = match criterion.measure.against() {
-            Some(Device::Without) => self.survey.bare().1,
-            Some(Device::Damper) => self.survey.rivals().damped.amplitude,
-            _ => f64::NAN,
-        };
-        let [found, error] = criterion.measure.of_motion(motion, peak, against, &self.units)?;
+        let number = |fact| self.survey.motions.value_of(motion, fact);
+        let against = self.against(criterion);
+        let [found, error] = criterion.measure.of_motion(motion, &number, against, &self.units)?;
         let judged = criterion.judged(Some(found), error, method(motion));
         let inactive = motion.rest().map(|rest| rest.share);
         Some((Judged { at: self.place(at), motion: Some(index), inactive, ..judged }, motion))

@@ -11,7 +11,7 @@ use crate::analysis::{FixedPoint, Manifold, fixed_points};
 use crate::cavity::CavityAnalysis;
 use crate::dissipation::SteadyState;
 use crate::motions::{Facts, Motion};
-use crate::numerics::scatter::twice_standard_error;
+use crate::numerics::scatter::twice_error_of_mean;
 use crate::orbits::{Closure, Measures, steady_orbit};
 use crate::regimes::{Regime, classify};
 use crate::simulation::{ImpactLog, Measurement, Simulation, Stop};
@@ -107,10 +107,10 @@ impl Estimate {
         let square = (2.0 * rms * rms).max(f64::MIN_POSITIVE);
         Self {
             rms: Some(rms),
-            scatter: Some(twice_standard_error(&squares) / square),
+            scatter: Some(twice_error_of_mean(&[&squares]) / square),
             settles: settles(&squares),
             impacts_per_period: Some(impacts_per_period),
-            impacts_scatter: Some(twice_standard_error(&impacts)),
+            impacts_scatter: Some(twice_error_of_mean(&[&impacts])),
             ..Self::default()
         }
     }

@@ -209,8 +209,8 @@ fn number(recorded: Recorded, facts: &PointFacts, found: &PointMotions) -> Optio
         Recorded::Motions => Some(counting().count() as f64).filter(|_| !motions.is_empty()),
         other => {
             let (main, bare) = (main()?, facts.bare().unwrap_or(f64::INFINITY));
-            let (of, peak) = (other.asked().0, main.facts().peak);
-            of.of_motion(main, peak, bare, units).map(|[value, _]| value)
+            let of = other.asked().0;
+            of.of_motion(main, &|fact| fact.of(main), bare, units).map(|[value, _]| value)
         }
     }
 }

@@ -35,9 +35,14 @@ impl BandEffort {
 }
 
 impl Effort {
-    /// That at places other than the case's own.
+    /// That at places other than the case's own: what is hardly known there is measured for longer before it decides.
     fn between(&self) -> Self {
-        Self { accuracy: None, ..*self }
+        Self { vague: VAGUE, ..self.in_full() }
+    }
+
+    /// That at a place that decides.
+    fn in_full(&self) -> Self {
+        Self { accuracy: None, vague: self.vague.max(VAGUE_IN_FULL), ..*self }
     }
 }
 
@@ -48,7 +53,8 @@ pub struct Along {
     stability: Vec<Stretch<bool>>,
     places: Vec<(f64, Motions)>,
     simulated: bool,
-    unresolved: f64,
+    /// Numbers by whose worst value places were chosen, and by how much each may be worse between them.
+    unresolved: Vec<(Extreme, f64)>,
     peak_at: Option<f64>,
     rest_at: Option<f64>,
 }
@@ -109,7 +115,7 @@ impl Along {
         };
         let again = self.places.iter().enumerate().filter_map(again);
         let (again, places): (Vec<usize>, Vec<Place>) = again.unzip();
-        for (k, found) in again.into_iter().zip(motions(&places, &effort.between(), on)?) {
+        for (k, found) in again.into_iter().zip(motions(&places, &effort.in_full(), on)?) {
             self.places[k].1 = found;
         }
         Ok(())
@@ -127,11 +133,17 @@ impl Along {
         })
     }
 
-    /// The peak of one of them, and by how much it may be larger between places: extremes of what is solved for are places.
+    /// A number of one of them, with how much worse it may be between places: extremes of what is solved for are places. None
+    /// of velocity or acceleration where they were not asked for.
+    pub fn value_of(&self, motion: &Motion, of: Fact) -> Option<Value> {
+        let Value { value, error } = of.of(motion)?;
+        let of_it = self.unresolved.iter().filter(|(one, _)| one.of == of && !motion.is_solved());
+        Some(Value { value, error: of_it.map(|one| one.1).fold(error, f64::max) })
+    }
+
+    /// Its peak, which every band is looked at for.
     pub fn peak_of(&self, motion: &Motion) -> Value {
-        let Value { value, error } = motion.facts().peak;
-        let unresolved = if motion.is_solved() { 0.0 } else { self.unresolved };
-        Value { value, error: error.max(unresolved) }
+        self.value_of(motion, Fact::Peak).unwrap_or_default()
     }
 
     /// Where the attracting 1:1 motion has its largest peak; none where none attracts.
@@ -157,6 +169,12 @@ const SPARSE: usize = 4;
 /// Share of the patience with what may be a transient that is left where it was told from one before: at the same place, or
 /// on either side of it.
 const WAITED: f64 = 0.25;
+/// Patience with the last starts of a place that sets how bad a number may be: of some on a transient the last outlast the usual rounds.
+const TO_THE_END: f64 = 2.0;
+/// Relative error of a largest value from which on it is hardly known at a place that may not decide.
+const VAGUE: f64 = 1.0;
+/// The same where it may.
+const VAGUE_IN_FULL: f64 = 0.5;
 /// Places that are added before the next gaps are chosen.
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.
@@ -196,11 +214,14 @@ pub fn along(
     let (ends, extremes): (Vec<f64>, Vec<f64>) = extremes.into_iter().partition(is_end);
     let (mut places, unresolved) = match effort {
         Some(effort) => {
-            let sampler = Sampler { band, effort, on, finest: finest(band) };
+            let peak = Extreme { of: Fact::Peak, least: false };
+            let others = wanted.iter().copied().filter(|one| *one != peak);
+            let worst = std::iter::once(peak).chain(others).collect();
+            let sampler = Sampler { band, effort, on, finest: finest(band), worst };
             let first = first_places(band, &stability, &effort.band);
             sampler.sampled(first.into_iter().chain(extremes).collect(), own)?
         }
-        None => (solved(band, extremes, shaking)?, 0.0),
+        None => (solved(band, extremes, shaking)?, Vec::new()),
     };
     let missing = |at: &f64| places.iter().all(|place| place.0 != *at);
     let ends = ends.into_iter().filter(missing).collect();
@@ -256,6 +277,8 @@ struct Spot {
     motions: Motions,
     /// The largest peak of a neighbour that was followed here.
     followed: f64,
+    /// Whether what wanders here was flown as long as where a case has one place.
+    in_full: bool,
 }
 
 impl Spot {
@@ -278,6 +301,19 @@ impl Spot {
         self.moving().map(|motion| motion.facts().peak.value).fold(0.0, f64::max)
     }
 
+    /// The worst of a number of motions with impacts, its sign turned where the smallest is; none where there is none.
+    fn worst(&self, of: Extreme) -> Option<f64> {
+        let all = self.moving().filter_map(|one| of.of.of(one));
+        all.map(|one| of.sign() * one.value).max_by(f64::total_cmp)
+    }
+
+    /// The motion that it may be worst in, with its error, and what it is there at the worst.
+    fn reach(&self, of: Extreme) -> Option<(f64, &Motion)> {
+        let value = |one: &Motion| of.of.of(one).map(|of_it| of.sign() * of_it.value + of_it.error);
+        let all = self.motions.iter().filter_map(|one| Some((value(one)?, one)));
+        all.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
     /// Whether all that was found is solved for, whose largest peak is known without places.
     fn is_exact(&self) -> bool {
         let exact = |motion: &Motion| motion.is_solved();
@@ -298,8 +334,9 @@ const fn patience(waited: bool) -> f64 {
     if waited { WAITED } else { 1.0 }
 }
 
-fn largest_of(spots: &[Spot]) -> f64 {
-    spots.iter().map(Spot::peak).fold(0.0, f64::max)
+/// The worst of a number at all places; none where nothing moves.
+fn worst_of(spots: &[Spot], of: Extreme) -> Option<f64> {
+    spots.iter().filter_map(|one| one.worst(of)).max_by(f64::total_cmp)
 }
 
 struct Sampler<'a> {
@@ -307,15 +344,13 @@ struct Sampler<'a> {
     effort: &'a Effort,
     on: &'a dyn Executor,
     finest: f64,
+    /// The numbers whose worst value is looked for, the peak first.
+    worst: Vec<Extreme>,
 }
 
 impl Sampler<'_> {
-    /// The places of a band with their motions, and by how much the largest peak between them may exceed that at them.
-    fn sampled(
-        &self,
-        mut first: Vec<f64>,
-        own: Option<&Motions>,
-    ) -> Result<(Vec<(f64, Motions)>, f64), StartError> {
+    /// The places of a band with their motions, and by how much each number that is asked for may be worse between them.
+    fn sampled(&self, mut first: Vec<f64>, own: Option<&Motions>) -> Result<Sampled, StartError> {
         let at = self.band.own();
         let mut spots = Vec::new();
         if self.band.holds_own() {
@@ -327,10 +362,10 @@ impl Sampler<'_> {
                 }
             };
             // Nobody adds to what every command has there.
-            spots.push(Spot { at, motions, followed: f64::INFINITY });
+            spots.push(Spot { at, motions, followed: f64::INFINITY, in_full: true });
         }
         if self.band.is_point() {
-            return Ok((spots.into_iter().map(Spot::place).collect(), 0.0));
+            return Ok((spots.into_iter().map(Spot::place).collect(), Vec::new()));
         }
         first.retain(|place| *place != at || spots.is_empty());
         first.sort_by(f64::total_cmp);
@@ -345,22 +380,61 @@ impl Sampler<'_> {
         }
         loop {
             let room = self.effort.band.most.saturating_sub(spots.len());
-            let limit = (1.0 + self.effort.band.tolerance) * largest_of(&spots);
-            let mut between = self.gaps(&spots);
-            between.retain(|gap| gap.1 > limit);
+            let mut between: Vec<f64> = Vec::new();
+            for of in &self.worst {
+                let worst = worst_of(&spots, *of).unwrap_or_default();
+                let limit = worst + self.effort.band.tolerance * worst.abs();
+                let wide = self.gaps(&spots, *of).into_iter().filter(|gap| gap.1 > limit);
+                let wide = wide.map(|gap| gap.0).take(room.min(TOGETHER));
+                between.extend(wide.filter(|at| !between.contains(at)).collect::<Vec<_>>());
+            }
             between.truncate(room.min(TOGETHER));
             let followed = self.follow(&mut spots)?;
-            if between.is_empty() && !followed {
+            if between.is_empty() && !followed && !self.fly_in_full(&mut spots)? {
                 break;
             }
-            let new = self.at(between.into_iter().map(|gap| gap.0).collect(), &spots, false)?;
+            let new = self.at(between, &spots, false)?;
             spots.extend(new);
             spots.sort_by(|a, b| a.at.total_cmp(&b.at));
         }
-        let largest = largest_of(&spots);
         // What is within the tolerance is an error as well.
-        let highest = self.gaps(&spots).first().map_or(largest, |gap| gap.1.max(largest));
-        Ok((spots.into_iter().map(Spot::place).collect(), highest - largest))
+        let between = |of: &Extreme| {
+            let worst = worst_of(&spots, *of)?;
+            let gaps = self.gaps(&spots, *of).into_iter().map(|gap| gap.1);
+            let narrow = (1..spots.len()).filter_map(|right| self.beyond(&spots, right, *of));
+            Some((*of, gaps.chain(narrow).fold(worst, f64::max) - worst))
+        };
+        let unresolved = self.worst.iter().filter_map(between).collect();
+        Ok((spots.into_iter().map(Spot::place).collect(), unresolved))
+    }
+
+    /// Searches places again, each start for at least as long as in a case with one place, while what wanders there, and was not flown for
+    /// as long, sets how bad a number may be along the band: it may be a transient. Whether there were any.
+    fn fly_in_full(&self, spots: &mut [Spot]) -> Result<bool, StartError> {
+        if self.effort.patience < 1.0 || self.effort.band.even < BandEffort::FULL.even {
+            return Ok(false);
+        }
+        let mut chosen: Vec<usize> = Vec::new();
+        for of in &self.worst {
+            let each = spots.iter().enumerate().filter_map(|(k, spot)| Some((k, spot.reach(*of)?)));
+            let worst = each.max_by(|a, b| a.1.0.total_cmp(&b.1.0));
+            let open = worst.filter(|(k, (_, motion))| {
+                !spots[*k].in_full && matches!(motion.kind, MotionKind::Wanders)
+            });
+            chosen.extend(open.map(|one| one.0).filter(|k| !chosen.contains(k)));
+        }
+        let place = |k: &usize| {
+            let system = self.band.system(spots[*k].at).ok()?;
+            let further = spots[*k].moving().map(Motion::state).collect();
+            let place = Place::new(&system, self.effort.band.starts_between);
+            Some((*k, Place { further, patience: TO_THE_END, ..place }))
+        };
+        let (chosen, places): (Vec<usize>, Vec<Place>) = chosen.iter().filter_map(place).unzip();
+        let found = motions(&places, &self.effort.in_full(), self.on)?;
+        for (k, found) in chosen.iter().zip(found) {
+            (spots[*k].motions, spots[*k].in_full) = (found, true);
+        }
+        Ok(!chosen.is_empty())
     }
 
     /// The motions at new places: from the usual starts at the first, else also from what `known` places beside them have.
@@ -389,7 +463,7 @@ impl Sampler<'_> {
         };
         let (at, places): (Vec<f64>, Vec<Place>) = places.into_iter().filter_map(place).unzip();
         let found = motions(&places, &self.effort.between(), self.on)?;
-        let spot = |(at, motions)| Spot { at, motions, followed: 0.0 };
+        let spot = |(at, motions)| Spot { at, motions, followed: 0.0, in_full: false };
         Ok(at.into_iter().zip(found).map(spot).collect())
     }
 
@@ -417,20 +491,45 @@ impl Sampler<'_> {
         Ok(!places.is_empty())
     }
 
-    /// The middles of gaps that may be halved, with what the largest peak in them may be; the highest first.
-    fn gaps(&self, spots: &[Spot]) -> Vec<(f64, f64)> {
+    /// The middles of gaps that may be halved, with how bad a number may be in them; the worst first.
+    fn gaps(&self, spots: &[Spot], of: Extreme) -> Vec<(f64, f64)> {
         let mut gaps: Vec<(f64, f64)> = (1..spots.len())
             .filter(|right| spots[*right].at - spots[right - 1].at > self.finest)
             .filter(|right| !(spots[right - 1].is_exact() && spots[*right].is_exact()))
-            .map(|right| {
+            .filter_map(|right| {
                 let [left, at] = [spots[right - 1].at, spots[right].at];
-                (0.5 * (left + at), possible(spots, right))
+                Some((0.5 * (left + at), possible(spots, right, of)?))
             })
             .collect();
         gaps.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
         gaps
     }
+
+    /// How bad a number may be in a gap that is never halved, by how it rises towards it on either side; no worse than in any other.
+    /// None of what scatters, which is chaos with an error of its own, and of what is solved for.
+    fn beyond(&self, spots: &[Spot], right: usize, of: Extreme) -> Option<f64> {
+        let [one, other] = [&spots[right - 1], &spots[right]];
+        let width = other.at - one.at;
+        let wanders =
+            |spot: &Spot| spot.moving().any(|one| matches!(one.kind, MotionKind::Wanders));
+        let around = &spots[right.saturating_sub(2)..spots.len().min(right + 2)];
+        if width > self.finest || one.is_exact() && other.is_exact() || around.iter().any(wanders) {
+            return None;
+        }
+        let rises = |from: &Spot, before: Option<&Spot>| {
+            let before = before?;
+            let (value, earlier) = (from.worst(of)?, before.worst(of)?);
+            Some(value + ((value - earlier) / (from.at - before.at).abs() * width).max(0.0))
+        };
+        let left = rises(one, right.checked_sub(2).map(|k| &spots[k]));
+        let most = left.into_iter().chain(rises(other, spots.get(right + 1)));
+        let most = most.max_by(f64::total_cmp)?;
+        Some(most.min(possible(spots, right, of)?))
+    }
 }
+
+/// Places with their motions, and by how much each number that was asked for may be worse between them.
+type Sampled = (Vec<(f64, Motions)>, Vec<(Extreme, f64)>);
 
 impl Motions {
     /// Takes over what another search of the same place has found beyond these, which it was given.
@@ -446,12 +545,15 @@ impl Motions {
     }
 }
 
-/// The largest peak that may lie between two neighbouring places: the larger of theirs and half of the
+/// The worst that a number may be between two neighbouring places: the worse of theirs and half of the
 /// range of the four places around. Around a smooth top, whose neighbours are lower by as much as it is
 /// from its own, that is enough; steep flanks and scatter make it wide.
-fn possible(spots: &[Spot], right: usize) -> f64 {
+fn possible(spots: &[Spot], right: usize, of: Extreme) -> Option<f64> {
     let around = &spots[right.saturating_sub(2)..spots.len().min(right + 2)];
-    let peaks = || around.iter().map(Spot::peak);
-    let range = peaks().fold(0.0, f64::max) - peaks().fold(f64::INFINITY, f64::min);
-    spots[right - 1].peak().max(spots[right].peak()) + 0.5 * range
+    // Where nothing moves nothing is large; how small it is is not known.
+    let value = |spot: &Spot| spot.worst(of).or((!of.least).then_some(0.0));
+    let values = || around.iter().filter_map(value);
+    let range = values().max_by(f64::total_cmp)? - values().min_by(f64::total_cmp)?;
+    let worse = spots[right - 1..=right].iter().filter_map(value).max_by(f64::total_cmp)?;
+    Some(worse + 0.5 * range)
 }

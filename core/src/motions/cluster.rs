@@ -16,8 +16,6 @@ const DRIFT: f64 = 1.5;
 /// in which it is sampled to a few per cent, and of many in which it comes and goes.
 const STAYS: std::ops::Range<f64> = 0.9..1.1;
 const MANY_STAY: std::ops::Range<f64> = 0.5..2.0;
-/// Relative error of a largest value from which on it is hardly known.
-const VAGUE: f64 = 0.5;
 /// Relative difference below which averages are the same whatever their errors: what nobody measures.
 const NO_DIFFERENCE: f64 = 1e-3;
 
@@ -26,11 +24,13 @@ pub(super) struct Cluster {
     /// Which flights they are.
     pub members: Vec<usize>,
     samples: Vec<WindowSample>,
+    /// Excitation periods of a case's window: largest values are spoken of for ten times as long.
+    periods: u64,
 }
 
 impl Cluster {
-    /// Puts together what wanders, in the order of the starts.
-    pub fn all(samples: impl Iterator<Item = (usize, WindowSample)>) -> Vec<Self> {
+    /// Puts together what wanders, in the order of the starts, in a case with a window of so many periods.
+    pub fn all(samples: impl Iterator<Item = (usize, WindowSample)>, periods: u64) -> Vec<Self> {
         let mut clusters: Vec<Self> = Vec::new();
         for (member, sample) in samples {
             match clusters.iter_mut().find(|one| one.holds(&sample)) {
@@ -38,7 +38,9 @@ impl Cluster {
                     one.members.push(member);
                     one.samples.push(sample);
                 }
-                None => clusters.push(Self { members: vec![member], samples: vec![sample] }),
+                None => {
+                    clusters.push(Self { members: vec![member], samples: vec![sample], periods })
+                }
             }
         }
         clusters
@@ -63,25 +65,17 @@ impl Cluster {
         rms.error <= amplitude * rms.value && impacts_per_period.error <= impacts
     }
 
-    /// Whether a longer run may well have peaks half as large again: of a motion that is captured now and then windows of
-    /// which some have no peak at all are too short.
-    pub fn is_vague(&self) -> bool {
+    /// Whether a longer run may have peaks that are larger by more than this part of what was seen: of a motion that is captured
+    /// now and then windows of which some have no peak at all are too short.
+    pub fn is_vague(&self, from: f64) -> bool {
         let Facts { peak, .. } = self.facts();
-        peak.error > VAGUE * peak.value
+        peak.error > from * peak.value
     }
 
-    /// Those of all its windows together. Starts of one age may be at one stage of a slow modulation, and so are not independent:
-    /// by what most of them change from their first halves to their second the root mean square is not known any better.
+    /// Those of all its windows together.
     fn facts(&self) -> Facts {
-        let windows: Vec<Facts> = self.samples.iter().map(|one| one.facts).collect();
-        let mut facts = Facts::pooled(&windows);
-        let [change, chance] = self.change();
-        if windows.len() >= MANY && change.abs() > chance {
-            // The square varies twice as much as its root.
-            let off = change.abs() / (2.0 * facts.rms.value);
-            facts.rms.error = facts.rms.error.max(off);
-        }
-        facts
+        let windows: Vec<_> = self.samples.iter().map(|one| (one.facts, &one.course)).collect();
+        Facts::pooled(&windows, self.periods)
     }
 
     /// By how much the mean square goes up from the first halves of its windows to the second, with twice its standard error.

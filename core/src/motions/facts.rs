@@ -4,10 +4,12 @@ use std::f64::consts::SQRT_2;
 
 use serde::Serialize;
 
-use crate::numerics::scatter::error_of_largest_of;
+use crate::numerics::scatter::{
+    LONGER, error_of_largest, twice_error_of_mean, twice_standard_error,
+};
 use crate::orbits::{ImpactMap, Measures, Orbit, OrbitError, SteadyOrbit};
 use crate::regimes::Evidence;
-use crate::simulation::{PeriodRecord, Statistics, lost_in};
+use crate::simulation::{Course, PeriodRecord, Statistics, lost_in};
 use crate::system::{Shaking, System};
 
 /// Relative rounding of what is computed along an orbit that is hardly disturbed, and of one that is disturbed in
@@ -42,7 +44,7 @@ impl Value {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Facts {
     /// Largest absolute displacement of the oscillator. Of a motion that wanders the largest that was seen; its error is
-    /// by how much a run ten times as long may exceed it, with 95 % confidence.
+    /// by how much a run ten times as long as the window of its search may exceed it, at odds of 19 to 1.
     pub peak: Value,
     /// Root mean square displacement of the oscillator; of a motion that wanders with two standard errors.
     pub rms: Value,
@@ -94,18 +96,23 @@ impl Facts {
 
     /// What statistics tell of a window; of its last repetition alone, in which nothing is stored, if the motion repeats.
     pub(super) fn measured(statistics: &Statistics, evidence: &Evidence) -> Self {
-        let [peak_error, speed_error] = statistics.errors_of_largest();
-        let [rms_error, impacts_error] = statistics.errors();
+        // What repeats has no scatter, whose error takes some time to find.
+        let wanders = evidence.periodicity.is_none();
+        let nothing = || [0.0; 2];
+        let [peak_error, speed_error] =
+            if wanders { statistics.errors_of_largest() } else { nothing() };
+        let [rms_error, impacts_error] = if wanders { statistics.errors() } else { nothing() };
         // Of a free vibration the work of the excitation is no number.
         let driven = statistics.energy().input != 0.0;
         let of_share = |[share, error]: [f64; 2]| Value::new(share, error);
+        let efficiency = || statistics.efficiency().filter(|_| driven).map(of_share);
         let seen = Self {
             peak: Value::new(statistics.peak(), peak_error),
             rms: Value::new(statistics.rms(), rms_error),
             impact_speed: Value::new(statistics.impact_speed(), speed_error),
             impacts_per_period: Value::new(evidence.impacts_per_period, impacts_error),
             visits_per_period: evidence.visits_per_period,
-            efficiency: statistics.efficiency().filter(|_| driven).map(of_share),
+            efficiency: if wanders { efficiency() } else { None },
             shaking: None,
         };
         let Some(found) = evidence.periodicity else { return seen };
@@ -139,33 +146,39 @@ impl Facts {
         }
     }
 
-    /// Of several windows of one motion: averages of averages, the largest of largest values, and errors of what has been
-    /// seen from so many windows by their mean scatter.
-    pub(super) fn pooled(all: &[Self]) -> Self {
+    /// Of several windows of one motion: averages of averages, the largest of largest values, and the errors of what all of
+    /// them have seen, a largest value for a run ten times as long as so many `periods`.
+    pub(super) fn pooled(all: &[(Self, &Course)], periods: u64) -> Self {
         let count = all.len().max(1) as f64;
-        let runs = error_of_largest_of(all.len() as u32);
-        let mean = |of: &dyn Fn(&Self) -> f64| all.iter().map(of).sum::<f64>() / count;
-        let square = |of: &dyn Fn(&Self) -> f64| mean(&|one| of(one) * of(one)).sqrt();
-        let largest = |of: fn(&Self) -> Value| {
-            let value = all.iter().map(|one| of(one).value).fold(0.0, f64::max);
-            Value::new(value, square(&|one| of(one).error) * runs)
+        let mean =
+            |of: &dyn Fn(&Self) -> f64| all.iter().map(|one| of(&one.0)).sum::<f64>() / count;
+        let seen = all.iter().map(|(_, course)| course.peak.len()).sum::<usize>().max(1) as f64;
+        let longer = LONGER * periods as f64 / seen;
+        let windows = |of: fn(&Course) -> &Vec<f64>| -> Vec<&[f64]> {
+            all.iter().map(|(_, course)| of(course).as_slice()).collect()
         };
-        let average = |value: f64, of: fn(&Self) -> Value| {
-            Value::new(value, square(&|one| of(one).error) / count.sqrt())
+        let largest = |of: fn(&Self) -> Value, course: fn(&Course) -> &Vec<f64>| {
+            let value = all.iter().map(|one| of(&one.0).value).fold(0.0, f64::max);
+            Value::new(value, error_of_largest(&windows(course), longer))
         };
-        let work: Option<Vec<Value>> = all.iter().map(|one| one.efficiency).collect();
+        let rms = mean(&|one| one.rms.value * one.rms.value).sqrt();
+        // The square varies twice as much as its root.
+        let square = twice_error_of_mean(&windows(|one| &one.mean_square));
+        let work: Option<Vec<Value>> = all.iter().map(|one| one.0.efficiency).collect();
         let share = work.map(|shares| {
-            let value = shares.iter().map(|one| one.value).sum::<f64>() / count;
+            let values: Vec<f64> = shares.iter().map(|one| one.value).collect();
             let error = shares.iter().map(|one| one.error * one.error).sum::<f64>().sqrt() / count;
-            Value::new(value, error)
+            let apart = if shares.len() < 2 { 0.0 } else { twice_standard_error(&values) };
+            Value::new(values.iter().sum::<f64>() / count, error.max(apart))
         });
         Self {
-            peak: largest(|one| one.peak),
-            rms: average(square(&|one| one.rms.value), |one| one.rms),
-            impact_speed: largest(|one| one.impact_speed),
-            impacts_per_period: average(mean(&|one| one.impacts_per_period.value), |one| {
-                one.impacts_per_period
-            }),
+            peak: largest(|one| one.peak, |one| &one.peak),
+            rms: Value::new(rms, square / (2.0 * rms).max(f64::MIN_POSITIVE)),
+            impact_speed: largest(|one| one.impact_speed, |one| &one.impact_speed),
+            impacts_per_period: Value::new(
+                mean(&|one| one.impacts_per_period.value),
+                twice_error_of_mean(&windows(|one| &one.impacts)),
+            ),
             visits_per_period: mean(&|one| one.visits_per_period),
             efficiency: share,
             shaking: None,

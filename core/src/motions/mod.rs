@@ -81,6 +81,9 @@ pub struct Effort {
     /// that wanders is measured; none where its window will do.
     #[serde(skip)]
     pub accuracy: Option<[f64; 2]>,
+    /// Relative error of a largest value from which on what wanders is measured for longer, for up to sixteen times as long.
+    #[serde(skip)]
+    pub vague: f64,
     /// What a band asks for beside that.
     #[serde(skip)]
     pub band: BandEffort,
@@ -98,6 +101,7 @@ impl Default for Effort {
             patience: 1.0,
             most_impacts: 1000,
             accuracy: None,
+            vague: 0.3,
             band: BandEffort::FULL,
             shaking: false,
         }
@@ -130,7 +134,9 @@ pub struct Place {
     pub further: Vec<State>,
     /// Motions that are known already; they keep their places in the list.
     pub known: Vec<Motion>,
-    /// Share of [`Effort::patience`] with what may be a transient, 0 to 1: less than 1 where that was told from one beside it.
+    /// Share of [`Effort::patience`] with what may be a transient: less than 1 where that was told from one beside it. More than 1:
+    /// each start is flown for as long as where a search has all [`Effort::starts`], for longer where others have left what it is
+    /// on, and those that still wander after the usual rounds for so many times as many.
     pub patience: f64,
 }
 

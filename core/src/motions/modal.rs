@@ -7,9 +7,7 @@ use serde::Serialize;
 
 use super::starts::position;
 use crate::linear::ModalAmplitudes;
-use crate::numerics::scatter::{
-    drifts, error_of_largest, error_of_largest_of, twice_standard_error,
-};
+use crate::numerics::scatter::{LONGER, drifts, error_of_largest, twice_error_of_mean};
 use crate::orbits::{antiperiodic_orbits, orbit_state};
 use crate::simulation::{
     Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, ModalStartError, Reading,
@@ -45,9 +43,18 @@ pub struct ModalMotion {
     pub largest_multiplier: Option<f64>,
     /// Starts that led to it; none of an orbit that attracts all the same.
     pub starts: u32,
-    /// The largest that each sensor reads in each block, over all starts.
+    /// What was seen of it from each start.
     #[serde(skip)]
-    block_peaks: Vec<Vec<f64>>,
+    flights: Vec<FlightBlocks>,
+}
+
+/// What a flight came to in each of its blocks: the largest that each sensor reads, its mean square, and impacts in a period of
+/// each absorber.
+#[derive(Debug, Clone, PartialEq)]
+struct FlightBlocks {
+    peaks: Vec<Vec<f64>>,
+    squares: Vec<Vec<f64>>,
+    impacts: Vec<Vec<f64>>,
 }
 
 /// Times in which the slowest mode decays to `1/e` that are left out before a motion that does not repeat is measured, and fewest
@@ -158,7 +165,7 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
         settled: true,
         largest_multiplier: None,
         starts: 0,
-        block_peaks: Vec::new(),
+        flights: Vec::new(),
     })
 }
 
@@ -329,34 +336,52 @@ fn from_start(
 
 impl ModalMotion {
     fn of(sensors: &[Sensor], blocks: &[Block], repeats_after: Option<u32>, settled: bool) -> Self {
-        let known = |values: &[f64]| {
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let error = if values.len() > 1 { twice_standard_error(values) } else { 0.0 };
-            [mean, error]
+        let of_sensors = |of: fn(&SensorRecord) -> f64| {
+            let each = |n: usize| blocks.iter().map(|one| of(&one.sensors[n])).collect();
+            (0..sensors.len()).map(each).collect()
         };
-        let peaks = |n: usize| blocks.iter().map(|one| one.sensors[n].peak).collect::<Vec<f64>>();
-        let extent = |n: usize| {
-            let peaks = peaks(n);
-            let squares: Vec<f64> = blocks.iter().map(|one| one.sensors[n].mean_square).collect();
-            let [square, error] = known(&squares);
-            let rms = square.sqrt();
-            SensorExtent {
-                reads: sensors[n].reads,
-                peak: peaks.iter().copied().fold(0.0, f64::max),
-                error: error_of_largest(&peaks),
-                rms: [rms, if rms > 0.0 { 0.5 * error / rms } else { 0.0 }],
-            }
+        let impacts = |j: usize| blocks.iter().map(|one| one.impacts[j]).collect();
+        let flight = FlightBlocks {
+            peaks: of_sensors(|one| one.peak),
+            squares: of_sensors(|one| one.mean_square),
+            impacts: (0..blocks[0].impacts.len()).map(impacts).collect(),
         };
-        let impacts =
-            |j: usize| known(&blocks.iter().map(|one| one.impacts[j]).collect::<Vec<_>>());
-        Self {
-            sensors: (0..sensors.len()).map(extent).collect(),
-            impacts_per_period: (0..blocks[0].impacts.len()).map(impacts).collect(),
+        let unknown =
+            |one: &Sensor| SensorExtent { reads: one.reads, peak: 0.0, error: 0.0, rms: [0.0; 2] };
+        let mut found = Self {
+            sensors: sensors.iter().map(unknown).collect(),
+            impacts_per_period: vec![[0.0; 2]; flight.impacts.len()],
             repeats_after,
             settled,
             largest_multiplier: None,
             starts: 1,
-            block_peaks: (0..sensors.len()).map(peaks).collect(),
+            flights: vec![flight],
+        };
+        found.measure();
+        found
+    }
+
+    /// Its numbers by all that was seen of it.
+    fn measure(&mut self) {
+        let Self { sensors, impacts_per_period, flights, .. } = self;
+        let known = |windows: &[&[f64]]| {
+            let all = windows.concat();
+            let mean = all.iter().sum::<f64>() / all.len() as f64;
+            [mean, if all.len() > 1 { twice_error_of_mean(windows) } else { 0.0 }]
+        };
+        for (n, sensor) in sensors.iter_mut().enumerate() {
+            let peaks: Vec<&[f64]> = flights.iter().map(|one| one.peaks[n].as_slice()).collect();
+            let squares: Vec<&[f64]> =
+                flights.iter().map(|one| one.squares[n].as_slice()).collect();
+            let [square, error] = known(&squares);
+            let rms = square.sqrt();
+            sensor.peak = peaks.iter().copied().flatten().copied().fold(0.0, f64::max);
+            sensor.error = error_of_largest(&peaks, LONGER / flights.len() as f64);
+            sensor.rms = [rms, if rms > 0.0 { 0.5 * error / rms } else { 0.0 }];
+        }
+        for (j, impacts) in impacts_per_period.iter_mut().enumerate() {
+            let counts: Vec<&[f64]> = flights.iter().map(|one| one.impacts[j].as_slice()).collect();
+            *impacts = known(&counts);
         }
     }
 
@@ -388,15 +413,13 @@ impl ModalMotion {
             && impacts.into_iter().all(|(a, b)| near(*a, *b))
     }
 
-    /// Adds another flight of it.
+    /// Adds another flight of it; what repeats is known from one.
     fn join(&mut self, other: &Self) {
         self.starts += other.starts;
         self.settled &= other.settled;
-        let peaks = self.block_peaks.iter_mut().zip(&other.block_peaks);
-        for (sensor, (own, of)) in self.sensors.iter_mut().zip(peaks) {
-            own.extend(of);
-            sensor.peak = own.iter().copied().fold(sensor.peak, f64::max);
-            sensor.error = error_of_largest(own) * error_of_largest_of(self.starts);
+        if self.repeats_after.is_none() {
+            self.flights.extend(other.flights.iter().cloned());
+            self.measure();
         }
     }
 }

@@ -25,6 +25,9 @@ const BESIDE_ANOTHER: f64 = 20.0;
 /// The same for each start that has not settled, over the number of all starts, whatever else is known: a search with more
 /// starts is a thorougher one.
 const ALONE: f64 = 0.1;
+/// The same over the windows that a start of the place has wandered for on average until it settled, where that decides: one
+/// transient in twenty is then still taken for a motion.
+const LIVES: f64 = 3.0;
 /// Share of its steady amplitude within which a structure vibrates as if alone.
 const STEADY: f64 = 1e-6;
 /// Starts above which a search is no thorougher.
@@ -200,13 +203,17 @@ struct Ground {
     /// Of this round: whether a start has settled that wandered before, and periods that the others have flown.
     settled: bool,
     flown: u64,
-    /// Windows without a start that settled.
+    /// Windows without a start that settled, and all that starts have wandered for.
     quiet: f64,
+    wandered: f64,
+    /// Whether a start is flown as long as where a case has one place, and longer where others of its place have settled late.
+    as_alone: bool,
     /// How often starts were flown on, and measured, and over how many periods they were the last time.
     rounds: usize,
     measured: usize,
     window: u64,
     accuracy: Option<[f64; 2]>,
+    vague: f64,
     /// Whether more was asked for when the last round was over.
     impatient: bool,
     /// Excitation periods that each start was flown, impacts of its simulation so far, and those per period of the last flight.
@@ -234,6 +241,8 @@ impl Ground {
         let orbits: Vec<Orbit> =
             known.iter().filter_map(|one| one.motion.orbit().cloned()).collect();
         let count = place.starts.len() + place.further.len();
+        let as_alone = place.patience > 1.0;
+        let thorough = if as_alone { effort.starts as usize } else { place.starts.len() };
         Self {
             left_out: effort
                 .discard
@@ -246,16 +255,19 @@ impl Ground {
             late: Vec::new(),
             open: vec![None; count],
             periods: effort.periods.max(1),
-            patience: effort.patience * place.patience,
-            most_rounds: (effort.patience * ROUNDS as f64) as usize,
-            alone: ALONE * place.starts.len().min(MOST) as f64,
+            patience: effort.patience * place.patience.min(1.0),
+            most_rounds: (effort.patience * place.patience.max(1.0) * ROUNDS as f64) as usize,
+            alone: ALONE * thorough.min(MOST) as f64,
             settled: false,
             flown: 0,
             quiet: 0.0,
+            wandered: 0.0,
+            as_alone,
             rounds: 0,
             measured: 0,
             window: 0,
             accuracy: effort.accuracy,
+            vague: effort.vague,
             impatient: false,
             followed: vec![0; count],
             impacts: vec![0; count],
@@ -366,6 +378,7 @@ impl Ground {
     /// Those that have not settled, with how far they go; none once they have shown what they are.
     fn further(&mut self, mut open: Vec<StartFlight>) -> Vec<StartFlight> {
         let periods = self.periods as f64;
+        self.wandered += self.flown as f64 / periods;
         self.quiet = if self.settled { 0.0 } else { self.quiet + self.flown as f64 / periods };
         (self.settled, self.flown) = (false, 0);
         if open.is_empty() {
@@ -375,6 +388,10 @@ impl Ground {
         let beside = self.known.iter().any(|one| one.motion.rest().is_none());
         let alone = self.alone * open.len() as f64;
         let windows = if beside { alone.max(BESIDE_ANOTHER) } else { alone };
+        // What starts have left is a transient, whose life is known.
+        let life = self.wandered / self.late.len() as f64;
+        let lives = if self.as_alone && !self.late.is_empty() { LIVES * life } else { 0.0 };
+        let windows = windows.max(lives);
         let missing = if self.creeps { 0.0 } else { self.patience * windows - self.quiet };
         let of = |flight: &StartFlight| {
             Some((flight.index, self.open[flight.index - self.first].clone()?))
@@ -382,13 +399,14 @@ impl Ground {
         let samples: Vec<(usize, WindowSample)> = open.iter().filter_map(of).collect();
         let measured = samples.len() == open.len();
         let count = open.len() as u64;
-        let clusters = if measured { Cluster::all(samples.into_iter()) } else { Vec::new() };
+        let clusters =
+            if measured { Cluster::all(samples.into_iter(), self.periods) } else { Vec::new() };
         let young = self.measured < FEWEST;
         let settles = clusters.len() > 1 || clusters.iter().any(|one| one.settles(young));
         let restless = settles && !self.creeps && self.measured <= LONGEST;
         let loose = |limits| clusters.iter().any(|one| !one.is_within(limits));
         let again = self.accuracy.is_some_and(loose) && self.window * count < MOST_PERIODS;
-        let vague = self.measured <= LONGEST && clusters.iter().any(Cluster::is_vague);
+        let vague = self.measured <= LONGEST && clusters.iter().any(|one| one.is_vague(self.vague));
         self.impatient = missing > 0.0 || self.creeps;
         let busiest = open.iter().map(|flight| self.busy[flight.index - self.first]);
         let busy = busiest.fold(BUSY, f64::max) / BUSY;
@@ -416,10 +434,10 @@ impl Ground {
 
     /// The list, of which the first `counted` starts are counted.
     fn motions(self, counted: usize) -> Motions {
-        let Self { mut known, mut led, late, open, impatient, followed, .. } = self;
+        let Self { mut known, mut led, late, open, impatient, followed, periods, .. } = self;
         let is_counted = |start: &usize| *start < counted;
         let samples = open.into_iter().enumerate().filter_map(|(start, one)| Some((start, one?)));
-        let wanders = Cluster::all(samples);
+        let wanders = Cluster::all(samples, periods);
         let mut all: Vec<Motion> = Vec::new();
         for (index, one) in known.drain(..).enumerate() {
             let led = || (0..led.len()).filter(|start| led[*start] == Some(index));

@@ -2,15 +2,12 @@
 //! flown once round, one that wanders over its window again.
 
 use super::{Effort, Facts, Motion, MotionKind, RestKind, Value};
-use crate::numerics::scatter::{error_of_largest, twice_standard_error};
+use crate::numerics::scatter::{LONGER, error_of_largest, twice_error_of_mean};
 use crate::simulation::{Detail, Observer, Segment, ShakingMeter, Simulation};
 use crate::system::{Shaking, State, System};
 
 /// Periods of an absorber that rests and still slides, or was seen on a wall.
 const RESTING: u64 = 20;
-/// Blocks whose averages, and whose largest values, are compared: as of displacements.
-const BLOCKS: usize = 10;
-const BLOCKS_OF_LARGEST: usize = 16;
 /// Relative rounding of what is flown once round.
 const ROUNDING: f64 = 1e-12;
 
@@ -48,25 +45,17 @@ impl InPeriods {
         self.periods.iter().fold(self.meter, ShakingMeter::and).found()
     }
 
-    /// What successive blocks of the periods have, about so many of them.
-    fn of_blocks(&self, blocks: usize, of: impl Fn(&[ShakingMeter]) -> f64) -> Vec<f64> {
-        self.periods.chunks_exact((self.periods.len() / blocks).max(1)).map(of).collect()
-    }
-
     /// The same of a motion that does not repeat: of a largest value by how much a run ten times as long may exceed it,
     /// of a root mean square two standard errors.
     fn wandering(&self) -> Shaking<Value> {
         let found = self.found();
+        let each =
+            |of: &dyn Fn(&ShakingMeter) -> f64| self.periods.iter().map(of).collect::<Vec<_>>();
         let largest = |k: usize, value: f64| {
-            let of =
-                |block: &[ShakingMeter]| block.iter().map(|one| one.peaks()[k]).fold(0.0, f64::max);
-            Value::new(value, error_of_largest(&self.of_blocks(BLOCKS_OF_LARGEST, of)))
+            Value::new(value, error_of_largest(&[&each(&|one| one.peaks()[k])], LONGER))
         };
         let average = |k: usize, value: f64| {
-            let of = |block: &[ShakingMeter]| {
-                block.iter().map(|one| one.mean_squares()[k]).sum::<f64>() / block.len() as f64
-            };
-            let error = twice_standard_error(&self.of_blocks(BLOCKS, of));
+            let error = twice_error_of_mean(&[&each(&|one| one.mean_squares()[k])]);
             // The square varies twice as much as its root.
             Value::new(value, error / (2.0 * value).max(f64::MIN_POSITIVE))
         };

@@ -23,6 +23,8 @@ pub enum Fact {
     Rms,
     /// The impact speed.
     ImpactSpeed,
+    /// Impacts per excitation period.
+    ImpactsPerPeriod,
     /// The peak velocity.
     PeakVelocity,
     /// The root mean square velocity.
@@ -44,6 +46,7 @@ impl Fact {
             Self::Peak => facts.peak,
             Self::Rms => facts.rms,
             Self::ImpactSpeed => facts.impact_speed,
+            Self::ImpactsPerPeriod => facts.impacts_per_period,
             _ => return self.of_shaking(facts.shaking.as_ref()?),
         })
     }
@@ -55,14 +58,14 @@ impl Fact {
             Self::RmsVelocity => Some(of.rms_velocity),
             Self::PeakAcceleration => Some(of.peak_acceleration),
             Self::RmsAcceleration => Some(of.rms_acceleration),
-            Self::Peak | Self::Rms | Self::ImpactSpeed => None,
+            Self::Peak | Self::Rms | Self::ImpactSpeed | Self::ImpactsPerPeriod => None,
         }
     }
 
     /// By which power of its frequency a sine's number grows at one amplitude.
     pub(super) const fn power_of_frequency(self) -> i32 {
         match self {
-            Self::Peak | Self::Rms | Self::ImpactSpeed => 0,
+            Self::Peak | Self::Rms | Self::ImpactSpeed | Self::ImpactsPerPeriod => 0,
             Self::PeakVelocity | Self::RmsVelocity => 1,
             Self::PeakAcceleration | Self::RmsAcceleration => 2,
         }
@@ -81,6 +84,13 @@ pub struct Extreme {
     pub of: Fact,
     /// Whether the smallest is meant.
     pub least: bool,
+}
+
+impl Extreme {
+    /// -1 where the smallest is meant.
+    pub(super) const fn sign(self) -> f64 {
+        if self.least { -1.0 } else { 1.0 }
+    }
 }
 
 /// Width, over the band, of what lies between two orbits where one takes over the other's stability: there both have a
@@ -171,8 +181,7 @@ pub(super) fn extreme_at(
     wanted: Extreme,
 ) -> Option<f64> {
     let band = motions.band;
-    let sign = if wanted.least { -1.0 } else { 1.0 };
-    let signed = |facts: &Facts| Some(sign * wanted.of.of_facts(facts)?.value);
+    let signed = |facts: &Facts| Some(wanted.sign() * wanted.of.of_facts(facts)?.value);
     let largest_of = |all: &[Facts]| all.iter().filter_map(signed).max_by(f64::total_cmp);
     let of = |at: f64| motions.at(at, largest_of);
     let stretches = stability.iter().filter(|stretch| stretch.of);

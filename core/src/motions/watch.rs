@@ -7,7 +7,7 @@ use crate::regimes::modulation;
 use crate::regimes::periodicity::{self, Periodicity};
 use crate::regimes::{Evidence, ImpactSequence, Regime};
 use crate::simulation::{
-    Impact, ImpactLog, Measurement, PeriodRecord, Simulation, Statistics, Stop,
+    Course, Impact, ImpactLog, Measurement, PeriodRecord, Simulation, Statistics, Stop,
 };
 use crate::system::State;
 
@@ -40,6 +40,8 @@ pub(super) struct WindowSample {
     /// The impacts of the last repetition, and its `C`, `E` and peak; nothing of what does not repeat.
     pub impacts: Vec<Impact>,
     pub amplitudes: [f64; 3],
+    /// What each of its periods came to.
+    pub course: Course,
     /// Whether the absorber rests on a wall at times.
     pub contact: bool,
     /// Whether the mean square goes up or down over the window.
@@ -127,6 +129,7 @@ impl Watch {
             end: simulation.state(),
             impacts: last.map(|(_, impacts)| impacts.to_vec()).unwrap_or_default(),
             amplitudes,
+            course: statistics.course(),
             contact: statistics.sustained_contact().intervals > 0,
             drifts: modulation::drifting(records),
             mean_squares: halves(&|part| {

@@ -43,7 +43,7 @@ pub use modal::{
 pub use run::{Simulation, Stop};
 pub use shaking::ShakingMeter;
 #[doc(hidden)]
-pub use statistics::lost_in;
+pub use statistics::{Course, lost_in};
 pub use statistics::{Energy, Measurement, PeriodRecord, Statistics, SustainedContact};
 pub use tangent::Tangent;
 pub use trust::{Doubt, doubts};

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::events::{Impact, Side};
 use super::integrals::Integrals;
 use crate::numerics::is_zero;
-use crate::numerics::scatter::{error_of_largest, twice_standard_error};
+use crate::numerics::scatter::{LONGER, error_of_largest, twice_error_of_mean};
 use crate::system::{State, System};
 
 pub use measurement::Measurement;
@@ -67,6 +67,16 @@ pub struct PeriodRecord {
     pub oscillator_harmonic: [f64; 2],
 }
 
+/// What each of some periods that follow one another came to: by their scatter it is known how well all of them together are.
+#[doc(hidden)]
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Course {
+    pub peak: Vec<f64>,
+    pub impact_speed: Vec<f64>,
+    pub mean_square: Vec<f64>,
+    pub impacts: Vec<f64>,
+}
+
 /// What a [`Measurement`] has measured over whole excitation periods.
 #[derive(Debug, Clone)]
 pub struct Statistics {
@@ -93,11 +103,6 @@ pub struct Statistics {
     records: Vec<PeriodRecord>,
 }
 
-/// Blocks whose averages are compared: fewer say little of their scatter, more are too short to be
-/// independent.
-const BLOCKS: usize = 10;
-/// Blocks whose largest values are compared: as many as leave each some periods of a short window.
-const BLOCKS_OF_LARGEST: usize = 16;
 /// At least this many of the last periods are kept one by one; sums run over all of them. It bounds
 /// the memory of a run of any length, and no regime needs longer to show.
 const KEPT: usize = 20_000;
@@ -158,19 +163,23 @@ impl Statistics {
         self.impact_speed
     }
 
-    /// What successive blocks of the kept periods have, about so many of them.
-    fn of_blocks(&self, blocks: usize, of: impl FnMut(&[PeriodRecord]) -> f64) -> Vec<f64> {
-        self.records.chunks_exact((self.records.len() / blocks).max(1)).map(of).collect()
+    /// What each of the kept periods came to.
+    #[doc(hidden)]
+    pub fn course(&self) -> Course {
+        let each = |of: fn(&PeriodRecord) -> f64| self.records.iter().map(of).collect();
+        Course {
+            peak: each(|one| one.peak),
+            impact_speed: each(|one| one.impact_speed),
+            mean_square: each(|one| one.mean_square),
+            impacts: each(|one| f64::from(one.impacts[0] + one.impacts[1])),
+        }
     }
 
     /// By how much another run, ten times as long, may exceed [`Self::peak`] and [`Self::impact_speed`] of a
     /// motion that does not repeat, at odds of 19 to 1, from their scatter between blocks of the kept periods.
     pub fn errors_of_largest(&self) -> [f64; 2] {
-        let values: [fn(&PeriodRecord) -> f64; 2] = [|one| one.peak, |one| one.impact_speed];
-        values.map(|value| {
-            let largest = |block: &[PeriodRecord]| block.iter().map(value).fold(0.0, f64::max);
-            error_of_largest(&self.of_blocks(BLOCKS_OF_LARGEST, largest))
-        })
+        let Course { peak, impact_speed, .. } = self.course();
+        [peak, impact_speed].map(|one| error_of_largest(&[&one], LONGER))
     }
 
     /// Root mean square of the oscillator's displacement, over the clearance.
@@ -180,17 +189,12 @@ impl Statistics {
     }
 
     /// Two standard errors of [`Self::rms`] and of [`Self::impacts_per_period`], from their scatter
-    /// between ten blocks of the kept periods: how well a motion that does not repeat is known.
+    /// between stretches of the kept periods: how well a motion that does not repeat is known.
     pub fn errors(&self) -> [f64; 2] {
-        let values: [fn(&PeriodRecord) -> f64; 2] =
-            [|one| one.mean_square, |one| f64::from(one.impacts[0] + one.impacts[1])];
-        let [mean_square, impacts] = values.map(|value| {
-            let mean =
-                |block: &[PeriodRecord]| block.iter().map(value).sum::<f64>() / block.len() as f64;
-            twice_standard_error(&self.of_blocks(BLOCKS, mean))
-        });
+        let Course { mean_square, impacts, .. } = self.course();
+        let [square, impacts] = [mean_square, impacts].map(|one| twice_error_of_mean(&[&one]));
         // The square varies twice as much as its root.
-        [mean_square / (2.0 * self.rms()).max(f64::MIN_POSITIVE), impacts]
+        [square / (2.0 * self.rms()).max(f64::MIN_POSITIVE), impacts]
     }
 
     /// Largest penetration of a wall, over the clearance: rounding.
@@ -230,19 +234,22 @@ impl Statistics {
         }
     }
 
-    /// Share of what the kept periods dissipate that impacts take, with two standard errors between ten blocks of them; none
+    /// Share of what the kept periods dissipate that impacts take, with two standard errors between stretches of them; none
     /// where nothing is dissipated. In the long run that is the share of the excitation's work.
     pub fn efficiency(&self) -> Option<[f64; 2]> {
         let [whole, impact] = lost_in(None, &self.records);
         let share = impact / whole;
-        let mut before = None;
-        let blocks = self.of_blocks(BLOCKS, |block| {
-            let [dissipated, impact] = lost_in(before, block);
-            before = block.last().copied();
-            (impact - share * dissipated) / block.len() as f64
+        // Of a long run the first record that was kept has lost what all before it have.
+        let earlier = usize::from(self.periods > self.records.len() as u64);
+        let mut before = self.records.first().filter(|_| earlier > 0).copied();
+        let each = self.records.iter().skip(earlier).map(|record| {
+            let [dissipated, impact] = lost_in(before, std::slice::from_ref(record));
+            before = Some(*record);
+            impact - share * dissipated
         });
+        let each: Vec<f64> = each.collect();
         let mean = whole / self.records.len().max(1) as f64;
-        (whole > 0.0).then(|| [share, twice_standard_error(&blocks) / mean])
+        (whole > 0.0).then(|| [share, twice_error_of_mean(&[&each]) / mean])
     }
 
     /// Mean first harmonics of oscillator and absorber over the kept periods: coefficients of `sin` and `cos`.
