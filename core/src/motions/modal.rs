@@ -43,15 +43,20 @@ pub struct ModalMotion {
     pub largest_multiplier: Option<f64>,
     /// Starts that led to it; none of an orbit that attracts all the same.
     pub starts: u32,
+    /// Excitation periods of a case's window: largest values are spoken of for ten times as long.
+    #[serde(skip)]
+    periods: u64,
     /// What was seen of it from each start.
     #[serde(skip)]
-    flights: Vec<FlightBlocks>,
+    flights: Vec<FlightCourse>,
 }
 
-/// What a flight came to in each of its blocks: the largest that each sensor reads, its mean square, and impacts in a period of
-/// each absorber.
+/// What a flight came to in each of its stretches: the largest that each sensor reads, its mean square, and impacts in a period
+/// of each absorber.
 #[derive(Debug, Clone, PartialEq)]
-struct FlightBlocks {
+struct FlightCourse {
+    /// Excitation periods of all of them.
+    periods: u64,
     peaks: Vec<Vec<f64>>,
     squares: Vec<Vec<f64>>,
     impacts: Vec<Vec<f64>>,
@@ -64,6 +69,8 @@ const QUICKEST: f64 = 32.0;
 const LONGEST: f64 = 8192.0;
 /// Blocks that it is measured for then, as parts of that time, and their shortest length in excitation periods.
 const BLOCKS: usize = 8;
+/// Stretches of a block whose numbers are kept: largest values are spoken of by how long the motion remembers.
+const STRETCHES: u64 = 16;
 /// How often so many blocks are flown once more where they drift.
 const AGAIN: usize = 2;
 const OF_DECAY: f64 = 0.25;
@@ -131,13 +138,13 @@ fn attracting(
     let each = stable.map(|orbit| {
         let state = orbit_state(system, &orbit);
         let mut simulation = ModalSimulation::new(system, &state, 0.0)?;
-        let block = Block::fly(&mut simulation, system, sensors, 1);
+        let block = Stretch::fly(&mut simulation, system, sensors, 1);
         let radius = orbit.spectral_radius();
         let multiplier = Some(radius * radius);
         let motion = ModalMotion {
             largest_multiplier: multiplier,
             starts: 0,
-            ..ModalMotion::of(sensors, &[block], Some(1), true)
+            ..ModalMotion::of(sensors, &[block], Some(1), true, 1)
         };
         Ok(Attracting { state, motion })
     });
@@ -165,6 +172,7 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
         settled: true,
         largest_multiplier: None,
         starts: 0,
+        periods: 0,
         flights: Vec::new(),
     })
 }
@@ -236,15 +244,16 @@ fn distance(of: &ModalState, other: &ModalState) -> f64 {
     off / size
 }
 
-/// What a block of periods came to.
-struct Block {
+/// What a stretch of periods came to.
+struct Stretch {
+    periods: u64,
     sensors: Vec<SensorRecord>,
     impacts: Vec<f64>,
     /// After how many periods the last state was there before.
     repeats_after: Option<u32>,
 }
 
-impl Block {
+impl Stretch {
     /// Flies so many periods.
     fn fly(
         simulation: &mut ModalSimulation,
@@ -257,7 +266,7 @@ impl Block {
         let (meter, seen) = observer;
         let counts = &seen.impacts[..system.absorbers().len()];
         let impacts = counts.iter().map(|all| *all as f64 / periods as f64).collect();
-        Self { sensors: meter.records(), impacts, repeats_after: seen.repeats_after() }
+        Self { periods, sensors: meter.records(), impacts, repeats_after: seen.repeats_after() }
     }
 }
 
@@ -268,17 +277,19 @@ fn decay_periods(system: &ModalSystem) -> f64 {
     system.frequency_ratio() / (std::f64::consts::TAU * slowest)
 }
 
-/// Excitation periods of a time in which the slowest mode decays, and of a block of at least so many `periods` in all.
+/// Excitation periods of a time in which the slowest mode decays, and of a stretch of at least so many `periods` in all.
 fn lengths(system: &ModalSystem, periods: u64) -> [u64; 2] {
     let decay = decay_periods(system).min(LONGEST);
     let block = (OF_DECAY * decay).max(SHORTEST).ceil() as u64;
-    [decay.max(QUICKEST).ceil() as u64, block.max(periods.div_ceil(BLOCKS as u64))]
+    let block = block.max(periods.div_ceil(BLOCKS as u64));
+    [decay.max(QUICKEST).ceil() as u64, block.div_ceil(STRETCHES)]
 }
 
 /// Excitation periods that a start is flown for at most, where at least so many are measured.
 pub fn longest_flight(system: &ModalSystem, periods: u64) -> f64 {
-    let [decay, block] = lengths(system, periods);
-    f64::from(DECAYS) * decay as f64 + (BLOCKS * (1 + AGAIN)) as f64 * block as f64
+    let [decay, stretch] = lengths(system, periods);
+    let block = (STRETCHES * stretch) as f64;
+    f64::from(DECAYS) * decay as f64 + (BLOCKS * (1 + AGAIN)) as f64 * block
 }
 
 /// The motion that a start leads to.
@@ -290,7 +301,7 @@ fn from_start(
     orbits: &[Attracting],
 ) -> Result<ModalMotion, ModalStartError> {
     let mut simulation = ModalSimulation::new(system, start, 0.0)?;
-    let [decay, block] = lengths(system, periods);
+    let [decay, stretch] = lengths(system, periods);
     // What a known orbit attracts, or what repeats.
     let known = |simulation: &mut ModalSimulation, repeats_after: Option<u32>| {
         let state = simulation.state();
@@ -298,53 +309,68 @@ fn from_start(
             return Some(ModalMotion { starts: 1, ..near.motion.clone() });
         }
         let after = repeats_after?;
-        let period = Block::fly(simulation, system, sensors, after.into());
-        Some(ModalMotion::of(sensors, &[period], Some(after), true))
+        let period = Stretch::fly(simulation, system, sensors, after.into());
+        Some(ModalMotion::of(sensors, &[period], Some(after), true, periods))
     };
     for _ in 0..DECAYS {
         let mut seen = Seen::default();
         let left = MOST_OF_START.saturating_sub(simulation.impacts());
         if simulation.run(decay, left, &mut seen) != Stop::EndTime {
-            let seen = Block::fly(&mut simulation, system, sensors, GIVEN_UP);
-            return Ok(ModalMotion::of(sensors, &[seen], None, false));
+            let seen = Stretch::fly(&mut simulation, system, sensors, GIVEN_UP);
+            return Ok(ModalMotion::of(sensors, &[seen], None, false, periods));
         }
         if let Some(known) = known(&mut simulation, seen.repeats_after()) {
             return Ok(known);
         }
     }
-    let (mut blocks, mut drifting) = (Vec::new(), true);
+    let (mut stretches, mut drifting) = (Vec::new(), true);
     // Of many motions one in a thousand seems to drift by chance; what drifts is left out as a transient.
     for _ in 0..=AGAIN {
         if !drifting {
             break;
         }
-        blocks.clear();
+        stretches.clear();
         for _ in 0..BLOCKS {
-            let block = Block::fly(&mut simulation, system, sensors, block);
-            if let Some(known) = known(&mut simulation, block.repeats_after) {
+            for _ in 0..STRETCHES {
+                stretches.push(Stretch::fly(&mut simulation, system, sensors, stretch));
+            }
+            let last = stretches.last().and_then(|one| one.repeats_after);
+            if let Some(known) = known(&mut simulation, last) {
                 return Ok(known);
             }
-            blocks.push(block);
         }
-        let rms = |one: &Block, n: usize| one.sensors[n].mean_square.sqrt();
+        let rms = |block: &[Stretch], n: usize| {
+            let squares = block.iter().map(|one| one.sensors[n].mean_square);
+            (squares.sum::<f64>() / block.len() as f64).sqrt()
+        };
+        let blocks = || stretches.chunks(STRETCHES as usize);
         drifting = (0..sensors.len())
             .filter(|n| sensors[*n].reads == Reading::Displacement)
-            .any(|n| drifts(&blocks.iter().map(|one| rms(one, n)).collect::<Vec<_>>()));
+            .any(|n| drifts(&blocks().map(|one| rms(one, n)).collect::<Vec<_>>()));
     }
-    Ok(ModalMotion::of(sensors, &blocks, None, !drifting && decay_periods(system) <= LONGEST))
+    let settled = !drifting && decay_periods(system) <= LONGEST;
+    Ok(ModalMotion::of(sensors, &stretches, None, settled, periods))
 }
 
 impl ModalMotion {
-    fn of(sensors: &[Sensor], blocks: &[Block], repeats_after: Option<u32>, settled: bool) -> Self {
+    /// From what stretches of equal length came to, in a case with a window of so many periods.
+    fn of(
+        sensors: &[Sensor],
+        stretches: &[Stretch],
+        repeats_after: Option<u32>,
+        settled: bool,
+        periods: u64,
+    ) -> Self {
         let of_sensors = |of: fn(&SensorRecord) -> f64| {
-            let each = |n: usize| blocks.iter().map(|one| of(&one.sensors[n])).collect();
+            let each = |n: usize| stretches.iter().map(|one| of(&one.sensors[n])).collect();
             (0..sensors.len()).map(each).collect()
         };
-        let impacts = |j: usize| blocks.iter().map(|one| one.impacts[j]).collect();
-        let flight = FlightBlocks {
+        let impacts = |j: usize| stretches.iter().map(|one| one.impacts[j]).collect();
+        let flight = FlightCourse {
+            periods: stretches.iter().map(|one| one.periods).sum(),
             peaks: of_sensors(|one| one.peak),
             squares: of_sensors(|one| one.mean_square),
-            impacts: (0..blocks[0].impacts.len()).map(impacts).collect(),
+            impacts: (0..stretches[0].impacts.len()).map(impacts).collect(),
         };
         let unknown =
             |one: &Sensor| SensorExtent { reads: one.reads, peak: 0.0, error: 0.0, rms: [0.0; 2] };
@@ -355,6 +381,7 @@ impl ModalMotion {
             settled,
             largest_multiplier: None,
             starts: 1,
+            periods,
             flights: vec![flight],
         };
         found.measure();
@@ -364,6 +391,8 @@ impl ModalMotion {
     /// Its numbers by all that was seen of it.
     fn measure(&mut self) {
         let Self { sensors, impacts_per_period, flights, .. } = self;
+        let seen = flights.iter().map(|one| one.periods).sum::<u64>().max(1);
+        let longer = LONGER * self.periods as f64 / seen as f64;
         let known = |windows: &[&[f64]]| {
             let all = windows.concat();
             let mean = all.iter().sum::<f64>() / all.len() as f64;
@@ -376,7 +405,7 @@ impl ModalMotion {
             let [square, error] = known(&squares);
             let rms = square.sqrt();
             sensor.peak = peaks.iter().copied().flatten().copied().fold(0.0, f64::max);
-            sensor.error = error_of_largest(&peaks, LONGER / flights.len() as f64);
+            sensor.error = error_of_largest(&peaks, longer);
             sensor.rms = [rms, if rms > 0.0 { 0.5 * error / rms } else { 0.0 }];
         }
         for (j, impacts) in impacts_per_period.iter_mut().enumerate() {
