@@ -113,7 +113,7 @@ impl Scope<'_> {
         let fails = nearest(true).is_some_and(|(one, _)| room(one) < 0.0);
         let misses = |(one, motion): &(Judged, &Motion)| {
             let own = self.own(criterion, motion).map_or(one.error, |own| own[1]);
-            motion.settled() && criterion.is_open(room(one), own, 0) < (room(one) < 0.0)
+            motion.settled() && room(one) < 0.0 && !criterion.is_open(room(one), own, 0)
         };
         let near_limit = judged.near_limit && !all.iter().any(misses);
         let open = all.iter().filter(|(_, motion)| !motion.settled());
