@@ -391,8 +391,11 @@ impl Ground {
         // What starts have left is a transient, whose life is known.
         let life = self.wandered / self.late.len() as f64;
         let lives = if self.as_alone && !self.late.is_empty() { LIVES * life } else { 0.0 };
-        let windows = windows.max(lives);
-        let missing = if self.creeps { 0.0 } else { self.patience * windows - self.quiet };
+        let missing =
+            |windows: f64| if self.creeps { 0.0 } else { self.patience * windows - self.quiet };
+        // Where the rounds end before that it is what it is elsewhere.
+        self.impatient = missing(windows) > 0.0 || self.creeps;
+        let missing = missing(windows.max(lives));
         let of = |flight: &StartFlight| {
             Some((flight.index, self.open[flight.index - self.first].clone()?))
         };
@@ -407,7 +410,6 @@ impl Ground {
         let loose = |limits| clusters.iter().any(|one| !one.is_within(limits));
         let again = self.accuracy.is_some_and(loose) && self.window * count < MOST_PERIODS;
         let vague = self.measured <= LONGEST && clusters.iter().any(|one| one.is_vague(self.vague));
-        self.impatient = missing > 0.0 || self.creeps;
         let busiest = open.iter().map(|flight| self.busy[flight.index - self.first]);
         let busy = busiest.fold(BUSY, f64::max) / BUSY;
         let (left_out, window) = if self.rounds < self.most_rounds && (missing > 0.0 || restless) {
