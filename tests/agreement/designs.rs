@@ -1,6 +1,7 @@
 //! Designs that are put to the program: shipped ones, those on which commands used to contradict one another, and generated
 //! ones.
 
+use crate::random::Random;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
@@ -44,32 +45,6 @@ fn folder(path: &str) -> Vec<Design> {
         .collect();
     all.sort_by(|a, b| a.name.cmp(&b.name));
     all
-}
-
-/// Steele, Lea, Flood (2014): SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut mixed = self.0;
-        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        (mixed ^ (mixed >> 31)) as f64 / 18_446_744_073_709_551_616.0
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    /// Evenly in the logarithm.
-    fn ratio(&mut self, low: f64, high: f64) -> f64 {
-        low * libm::pow(high / low, self.next())
-    }
-
-    fn one_in(&mut self, count: f64) -> bool {
-        self.next() * count < 1.0
-    }
 }
 
 /// Structures of 1 to 500 Hz, driven near resonance by a force or their base, whose absorbers have clearances from below the

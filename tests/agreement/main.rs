@@ -11,6 +11,8 @@
 mod compare;
 mod designs;
 mod program;
+#[path = "../common/random.rs"]
+mod random;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

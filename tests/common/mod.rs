@@ -1,6 +1,8 @@
 //! Systems that several tests need.
 #![allow(dead_code)]
 
+pub mod random;
+
 use vinesink::report::figure::{Figure, PlacedText, Rect};
 use vinesink::simulation::{Measurement, PeriodRecord, Simulation};
 use vinesink::system::{Cavity, Excitation, Parameters, State, System};

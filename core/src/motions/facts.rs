@@ -5,7 +5,7 @@ use std::f64::consts::SQRT_2;
 use serde::Serialize;
 
 use crate::numerics::scatter::{
-    LONGER, error_of_largest, twice_error_of_mean, twice_standard_error,
+    LONGER, error_of_largest, error_of_root, twice_error_of_mean, twice_standard_error,
 };
 use crate::orbits::{ImpactMap, Measures, Orbit, OrbitError, SteadyOrbit};
 use crate::regimes::Evidence;
@@ -162,7 +162,6 @@ impl Facts {
             Value::new(value, error_of_largest(&windows(course), longer))
         };
         let rms = mean(&|one| one.rms.value * one.rms.value).sqrt();
-        // The square varies twice as much as its root.
         let square = twice_error_of_mean(&windows(|one| &one.mean_square));
         let work: Option<Vec<Value>> = all.iter().map(|one| one.0.efficiency).collect();
         let share = work.map(|shares| {
@@ -173,7 +172,7 @@ impl Facts {
         });
         Self {
             peak: largest(|one| one.peak, |one| &one.peak),
-            rms: Value::new(rms, square / (2.0 * rms).max(f64::MIN_POSITIVE)),
+            rms: Value::new(rms, error_of_root(rms, square)),
             impact_speed: largest(|one| one.impact_speed, |one| &one.impact_speed),
             impacts_per_period: Value::new(
                 mean(&|one| one.impacts_per_period.value),

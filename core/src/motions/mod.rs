@@ -26,6 +26,7 @@ mod measured;
 mod modal;
 mod repetition;
 mod rest;
+mod sampler;
 mod search;
 mod section;
 mod settling;
@@ -38,7 +39,7 @@ mod watch;
 
 use serde::Serialize;
 
-pub use along::{Along, BandEffort, along};
+pub use along::{Along, along};
 pub use facts::{Facts, Value};
 pub use follow::{DiagramError, DiagramPoint, SweepDirection, carried_over, follow, sweep};
 pub use identity::orbit_of;
@@ -46,6 +47,7 @@ pub use measured::{Measured, Window, measured};
 pub use modal::{ModalMotion, SensorExtent, longest_flight, modal_at_rest, modal_motions};
 pub use repetition::Repetition;
 pub use rest::{Rest, RestKind};
+pub use sampler::BandEffort;
 pub use search::motions;
 pub use section::{Section, sections};
 pub use settling::{SettlingTime, window as longest_window};
@@ -134,10 +136,11 @@ pub struct Place {
     pub further: Vec<State>,
     /// Motions that are known already; they keep their places in the list.
     pub known: Vec<Motion>,
-    /// Share of [`Effort::patience`] with what may be a transient: less than 1 where that was told from one beside it. More than 1:
-    /// each start is flown for as long as where a search has all [`Effort::starts`], for longer where others have left what it is
-    /// on, and those that still wander after the usual rounds for so many times as many.
+    /// Share of [`Effort::patience`] with what may be a transient, 0 to 1: less than 1 where that was told from one beside it.
     pub patience: f64,
+    /// Whether each start is flown for as long as where a search has all [`Effort::starts`], and for longer where others have
+    /// left what it is on.
+    pub in_full: bool,
 }
 
 impl Place {
@@ -148,7 +151,14 @@ impl Place {
 
     /// A system with starts of its own.
     pub fn with(system: &System, starts: Vec<State>) -> Self {
-        Self { system: *system, starts, further: Vec::new(), known: Vec::new(), patience: 1.0 }
+        Self {
+            system: *system,
+            starts,
+            further: Vec::new(),
+            known: Vec::new(),
+            patience: 1.0,
+            in_full: false,
+        }
     }
 }
 

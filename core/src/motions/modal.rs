@@ -7,7 +7,9 @@ use serde::Serialize;
 
 use super::starts::position;
 use crate::linear::ModalAmplitudes;
-use crate::numerics::scatter::{LONGER, drifts, error_of_largest, twice_error_of_mean};
+use crate::numerics::scatter::{
+    LONGER, drifts, error_of_largest, error_of_root, twice_error_of_mean,
+};
 use crate::orbits::{antiperiodic_orbits, orbit_state};
 use crate::simulation::{
     Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, ModalStartError, Reading,
@@ -83,7 +85,8 @@ const SAME_STATE: f64 = 1e-9;
 const NEAR_ORBIT: f64 = 1e-3;
 /// Most impacts in a period, of all absorbers: more are of chatter that does not end.
 const MOST_IMPACTS: u64 = 2000;
-/// Most impacts of a start until its slowest mode has died out: one that chatters on is given up, and measured for so many periods.
+/// Most impacts of a start until its slowest mode has died out: one that chatters on is given up, and measured for so many
+/// periods.
 const MOST_OF_START: u64 = 400_000;
 const GIVEN_UP: u64 = 16;
 /// Relative difference up to which root mean squares and impacts of two motions that do not repeat are the same, beside their
@@ -92,8 +95,8 @@ const SAME: f64 = 0.02;
 /// The same of those that do.
 const SAME_REPEATING: f64 = 1e-6;
 
-/// The long-term motions that these sensors read, from so many starts, that from rest among them; the most common first. Where every
-/// absorber can rest, that motion is the last. What does not repeat is measured for at least so many excitation periods.
+/// The long-term motions that these sensors read, from so many starts, that from rest among them; the most common first. Where
+/// every absorber can rest, that motion is the last. What does not repeat is measured for at least so many excitation periods.
 ///
 /// # Errors
 /// [`ModalStartError`] where the structure's own motion is not finite.
@@ -406,7 +409,7 @@ impl ModalMotion {
             let rms = square.sqrt();
             sensor.peak = peaks.iter().copied().flatten().copied().fold(0.0, f64::max);
             sensor.error = error_of_largest(&peaks, longer);
-            sensor.rms = [rms, if rms > 0.0 { 0.5 * error / rms } else { 0.0 }];
+            sensor.rms = [rms, error_of_root(rms, error)];
         }
         for (j, impacts) in impacts_per_period.iter_mut().enumerate() {
             let counts: Vec<&[f64]> = flights.iter().map(|one| one.impacts[j].as_slice()).collect();

@@ -37,6 +37,8 @@ const FURTHER: [u64; 7] = [1, 2, 4, 8, 16, 32, 64];
 /// How often starts fly on at most: one on a transient that lasts for 40 windows on average has then left it, but for one in
 /// a thousand.
 const ROUNDS: usize = 24;
+/// So many times as many where a place is searched in full: of some on a transient the last outlast the usual ones.
+const TO_THE_END: usize = 2;
 /// Impacts per period above which starts fly on for fewer periods and less often: a bounce that hardly loses anything comes
 /// to rest with ever more of them.
 const BUSY: f64 = 16.0;
@@ -207,7 +209,7 @@ struct Ground {
     quiet: f64,
     wandered: f64,
     /// Whether a start is flown as long as where a case has one place, and longer where others of its place have settled late.
-    as_alone: bool,
+    in_full: bool,
     /// How often starts were flown on, and measured, and over how many periods they were the last time.
     rounds: usize,
     measured: usize,
@@ -241,8 +243,8 @@ impl Ground {
         let orbits: Vec<Orbit> =
             known.iter().filter_map(|one| one.motion.orbit().cloned()).collect();
         let count = place.starts.len() + place.further.len();
-        let as_alone = place.patience > 1.0;
-        let thorough = if as_alone { effort.starts as usize } else { place.starts.len() };
+        let rounds = if place.in_full { TO_THE_END * ROUNDS } else { ROUNDS };
+        let thorough = if place.in_full { effort.starts as usize } else { place.starts.len() };
         Self {
             left_out: effort
                 .discard
@@ -255,14 +257,14 @@ impl Ground {
             late: Vec::new(),
             open: vec![None; count],
             periods: effort.periods.max(1),
-            patience: effort.patience * place.patience.min(1.0),
-            most_rounds: (effort.patience * place.patience.max(1.0) * ROUNDS as f64) as usize,
+            patience: effort.patience * place.patience,
+            most_rounds: (effort.patience * rounds as f64) as usize,
             alone: ALONE * thorough.min(MOST) as f64,
             settled: false,
             flown: 0,
             quiet: 0.0,
             wandered: 0.0,
-            as_alone,
+            in_full: place.in_full,
             rounds: 0,
             measured: 0,
             window: 0,
@@ -390,7 +392,7 @@ impl Ground {
         let windows = if beside { alone.max(BESIDE_ANOTHER) } else { alone };
         // What starts have left is a transient, whose life is known.
         let life = self.wandered / self.late.len() as f64;
-        let lives = if self.as_alone && !self.late.is_empty() { LIVES * life } else { 0.0 };
+        let lives = if self.in_full && !self.late.is_empty() { LIVES * life } else { 0.0 };
         let missing =
             |windows: f64| if self.creeps { 0.0 } else { self.patience * windows - self.quiet };
         // Where the rounds end before that it is what it is elsewhere.

@@ -2,7 +2,7 @@
 //! flown once round, one that wanders over its window again.
 
 use super::{Effort, Facts, Motion, MotionKind, RestKind, Value};
-use crate::numerics::scatter::{LONGER, error_of_largest, twice_error_of_mean};
+use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
 use crate::simulation::{Detail, Observer, Segment, ShakingMeter, Simulation};
 use crate::system::{Shaking, State, System};
 
@@ -56,8 +56,7 @@ impl InPeriods {
         };
         let average = |k: usize, value: f64| {
             let error = twice_error_of_mean(&[&each(&|one| one.mean_squares()[k])]);
-            // The square varies twice as much as its root.
-            Value::new(value, error / (2.0 * value).max(f64::MIN_POSITIVE))
+            Value::new(value, error_of_root(value, error))
         };
         Shaking {
             peak_velocity: largest(0, found.peak_velocity),

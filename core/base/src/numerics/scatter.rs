@@ -41,6 +41,11 @@ pub fn twice_error_of_mean(windows: &[&[f64]]) -> f64 {
     PARTS.into_iter().map(of_parts).fold(mean(&changes).abs(), f64::max)
 }
 
+/// The error of a root, from that of its square, which varies twice as much.
+pub fn error_of_root(root: f64, of_square: f64) -> f64 {
+    of_square / (2.0 * root).max(f64::MIN_POSITIVE)
+}
+
 /// The 97.5 % quantile of Student's law for the mean of so many numbers, over that of the normal one: its expansion in the
 /// inverse of the degrees of freedom (Abramowitz and Stegun, 1964, 26.7.5), within 3 % from three of them on.
 fn student(count: usize) -> f64 {
@@ -71,9 +76,9 @@ const STRETCHES: usize = 1024;
 /// in each; 0 for fewer than two.
 ///
 /// Blocks are twice as long as the motion remembers, but for the stretch that all of it happens in, so that a motion whose
-/// bursts are rare has few. Largest values of blocks follow a Gumbel law with the scale `beta = s sqrt(6)/pi`, `s` their standard deviation, and the largest of `n` lies
-/// `beta ln n` higher (Gumbel, Statistics of Extremes, 1958; Coles, An Introduction to Statistical Modeling of Extreme Values,
-/// 2001, chapter 3). So the longer run is expected `beta ln(longer)` higher, and the difference of two such values is logistic:
+/// bursts are rare has few. Largest values of blocks follow a Gumbel law with the scale `beta = s sqrt(6)/pi`, `s` their
+/// standard deviation, and the largest of `n` lies `beta ln n` higher (Gumbel, Statistics of Extremes, 1958; Coles, An
+/// Introduction to Statistical Modeling of Extreme Values, 2001, chapter 3). So the longer run is expected `beta ln(longer)` higher, and the difference of two such values is logistic:
 /// it stays below another `beta ln 19` in 19 of 20 cases. That is widened for the error of `beta` itself. Where the tail is
 /// heavier than Gumbel's the largest quarter of all blocks says so: an exponential tail has the scale of its mean excess.
 pub fn error_of_largest(windows: &[&[f64]], longer: f64) -> f64 {

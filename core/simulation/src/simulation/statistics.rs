@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::events::{Impact, Side};
 use super::integrals::Integrals;
 use crate::numerics::is_zero;
-use crate::numerics::scatter::{LONGER, error_of_largest, twice_error_of_mean};
+use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
 use crate::system::{State, System};
 
 pub use measurement::Measurement;
@@ -193,8 +193,7 @@ impl Statistics {
     pub fn errors(&self) -> [f64; 2] {
         let Course { mean_square, impacts, .. } = self.course();
         let [square, impacts] = [mean_square, impacts].map(|one| twice_error_of_mean(&[&one]));
-        // The square varies twice as much as its root.
-        [square / (2.0 * self.rms()).max(f64::MIN_POSITIVE), impacts]
+        [error_of_root(self.rms(), square), impacts]
     }
 
     /// Largest penetration of a wall, over the clearance: rounding.
