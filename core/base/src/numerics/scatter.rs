@@ -220,8 +220,12 @@ mod tests {
     fn what_remembers_for_long_has_few_independent_blocks() {
         let quick: Vec<f64> = (0..800).map(spread).collect();
         let slow: Vec<f64> = (0..800).map(|k| spread(k / 200)).collect();
-        let [quick, slow] = [quick, slow].map(|one| error_of_largest(&[&one], LONGER));
+        let heights: Vec<f64> = (0..4).map(spread).collect();
+        let [quick, slow, four] =
+            [quick, slow, heights].map(|one| error_of_largest(&[&one], LONGER));
         assert!(quick < 0.5 && slow > 4.0 * quick, "{quick} {slow}");
+        // Four blocks with an error of their own, not sixteen.
+        assert!((slow / four - 1.0).abs() < 1e-12, "{slow} {four}");
     }
 
     /// A heavy tail: three blocks in four are alike, and the others are as far above as an exponential law has them.
