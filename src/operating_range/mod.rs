@@ -298,37 +298,47 @@ impl Outwards<'_> {
     /// The last place up to which every one comes to no less than this, as `check` says it there; and whether the search ended
     /// before one did.
     fn until(&mut self, least: Together) -> Result<(f64, bool), DrivenError> {
-        let mut open = self.go_out(least)?;
+        let open = self.go_out(least)?;
         // With fewer starts something may have been missed.
-        loop {
-            let last = self.first_below(least).unwrap_or(self.looked.len()).saturating_sub(1);
-            if self.looked[last].full {
-                return Ok((self.looked[last].at, open));
-            }
-            let at = self.looked[last].at;
-            let there = self.look(at, self.looked[last].step, Look::AsCheck)?;
-            let holds = there.outcome >= least;
-            self.looked[last] = there;
-            if holds {
-                return Ok((at, open));
-            }
-            open = false;
-            let before = &self.looked[last - 1];
-            let (middle, step) = (0.5 * (before.at + at), self.looked[last].step);
-            let there = self.look(middle, step, Look::AsCheck)?;
-            self.looked.insert(last, there);
+        let outermost = self.end(least) - 1;
+        if self.comes_to(outermost, least)? {
+            return Ok((self.looked[outermost].at, open));
         }
+        // Then half of the places within are left out at a time, and at last the step before the end is halved.
+        loop {
+            let end = self.end(least);
+            let known = (0..end).rev().find(|k| self.looked[*k].full).unwrap_or_default();
+            if end - known == 1 {
+                break;
+            }
+            self.comes_to(known + (end - known) / 2, least)?;
+        }
+        let end = self.end(least);
+        let [known, beyond] = [end - 1, end].map(|k| &self.looked[k]);
+        let (middle, step) = (0.5 * (known.at + beyond.at), beyond.step);
+        let there = self.look(middle, step, Look::AsCheck)?;
+        self.looked.insert(end, there);
+        Ok((self.looked[self.end(least) - 1].at, false))
+    }
+
+    /// Whether one of the places comes to no less than this as `check` says it; so it is looked at, if it was not.
+    fn comes_to(&mut self, k: usize, least: Together) -> Result<bool, DrivenError> {
+        if !self.looked[k].full {
+            self.looked[k] = self.look(self.looked[k].at, self.looked[k].step, Look::AsCheck)?;
+        }
+        Ok(self.looked[k].outcome >= least)
     }
 
     /// Steps outwards to the first place that comes to less, and halves the step before it; whether there was none.
     fn go_out(&mut self, least: Together) -> Result<bool, DrivenError> {
         loop {
-            let Some(outside) = self.first_below(least) else {
+            let outside = self.end(least);
+            if outside == self.looked.len() {
                 if self.step_out()? {
                     continue;
                 }
                 return Ok(true);
-            };
+            }
             let [inside, beyond] = [outside - 1, outside].map(|k| &self.looked[k]);
             let undecided = beyond.outcome == Together::Undecided;
             // With more starts and longer windows an error may be smaller.
@@ -362,9 +372,10 @@ impl Outwards<'_> {
         Ok(true)
     }
 
-    /// The first place, after the case's own, that comes to less.
-    fn first_below(&self, least: Together) -> Option<usize> {
-        (1..self.looked.len()).find(|k| self.looked[*k].outcome < least)
+    /// The first place, after the case's own, that comes to less; their number where none does.
+    fn end(&self, least: Together) -> usize {
+        let all = 1..self.looked.len();
+        all.clone().find(|k| self.looked[*k].outcome < least).unwrap_or(all.end)
     }
 
     /// The criteria at a value, which is reached then; where there is no such case they fail.
