@@ -38,6 +38,10 @@ pub(super) fn text_of<'a>(
         [0xff, 0xfe, ..] => pairs(u16::from_le_bytes),
         [0xfe, 0xff, ..] => pairs(u16::from_be_bytes),
         _ => {
+            if bytes.starts_with(LFS) {
+                let message = format!("{name} is not {what}: it is a pointer to what Git LFS has");
+                return Err((message, "fetch it first: git lfs pull".to_owned()));
+            }
             if let Some((is, advice)) = binary(name, bytes) {
                 return Err((
                     format!("{name} is not {what}: it is {is}, not text"),
@@ -56,6 +60,9 @@ pub(super) fn text_of<'a>(
         text
     })
 }
+
+/// How the text begins that stands for a file in a repository.
+const LFS: &[u8] = b"version https://git-lfs.github.com/spec/";
 
 /// What a file is that is no text, and how to make text of it.
 fn binary(name: &str, bytes: &[u8]) -> Option<(&'static str, &'static str)> {

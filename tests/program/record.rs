@@ -521,6 +521,11 @@ fn what_is_no_record_is_not_quoted() {
         ("a.mat", b"MATLAB 5.0 MAT-file, Platform", "writematrix"),
         ("a.mat", b"\x89HDF\r\n", "writematrix"),
         ("a.bin", b"\0\x01\x02", "export the record as text"),
+        (
+            "a.csv",
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 9\n",
+            "git lfs pull",
+        ),
     ] {
         let error = with_lines("").with_record(name, file).expect_err("no text");
         let problem = error.problems().next().expect("one");
