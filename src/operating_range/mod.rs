@@ -304,14 +304,18 @@ impl Outwards<'_> {
         if self.comes_to(outermost, least)? {
             return Ok((self.looked[outermost].at, open));
         }
-        // Then half of the places within are left out at a time, and at last the step before the end is halved.
+        // Then it lies among the places within: one step back, then two, four, and no more than half of what is left at a time;
+        // and at last in the middle of a step.
+        let mut back = 1;
         loop {
             let end = self.end(least);
             let known = (0..end).rev().find(|k| self.looked[*k].full).unwrap_or_default();
             if end - known == 1 {
                 break;
             }
-            self.comes_to(known + (end - known) / 2, least)?;
+            let half = known + (end - known) / 2;
+            self.comes_to(half.max(end.saturating_sub(back)), least)?;
+            back *= 2;
         }
         let end = self.end(least);
         let [known, beyond] = [end - 1, end].map(|k| &self.looked[k]);
