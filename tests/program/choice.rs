@@ -479,6 +479,7 @@ fn all_criteria_hold_at_every_design_that_was_tried() {
         let own = Answer::of(&case, Asked::Criteria, None, &Serial).expect("judged").judged;
         let effort = case.effort();
         let ranges = holds_for(&case, &own, &numbers, Together::Hold, &effort, &Serial);
+        let before = texts.len();
         for (range, half) in ranges.expect("ranges").iter().zip(half) {
             let [from, to] = range.holds.expect("it holds");
             let ends = [from, range.value, to].map(|end| range.tried.contains(&end));
@@ -505,8 +506,8 @@ fn all_criteria_hold_at_every_design_that_was_tried() {
             let design = text.split_once("[uncertainty]").map_or(text.as_str(), |one| one.0);
             texts.extend(range.tried.iter().map(|at| with(design, &[key], *at, unit)));
         }
+        assert!(texts.len() > before + 20, "{}", texts.len() - before);
     }
-    assert!(texts.len() > 20, "{}", texts.len());
     each_holds(&texts);
 }
 
@@ -521,7 +522,9 @@ fn each_holds(texts: &[String]) {
     let mut arguments = vec!["check", "--criteria-only", "--format", "json"];
     arguments.extend(paths.iter().map(String::as_str));
     let document: Value = serde_json::from_slice(&vinesink(&arguments).stdout).expect("JSON");
-    for (text, one) in texts.iter().zip(document["cases"].as_array().expect("cases")) {
+    let found = document["cases"].as_array().expect("cases");
+    assert_eq!(found.len(), texts.len());
+    for (text, one) in texts.iter().zip(found) {
         assert_eq!(one["holds"], true, "{text}{one}");
     }
 }
