@@ -4,6 +4,7 @@
 mod branches;
 mod cases;
 mod contact;
+mod cycles;
 mod motions;
 mod orbits;
 mod simulation;

@@ -7,7 +7,7 @@
 //! are found by Newton's method ([`newton`]) and followed by continuation ([`branch`]), with their
 //! bifurcations. Where the symmetric ones begin and end is [`SymmetricFamily`]; with the asymmetric ones that
 //! follow them, [`boundaries`]. Those of several modes with several absorbers are [`antiperiodic_orbits`], their branches
-//! [`ModalBranch`], and where one attracts [`stable_stretches`]. Nothing here knows of the asymptotic theory, or of simulation.
+//! [`ModalBranch`], and where one attracts [`stable_stretches`]; any other sequence of impacts is a [`ModalCycle`]. Nothing here knows of the asymptotic theory, or of simulation.
 
 mod admissibility;
 pub mod boundaries;
@@ -44,8 +44,9 @@ pub use impact_map::{AfterImpact, ImpactMap, Leg, Step, Wall};
 pub use limits::{Limit, StableStretch, SymmetricFamily};
 pub use measures::{EnergyPerPeriod, Measures, Peaks};
 pub use modal::{
-    ModalBranch, ModalBranchPoint, ModalOrbit, ModalSpecialPoint, ReachEnd, antiperiodic_orbits,
-    orbit_state, stable_reach, stable_stretches, values_looked_at,
+    CycleImpact, ModalBranch, ModalBranchPoint, ModalCycle, ModalOrbit, ModalPeriodicOrbit,
+    ModalSpecialPoint, ReachEnd, antiperiodic_orbits, orbit_state, stable_reach, stable_stretches,
+    values_looked_at,
 };
 pub use multipliers::{Leading, Multipliers};
 pub use orbit::{Orbit, Origin};

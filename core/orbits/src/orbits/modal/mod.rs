@@ -16,6 +16,7 @@
 //! phases of the mode nearest to the excitation; starts are no part of the solution.
 
 mod branch;
+mod cycle;
 mod stretches;
 mod walk;
 
@@ -30,7 +31,9 @@ use crate::numerics::polynomial::quadratic_roots;
 use crate::system::{ModalState, ModalSystem};
 
 pub use branch::{ModalBranch, ModalBranchPoint, ModalSpecialPoint};
+pub use cycle::{ModalCycle, ModalPeriodicOrbit};
 pub use stretches::{ReachEnd, stable_reach, stable_stretches, values_looked_at};
+pub use walk::CycleImpact;
 
 /// Amplitudes and phases of the starts of Newton's iteration.
 const AMPLITUDES: u32 = 24;

@@ -1,6 +1,7 @@
-//! Half a period of an orbit of several modes, impact by impact: the derivative of the motion, and whether it is one.
+//! A motion of several modes, impact by impact: its derivative, and whether it is one.
 
 use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
 
 use super::{ModalOrbit, applied, orbit_state, propagator};
 use crate::bifurcation::Bifurcation;
@@ -9,43 +10,105 @@ use crate::system::{ModalState, ModalSystem};
 
 /// Part of a period before its next impact from which on an absorber may touch that wall.
 const AT_IMPACT: f64 = 1e-9;
+/// Steps of Newton's method to the time of an impact: from a good start four are enough.
+const STEPS_TO_IMPACT: usize = 12;
+/// What is left of that time, over the period.
+const OF_TIME: f64 = 1e-15;
 
-/// Half a period of an orbit, impact by impact.
+/// An impact of a motion that is given by its impacts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CycleImpact {
+    /// Time from the beginning of the motion, at phase 0 of the excitation.
+    pub time: f64,
+    /// Which absorber, from 0.
+    pub absorber: usize,
+    /// At which wall, +1 or -1.
+    pub side: f64,
+}
+
+/// A motion from phase 0 of the excitation, impact by impact.
 pub(super) struct Walk {
     pub derivative: DMatrix<f64>,
+    /// The state at its end.
+    pub end: ModalState,
     /// What ends the motion, where it is none.
     pub ends: Option<Bifurcation>,
 }
 
 impl Walk {
-    /// The derivative of the state after half a period by the state before, at a fixed phase: free motion in between, and at
+    /// Half a period of an antiperiodic orbit.
+    pub fn along(system: &ModalSystem, orbit: &ModalOrbit) -> Self {
+        let of = |absorber: usize| CycleImpact {
+            time: orbit.impact_times[absorber],
+            absorber,
+            side: orbit.sides[absorber],
+        };
+        let mut impacts: Vec<CycleImpact> = (0..orbit.sides.len()).map(of).collect();
+        impacts.sort_by(|a, b| a.time.total_cmp(&b.time));
+        Self::of(system, &orbit_state(system, orbit), &impacts, 0.5 * system.period())
+    }
+
+    /// The derivative of the state after a time by the state before, at a fixed phase: free motion in between, and at
     /// each impact, with the map `R`, the flow `f` and the gap `h`,
     /// `DR + (f_after - DR f_before - dR/dt) grad h/(grad h f_before + dh/dt)`.
-    pub fn along(system: &ModalSystem, orbit: &ModalOrbit) -> Self {
-        let (modes, count) = (system.modes().len(), system.absorbers().len());
-        let size = 2 * (modes + count);
-        let mut order: Vec<usize> = (0..count).collect();
-        order.sort_by(|a, b| orbit.impact_times[*a].total_cmp(&orbit.impact_times[*b]));
-        let mut walk = Self { derivative: DMatrix::identity(size, size), ends: None };
-        let (mut state, mut time) = (orbit_state(system, orbit), 0.0);
-        let mut left = None;
-        for j in order {
-            let piece = Piece { system, from: state, time, length: orbit.impact_times[j] - time };
-            walk.ends = walk.ends.or_else(|| piece.ends(left, Some(j)));
-            walk.derivative = piece.derivative() * &walk.derivative;
-            state = piece.at(piece.length);
-            time = orbit.impact_times[j];
-            let (saltation, after, approach) = impact(system, &state, time, j, orbit.sides[j]);
-            let vanishes = (approach <= 0.0).then_some(Bifurcation::VanishingImpact);
-            walk.ends = walk.ends.or(vanishes);
-            walk.derivative = saltation * &walk.derivative;
-            state = after;
-            left = Some(j);
+    pub fn of(
+        system: &ModalSystem,
+        start: &ModalState,
+        impacts: &[CycleImpact],
+        length: f64,
+    ) -> Self {
+        let size = 2 * (system.modes().len() + system.absorbers().len());
+        let mut walk = Self { derivative: DMatrix::identity(size, size), end: *start, ends: None };
+        let (mut time, mut left) = (0.0, None);
+        for one in impacts {
+            let piece = Piece { system, from: walk.end, time, length: one.time - time };
+            walk.ends = walk.ends.or_else(|| piece.ends(left, Some(one.absorber)));
+            walk.pass(&piece);
+            let vanishes = walk.strike(system, one) <= 0.0;
+            walk.ends = walk.ends.or(vanishes.then_some(Bifurcation::VanishingImpact));
+            (time, left) = (one.time, Some(one.absorber));
         }
-        let piece = Piece { system, from: state, time, length: 0.5 * system.period() - time };
+        let piece = Piece { system, from: walk.end, time, length: length - time };
         walk.ends = walk.ends.or_else(|| piece.ends(left, None));
-        walk.derivative = piece.derivative() * &walk.derivative;
+        walk.pass(&piece);
         walk
+    }
+
+    /// The same without a look at what is in between, each impact at the time at which its absorber meets its wall, near that
+    /// which is given; it is there then. None where one does not meet it, from inside.
+    pub fn meeting(
+        system: &ModalSystem,
+        start: &ModalState,
+        impacts: &mut [CycleImpact],
+        length: f64,
+    ) -> Option<Self> {
+        let size = 2 * (system.modes().len() + system.absorbers().len());
+        let mut walk = Self { derivative: DMatrix::identity(size, size), end: *start, ends: None };
+        let mut time = 0.0;
+        for one in impacts {
+            let mut piece = Piece { system, from: walk.end, time, length: one.time - time };
+            piece.length = piece.meets(one)?;
+            one.time = time + piece.length;
+            walk.pass(&piece);
+            (walk.strike(system, one) > 0.0).then_some(())?;
+            time = one.time;
+        }
+        walk.pass(&Piece { system, from: walk.end, time, length: length - time });
+        Some(walk)
+    }
+
+    fn pass(&mut self, piece: &Piece) {
+        self.derivative = piece.derivative() * &self.derivative;
+        self.end = piece.at(piece.length);
+    }
+
+    /// An impact here, and the speed with which the wall is met.
+    fn strike(&mut self, system: &ModalSystem, one: &CycleImpact) -> f64 {
+        let (saltation, after, approach) =
+            impact(system, &self.end, one.time, one.absorber, one.side);
+        self.derivative = saltation * &self.derivative;
+        self.end = after;
+        approach
     }
 }
 
@@ -161,6 +224,25 @@ impl Piece<'_> {
             absorber[0] += absorber[1] * s;
         }
         state
+    }
+
+    /// When, near its end, an absorber meets a wall from inside; none where Newton's method does not find it.
+    fn meets(&self, one: &CycleImpact) -> Option<f64> {
+        let wall = one.side * self.system.absorbers()[one.absorber].clearance;
+        let curve = GapCurve { piece: self, absorber: one.absorber, bend: 0.0 };
+        let mut s = self.length;
+        for _ in 0..STEPS_TO_IMPACT {
+            let Sample { value, slope, .. } = curve.sample(s);
+            let step = (value - wall) / slope;
+            if !(step.is_finite() && slope * one.side > 0.0) {
+                return None;
+            }
+            s -= step;
+            if step.abs() <= OF_TIME * self.system.period() * (1.0 + self.time) {
+                break;
+            }
+        }
+        Some(s)
     }
 
     /// What ends the motion where an absorber meets a wall, `left` being at its own at the beginning and `meets` at the end.
