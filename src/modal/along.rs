@@ -127,7 +127,7 @@ impl AlongLoad {
     pub fn worst(&self, load: usize, place: usize, asked: PlaceMeasure) -> Option<WorstOfPlace> {
         let motions = || {
             let each = self.places.iter().enumerate();
-            each.flat_map(|(k, here)| here.motions.iter().map(move |motion| (k, motion)))
+            each.flat_map(|(k, here)| here.counting().map(move |motion| (k, motion)))
         };
         let of = |motion: &ModalMotion| measured(motion, place, asked);
         let worst = motions().max_by(|a, b| of(a.1)[0].total_cmp(&of(b.1)[0]));
@@ -194,9 +194,14 @@ impl AtFrequency {
         Ok(Self { at, motions })
     }
 
+    /// The motions that count.
+    pub fn counting(&self) -> impl Iterator<Item = &ModalMotion> {
+        self.motions.iter().filter(|one| one.counts())
+    }
+
     /// The largest of what is measured of a place, also with every absorber at rest or not.
     fn largest(&self, place: usize, asked: PlaceMeasure, rests: bool) -> Option<f64> {
-        let motions = self.motions.iter().filter(|one| rests || !one.rests());
+        let motions = self.counting().filter(|one| rests || !one.rests());
         motions.map(|one| measured(one, place, asked)[0]).max_by(f64::total_cmp)
     }
 }

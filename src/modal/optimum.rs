@@ -172,7 +172,7 @@ fn over_limit(motions: &[ModalMotion], limit: &Limit) -> f64 {
         let asked = places.filter(|p| limit.place.is_none_or(|place| place == *p));
         asked.map(|p| measured(motion, p, limit.measure)[0]).fold(0.0, f64::max)
     };
-    motions.iter().map(of).fold(0.0, f64::max) / limit.most
+    motions.iter().filter(|one| one.counts()).map(of).fold(0.0, f64::max) / limit.most
 }
 
 /// A load and a frequency that candidates are flown at.

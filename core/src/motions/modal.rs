@@ -2,9 +2,15 @@
 //!
 //! Exact orbits that attract are solved for. Each start is flown until its states at the ends of periods are those of such an
 //! orbit, or repeat. Where they do not, what it does is measured in blocks once the slowest mode has died out.
+//!
+//! An absorber that rests where no wall reaches it has no part in the motion of the others: such motions are those of the
+//! structure without it, as a force that grows slowly leaves them. It may rest within `b - X` of the middle, `X` being the
+//! largest displacement of the structure there: in the share `1 - X/b` of its cavity, and several in the product of their
+//! shares.
 
 use serde::Serialize;
 
+use super::NEGLIGIBLE;
 use super::starts::position;
 use crate::linear::ModalAmplitudes;
 use crate::numerics::scatter::{
@@ -43,8 +49,10 @@ pub struct ModalMotion {
     pub settled: bool,
     /// Largest Floquet multiplier of an excitation period, where an exact orbit is known.
     pub largest_multiplier: Option<f64>,
-    /// Starts that led to it; none of an orbit that attracts all the same.
+    /// Starts that led to it; none of an orbit that attracts all the same, or in which absorbers rest.
     pub starts: u32,
+    /// Of each absorber that rests in it the share of its cavity within which it may; none of one that impacts.
+    pub resting: Vec<Option<f64>>,
     /// Excitation periods of a case's window: largest values are spoken of for ten times as long.
     #[serde(skip)]
     periods: u64,
@@ -95,8 +103,9 @@ const SAME: f64 = 0.02;
 /// The same of those that do.
 const SAME_REPEATING: f64 = 1e-6;
 
-/// The long-term motions that these sensors read, from so many starts, that from rest among them; the most common first. Where
-/// every absorber can rest, that motion is the last. What does not repeat is measured for at least so many excitation periods.
+/// The long-term motions that these sensors read, from so many starts, that from rest among them; the most common first, then
+/// those in which some absorbers rest, and where every one can rest that. What does not repeat is measured for at least so many
+/// excitation periods.
 ///
 /// # Errors
 /// [`ModalStartError`] where the structure's own motion is not finite.
@@ -106,24 +115,138 @@ pub fn modal_motions(
     starts: u32,
     periods: u64,
 ) -> Result<Vec<ModalMotion>, ModalStartError> {
-    let orbits = attracting(system, sensors)?;
-    let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
-    let mut rest = modal_at_rest(system, sensors);
-    for k in 0..starts {
-        let motion = from_start(system, sensors, &start(system, k), periods, &orbits)?;
-        // What is left of a transient then is no other motion.
-        if let Some(rest) = rest.as_mut().filter(|_| motion.rests()) {
-            rest.starts += 1;
-            continue;
-        }
-        match found.iter_mut().find(|known| known.is_same(&motion)) {
-            Some(known) => known.join(&motion),
-            None => found.push(motion),
+    // How far the structure moves at each absorber says which of them may rest.
+    let search = Search { system, sensors: with_absorbers(system, sensors), periods };
+    let (mut found, at_rest) = search.moving(&[], starts)?;
+    let mut tried: Vec<Vec<usize>> = Vec::new();
+    let mut next = 0;
+    while let Some(motion) = found.get(next) {
+        next += 1;
+        for rest in search.may_rest(motion) {
+            if tried.contains(&rest) {
+                continue;
+            }
+            let (further, _) = search.moving(&rest, starts.div_ceil(2))?;
+            let known = |one: &ModalMotion| found.iter().any(|known| known.is_same(one));
+            let further = further.into_iter().filter(|one| !known(one));
+            let further: Vec<ModalMotion> = further.collect();
+            found.extend(further);
+            tried.push(rest);
         }
     }
     found.sort_by_key(|one| std::cmp::Reverse(one.starts));
-    found.extend(rest);
+    found.extend(at_rest);
+    for motion in &mut found {
+        motion.sensors.truncate(sensors.len());
+        for flight in &mut motion.flights {
+            flight.peaks.truncate(sensors.len());
+            flight.squares.truncate(sensors.len());
+        }
+    }
     Ok(found)
+}
+
+/// Sensors, and the displacement of the structure at each absorber behind them.
+fn with_absorbers(system: &ModalSystem, sensors: &[Sensor]) -> Vec<Sensor> {
+    let at = |j: usize| system.modes().iter().map(|mode| mode.shape[j]).collect();
+    let own = (0..system.absorbers().len()).map(|j| Sensor::displacement(at(j)));
+    sensors.iter().cloned().chain(own).collect()
+}
+
+/// A search of motions of a structure.
+struct Search<'a> {
+    system: &'a ModalSystem,
+    /// The last ones are those of its absorbers.
+    sensors: Vec<Sensor>,
+    periods: u64,
+}
+
+impl Search<'_> {
+    /// Those in which these absorbers rest and another one impacts, and every absorber at rest. Starts are counted where none is
+    /// held at rest.
+    fn moving(
+        &self,
+        rest: &[usize],
+        starts: u32,
+    ) -> Result<(Vec<ModalMotion>, Option<ModalMotion>), ModalStartError> {
+        let Some(system) = self.system.without(rest) else { return Ok((Vec::new(), None)) };
+        let sensors = self.without(rest);
+        let orbits = attracting(&system, &sensors)?;
+        let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
+        let mut at_rest = modal_at_rest(&system, &sensors);
+        for k in 0..starts {
+            let motion = from_start(&system, &sensors, &start(&system, k), self.periods, &orbits)?;
+            // What is left of a transient then is no other motion.
+            if let Some(at_rest) = at_rest.as_mut().filter(|_| motion.rests()) {
+                at_rest.starts += 1;
+                continue;
+            }
+            match found.iter_mut().find(|known| known.is_same(&motion)) {
+                Some(known) => known.join(&motion),
+                None => found.push(motion),
+            }
+        }
+        let found = found.into_iter().filter_map(|one| self.with_resting(one, rest)).collect();
+        Ok((found, at_rest))
+    }
+
+    /// The sensors for a structure without these absorbers.
+    fn without(&self, rest: &[usize]) -> Vec<Sensor> {
+        let of = |sensor: &Sensor| match sensor.reads {
+            // Nothing is what one reads that has no impacts.
+            Reading::Jump { absorber } if rest.contains(&absorber) => {
+                Sensor { reads: Reading::Displacement, scale: 0.0, ..sensor.clone() }
+            }
+            Reading::Jump { absorber } => {
+                let before = rest.iter().filter(|j| **j < absorber).count();
+                Sensor { reads: Reading::Jump { absorber: absorber - before }, ..sensor.clone() }
+            }
+            _ => sensor.clone(),
+        };
+        self.sensors.iter().map(of).collect()
+    }
+
+    /// A motion of the structure without these absorbers as one of all; none where a wall would reach one of them.
+    fn with_resting(&self, motion: ModalMotion, rest: &[usize]) -> Option<ModalMotion> {
+        let mut motion = motion;
+        for (extent, sensor) in motion.sensors.iter_mut().zip(&self.sensors) {
+            extent.reads = sensor.reads;
+        }
+        for j in rest {
+            motion.impacts_per_period.insert(*j, [0.0; 2]);
+            for flight in &mut motion.flights {
+                let stretches = flight.squares.first().map_or(0, Vec::len);
+                flight.impacts.insert(*j, vec![0.0; stretches]);
+            }
+        }
+        let rests = |j: usize| motion.impacts_per_period[j][0] == 0.0;
+        let share = |j: usize| rests(j).then(|| self.share(&motion, j));
+        motion.resting = (0..self.system.absorbers().len()).map(share).collect();
+        if !rest.is_empty() {
+            motion.starts = 0;
+        }
+        let stay = rest.iter().all(|j| motion.resting[*j].is_some_and(|share| share > 0.0));
+        (stay && (rest.is_empty() || !motion.rests())).then_some(motion)
+    }
+
+    /// The share of its cavity within which no wall reaches an absorber at rest in a motion; 0 or less where one does everywhere.
+    fn share(&self, motion: &ModalMotion, j: usize) -> f64 {
+        let own = self.sensors.len() - self.system.absorbers().len();
+        1.0 - motion.sensors[own + j].peak / self.system.absorbers()[j].clearance
+    }
+
+    /// Sets of absorbers that may rest, of which one more does than in a motion, and another one impacts.
+    fn may_rest(&self, motion: &ModalMotion) -> Vec<Vec<usize>> {
+        let count = self.system.absorbers().len();
+        let rest: Vec<usize> = (0..count).filter(|j| motion.resting[*j].is_some()).collect();
+        let more = (0..count).filter(|j| !rest.contains(j) && self.share(motion, *j) > 0.0);
+        let with = |j: usize| {
+            let mut set: Vec<usize> = rest.iter().copied().chain([j]).collect();
+            set.sort_unstable();
+            set
+        };
+        more.map(with).filter(|set| set.len() < count).collect()
+    }
 }
 
 /// An exact orbit that attracts.
@@ -156,9 +279,11 @@ fn attracting(
 
 /// Every absorber at rest where no wall reaches it, as these sensors read it: in closed form. None where a wall reaches one.
 pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMotion> {
-    let reach = |j: usize| system.steady_motion_at(j).amplitude();
-    let rests = |(j, one): (usize, &ModalAbsorber)| reach(j) < one.clearance;
-    if !system.absorbers().iter().enumerate().all(rests) {
+    let share = |(j, one): (usize, &ModalAbsorber)| {
+        1.0 - system.steady_motion_at(j).amplitude() / one.clearance
+    };
+    let shares: Vec<f64> = system.absorbers().iter().enumerate().map(share).collect();
+    if shares.iter().any(|share| *share <= 0.0) {
         return None;
     }
     let shapes: Vec<Vec<f64>> = sensors.iter().map(|one| one.shape.clone()).collect();
@@ -175,6 +300,7 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
         settled: true,
         largest_multiplier: None,
         starts: 0,
+        resting: shares.into_iter().map(Some).collect(),
         periods: 0,
         flights: Vec::new(),
     })
@@ -384,6 +510,7 @@ impl ModalMotion {
             settled,
             largest_multiplier: None,
             starts: 1,
+            resting: vec![None; flight.impacts.len()],
             periods,
             flights: vec![flight],
         };
@@ -420,6 +547,18 @@ impl ModalMotion {
     /// Whether no absorber impacts.
     pub fn rests(&self) -> bool {
         self.impacts_per_period.iter().all(|[count, _]| *count == 0.0)
+    }
+
+    /// The share of the resting places of all absorbers that rest in it, together; none where none does.
+    pub fn rest_share(&self) -> Option<f64> {
+        self.resting.iter().flatten().copied().reduce(|all, share| all * share)
+    }
+
+    /// Whether it is one that may be met: a start led to it in which an absorber impacts, or absorbers that rest do so in a share
+    /// of their places that is not negligible.
+    pub fn counts(&self) -> bool {
+        self.starts > 0 && !self.rests()
+            || self.rest_share().is_none_or(|share| share >= NEGLIGIBLE)
     }
 
     /// What sensors of a kind read, in their order.

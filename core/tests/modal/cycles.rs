@@ -12,7 +12,7 @@ use vinesink_core::orbits::{
 use vinesink_core::simulation::{Detail, ModalImpact, ModalObserver, ModalSimulation, Side};
 use vinesink_core::system::{ModalState, ModalSystem};
 
-use super::cases::{mode, one_by_one, system, two_by_two};
+use super::cases::{Draw, one_by_one, two_by_two};
 
 /// The impacts of a stretch, and whether an absorber came to rest on a wall in it.
 #[derive(Default)]
@@ -115,35 +115,6 @@ fn power_sum(values: &[[f64; 2]], power: u32) -> f64 {
         (0..power).fold([1.0, 0.0], |product, _| times(product))[0]
     });
     each.sum()
-}
-
-/// SplitMix64.
-struct Draw(u64);
-
-impl Draw {
-    fn within(&mut self, from: f64, to: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        from + (to - from) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// One to three modes with one to three absorbers, driven near the first.
-    fn structure(&mut self) -> ModalSystem {
-        let (modes, absorbers) = (self.within(1.0, 3.99) as usize, self.within(1.0, 3.99) as usize);
-        let force = self.within(0.05, 0.4);
-        let each = (0..modes).map(|k| {
-            let frequency = if k == 0 { 1.0 } else { self.within(1.5, 9.0) };
-            let shape: Vec<f64> = (0..absorbers).map(|_| self.within(-1.0, 1.0)).collect();
-            mode([frequency, self.within(0.005, 0.03), self.within(0.5, 2.0), force], &shape)
-        });
-        let each: Vec<_> = each.collect();
-        let carried: Vec<[f64; 3]> = (0..absorbers)
-            .map(|_| [self.within(0.005, 0.05), self.within(0.5, 8.0), self.within(0.2, 0.8)])
-            .collect();
-        system(self.within(0.9, 1.1), each, &carried)
-    }
 }
 
 /// Structures that nobody chose: what nearly repeats is solved for, the simulation stays on it, and the multipliers are those of

@@ -3,10 +3,15 @@
 use vinesink_core::linear::{ModalAmplitudes, ModalDamper, TunedMassDamper, bare_amplitude};
 use vinesink_core::motions::modal_motions;
 use vinesink_core::orbits::FullSystem;
-use vinesink_core::simulation::Sensor;
-use vinesink_core::system::{
-    Cavity, Excitation, ModalAbsorber, ModalParameters, ModalSystem, Mode, Parameters, System,
+use vinesink_core::simulation::{
+    Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, Sensor,
 };
+use vinesink_core::system::{
+    Cavity, Excitation, ModalAbsorber, ModalParameters, ModalState, ModalSystem, Mode, Parameters,
+    System,
+};
+
+use super::cases::Draw;
 
 /// The structure of Li, Seguy and Berlioz (2016), Table 1, with a clearance of 20 mm and 0.25 mm of force over stiffness.
 const EPS: f64 = 0.032 / 4.168;
@@ -79,4 +84,127 @@ fn the_motion_of_one_mode_and_one_absorber_is_its_exact_orbit() {
         led += orbit.starts;
     }
     assert!(seen > 1 && led > 0, "{seen} orbits attract, {led} starts lead to one");
+}
+
+/// The case of a claim that an absorber at rest refuted: from 31 starts 0.215 mm, with the first of two absorbers at rest 0.362 mm.
+#[test]
+fn some_absorbers_rest_while_others_impact() {
+    let omega = 2.0 * std::f64::consts::PI * 49.033_26;
+    let force = 93.760_7 * 0.507;
+    let mode = |hertz: f64, damping_ratio: f64, mass: f64, phi: f64| Mode {
+        frequency: hertz / 49.033_26,
+        damping_ratio,
+        mass,
+        forcing: force * phi / 0.507 / mass / (omega * omega),
+        shape: vec![phi; 2],
+        ..Mode::default()
+    };
+    let absorber = |mass: f64, clearance: f64, restitution: f64| ModalAbsorber {
+        mass,
+        clearance,
+        restitution,
+    };
+    let system = ModalSystem::new(ModalParameters {
+        modes: vec![
+            mode(49.033_26, 0.016_43, 12.702_3, 0.507),
+            mode(91.657_69, 0.006_68, 18.312_6, -0.196),
+        ],
+        absorbers: vec![absorber(0.556_93, 6.610_9e-4, 0.4), absorber(1.165_4, 2.083_5e-4, 0.588)],
+        frequency_ratio: 49.245_1 / 49.033_26,
+        ..ModalParameters::default()
+    })
+    .expect("valid");
+    let motions = modal_motions(&system, &[Sensor::displacement(vec![0.507, -0.196])], 6, 1000)
+        .expect("they fly");
+    let worst =
+        motions.iter().max_by(|a, b| a.sensors[0].peak.total_cmp(&b.sensors[0].peak)).expect("one");
+    assert!((worst.sensors[0].peak / 0.362e-3 - 1.0).abs() < 0.01, "{motions:#?}");
+    assert!(
+        worst.resting[0].is_some_and(|share| (share - 0.45).abs() < 0.01)
+            && worst.resting[1].is_none()
+    );
+    assert!(worst.counts() && worst.starts == 0);
+}
+
+/// On structures that nobody chose: absorbers that are placed where they may rest are met by no wall, and the others move as is said.
+#[test]
+fn absorbers_that_may_rest_do() {
+    let mut draw = Draw(1_129);
+    let (mut found, mut both) = (0, 0);
+    for number in 0..60 {
+        let system = draw.structure();
+        let count = system.absorbers().len();
+        let shape = vec![1.0; system.modes().len()];
+        let sensors = [Sensor::displacement(shape)];
+        let motions = modal_motions(&system, &sensors, 2, 500).expect("they fly");
+        for motion in motions.iter().filter(|one| !one.rests() && one.rest_share().is_some()) {
+            let rest: Vec<usize> = (0..count).filter(|j| motion.resting[*j].is_some()).collect();
+            let others: Vec<usize> = (0..count).filter(|j| !rest.contains(j)).collect();
+            let reduced = system.without(&rest).expect("others impact");
+            // Nothing of another motion of the others may be in it.
+            let alike = |one: &&vinesink_core::motions::ModalMotion| {
+                one.resting.iter().zip(&motion.resting).all(|(a, b)| a.is_some() == b.is_some())
+            };
+            if motion.starts > 0 || motions.iter().filter(alike).count() > 1 {
+                continue;
+            }
+            let mut simulation = ModalSimulation::new(
+                &reduced,
+                &ModalState { absorbers: half_way(&reduced), ..ModalState::AT_REST },
+                0.0,
+            )
+            .expect("inside");
+            simulation.run(3000, u64::MAX, &mut ());
+            let begin = simulation.state();
+            let mut state = ModalState { absorbers: [[0.0; 2]; 8], ..begin };
+            for (k, j) in others.iter().enumerate() {
+                state.absorbers[*j] = begin.absorbers[k];
+            }
+            for j in &rest {
+                let share = motion.resting[*j].expect("it rests");
+                state.absorbers[*j] =
+                    [0.95 * share * system.absorbers()[*j].clearance * draw.within(-1.0, 1.0), 0.0];
+            }
+            // A peak may still be larger by its error; so far no wall reaches.
+            let mut whole = ModalSimulation::new(&system, &state, 0.0).expect("inside");
+            let mut seen = (ModalMeter::new(&system, &sensors), Impacts::default());
+            whole.run(300, u64::MAX, &mut seen);
+            let peak = seen.0.records()[0].peak;
+            let told = motion.sensors[0];
+            // Another start may lead the others to another motion.
+            let other = others.iter().any(|j| seen.1.0[*j] == 0)
+                || (peak - told.peak).abs() > told.error + 1e-6 * told.peak;
+            if other {
+                continue;
+            }
+            let stays = rest.iter().all(|j| seen.1.0[*j] == 0);
+            assert!(stays, "{number}: {rest:?} {:?} {motion:?}", seen.1.0);
+            found += 1;
+            both += usize::from(rest.len() > 1);
+        }
+    }
+    println!("{found} motions, {both} with two at rest");
+    assert!(found > 15, "{found} {both}");
+}
+
+/// Half way to a wall.
+fn half_way(system: &ModalSystem) -> [[f64; 2]; 8] {
+    let mut all = [[0.0; 2]; 8];
+    for (place, absorber) in all.iter_mut().zip(system.absorbers()) {
+        place[0] = 0.5 * absorber.clearance;
+    }
+    all
+}
+
+/// Of each absorber.
+#[derive(Default)]
+struct Impacts([u64; 8]);
+
+impl ModalObserver for Impacts {
+    fn detail(&self) -> Detail {
+        Detail::Events
+    }
+    fn impact(&mut self, impact: &ModalImpact) {
+        self.0[impact.absorber] += 1;
+    }
 }

@@ -215,12 +215,19 @@ fn motion_row(motion: &ModalMotion) -> Value {
             place[name] = row(kinds, one);
         }
     }
+    let resting = motion.resting.iter().enumerate();
+    let resting =
+        resting.filter_map(|(j, share)| Some(json!({ "absorber": j + 1, "share": (*share)? })));
     json!({
         "starts": motion.starts,
         "repeats_after": motion.repeats_after,
         "settled": motion.settled,
         // Whether every absorber rests where no wall reaches it.
         "rests": motion.rests(),
+        // Absorbers that do, each with the share of its cavity within which it may; together; and whether that is enough.
+        "resting": resting.collect::<Vec<_>>(),
+        "share_of_places": motion.rest_share(),
+        "counts": motion.counts(),
         "impacts_per_period": motion.impacts_per_period.iter().map(|[count, _]| count).collect::<Vec<_>>(),
         "largest_multiplier": motion.largest_multiplier,
         "places": places,

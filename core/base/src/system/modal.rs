@@ -135,6 +135,25 @@ pub enum InvalidModalSystem {
 pub struct ModalSystem(ModalParameters);
 
 impl ModalSystem {
+    /// The same without some of its absorbers; none where that leaves none of them.
+    #[must_use]
+    pub fn without(&self, absorbers: &[usize]) -> Option<Self> {
+        let stays = |(j, _): &(usize, f64)| !absorbers.contains(j);
+        let kept = |shape: &[f64]| {
+            shape.iter().copied().enumerate().filter(stays).map(|(_, phi)| phi).collect()
+        };
+        let modes =
+            self.0.modes.iter().map(|mode| Mode { shape: kept(&mode.shape), ..mode.clone() });
+        let others = self.0.absorbers.iter().enumerate().filter(|(j, _)| !absorbers.contains(j));
+        let parameters = ModalParameters {
+            modes: modes.collect(),
+            absorbers: others.map(|(_, one)| *one).collect(),
+            ..self.0.clone()
+        };
+        // Nothing else can be wrong with what was a structure.
+        Self::new(parameters).ok()
+    }
+
     /// Accepts what a structure can have.
     ///
     /// # Errors
