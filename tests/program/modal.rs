@@ -551,8 +551,8 @@ fn modes_may_be_in_a_universal_file() {
     assert!(told.contains("ends within data set 55") && told.contains("truncated"), "{told}");
 }
 
-/// Absorbers that rest move the structure up to where a wall reaches one: between two frequencies of a search, where the structure
-/// alone moves as far as the cavity is wide.
+/// Absorbers that rest move the structure up to where a wall reaches all but a hundredth of their places: between two frequencies of
+/// a search, where the structure alone moves by 99 % of the clearance.
 #[test]
 fn absorbers_rest_up_to_where_a_wall_reaches_them() {
     let case = |range: &str| {
@@ -566,11 +566,10 @@ fn absorbers_rest_up_to_where_a_wall_reaches_them() {
     };
     let wide = case("from = '1.8 Hz'\nto = '2.3 Hz'");
     let worst = ModalAnswer::of(&wide, &Serial).expect("flown");
-    let rests =
-        worst.along[0].places.iter().filter(|one| one.motions.iter().any(|one| one.rests()));
-    let peaks = rests.flat_map(|one| one.motions.iter().filter(|one| one.rests()));
+    let rests = worst.along[0].places.iter().flat_map(|one| one.counting());
+    let peaks = rests.filter(|one| one.rests());
     let peak = peaks.map(|one| one.sensors[0].peak).fold(0.0, f64::max);
-    assert!((peak / 4.563e-3 - 1.0).abs() < 1e-9, "{peak}");
+    assert!((peak / (0.99 * 4.563e-3) - 1.0).abs() < 1e-9, "{peak}");
     assert!(!worst.all_hold(), "{:?}", worst.judged);
 
     // A cavity that nothing reaches: the top of a resonance, F/(2 zeta k sqrt(1 - zeta^2)), below its natural frequency.
