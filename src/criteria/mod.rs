@@ -72,6 +72,8 @@ pub struct Judged {
     /// Share of the absorber's resting places from which a start from rest stays in that motion, where it is that of an
     /// absorber at rest.
     pub inactive: Option<f64>,
+    /// That share of an absorber at rest with which it would not hold, where it is too small for that motion to count.
+    pub but_at_rest: Option<f64>,
     /// Excitation periods after which a motion that could decide otherwise was still settling: it is not decided then, and
     /// does not hold.
     pub undecided: Option<u64>,
@@ -213,6 +215,7 @@ impl Criterion {
             at: None,
             motion: None,
             inactive: None,
+            but_at_rest: None,
             undecided: None,
             decided_by,
             contact: None,

@@ -5,7 +5,7 @@ use crate::band::{Survey, theory};
 use crate::case::Criterion;
 use crate::measure::{Device, Measure};
 use crate::method::Method;
-use crate::motions::{Fact, Motion, MotionKind};
+use crate::motions::{Fact, Motion, MotionKind, WhyNot};
 use crate::quantity::Units;
 use crate::validation::tolerance::asymptotic_error;
 
@@ -116,9 +116,24 @@ impl Scope<'_> {
             motion.settled() && room(one) < 0.0 && !criterion.is_open(room(one), own, 0)
         };
         let near_limit = judged.near_limit && !all.iter().any(misses);
+        let but_at_rest = judged.holds.filter(|holds| *holds).and_then(|_| self.too_few(criterion));
         let open = all.iter().filter(|(_, motion)| !motion.settled());
         let undecided = open.map(|(_, motion)| motion.reached().followed).max().filter(|_| !fails);
-        Judged { at, motion, inactive, near_limit, ..judged }.or_undecided(undecided)
+        Judged { at, motion, inactive, but_at_rest, near_limit, ..judged }.or_undecided(undecided)
+    }
+
+    /// The largest share of resting places of an absorber at rest with which a criterion would not hold, of those that are too
+    /// few to count.
+    fn too_few(&self, criterion: &Criterion) -> Option<f64> {
+        let places = self.survey.motions.places().iter();
+        let each = places.flat_map(|(at, here)| here.iter().map(move |one| (*at, 0, one)));
+        let few = each.filter(|one| {
+            one.2.why_not(self.survey.count_rest) == Some(WhyNot::BelowThreshold)
+        });
+        let fails = few.filter(|one| {
+            self.of(criterion, *one).is_some_and(|judged| judged.0.holds == Some(false))
+        });
+        fails.filter_map(|one| Some(one.2.rest()?.share)).max_by(f64::total_cmp)
     }
 
     /// Places with a motion that only a window shows and which does not hold with its error or still settles, by the room

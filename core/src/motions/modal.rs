@@ -554,11 +554,10 @@ impl ModalMotion {
         self.resting.iter().flatten().copied().reduce(|all, share| all * share)
     }
 
-    /// Whether it is one that may be met: a start led to it in which an absorber impacts, or absorbers that rest do so in a share
-    /// of their places that is not negligible.
+    /// Whether it is one that may be met: a start led to it, or absorbers that rest do so in a share of their places that is not
+    /// negligible.
     pub fn counts(&self) -> bool {
-        self.starts > 0 && !self.rests()
-            || self.rest_share().is_none_or(|share| share >= NEGLIGIBLE)
+        self.starts > 0 || self.rest_share().is_none_or(|share| share >= NEGLIGIBLE)
     }
 
     /// What sensors of a kind read, in their order.

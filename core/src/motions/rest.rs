@@ -1,16 +1,17 @@
 //! The absorber that stays at rest: where the structure alone does not move as far as the clearance, an
 //! absorber at rest may stay so, and the structure then vibrates as if it had none.
 //!
-//! From rest the structure's displacement is its steady motion and a free one that decays,
-//! `x = Re(S e^{i Omega tau}) + Re(H e^{(i omega_d - zeta) tau})`. With `X` the largest displacement on the
-//! way, an absorber that rests within `b - X` of the middle of its cavity is never touched: a share
-//! `1 - X/b` of its resting places.
+//! A motion counts if it exists. An excitation that grows slowly takes the structure along its steady motion, of an amplitude
+//! `A`: an absorber that rests within `b - A` of the middle of its cavity is never touched, a share `1 - A/b` of its resting
+//! places. An excitation that begins at once adds a free motion that decays, `x = Re(S e^{i Omega tau}) +
+//! Re(H e^{(i omega_d - zeta) tau})`: with `X` the largest displacement on the way, `1 - X/b` of the places stay untouched then.
 //!
 //! In a tilted cavity, or one that rubs, an absorber at rest goes along with the structure, whose mass is then `1 + eps`,
 //! while the acceleration of both asks for no more than gravity `a` and friction `f` give: up to `f - abs(a)` anywhere, up
 //! to `f + abs(a)` at the wall that it slides down to, with which every resting place ends. Beyond that an absorber in a
 //! tilted cavity hits that wall again and again. In a level one it slides: the structure moves as under dry friction
-//! (Den Hartog, 1931, at first order in it), the absorber by `4 f/(pi Omega^2)` a quarter of a period later.
+//! (Den Hartog, 1931, at first order in it), the absorber by `4 f/(pi Omega^2)` a quarter of a period later, and their relative
+//! amplitude takes the place of `A`.
 
 use serde::Serialize;
 
@@ -41,9 +42,11 @@ const LAST: u64 = 20;
 pub struct Rest {
     /// How it rests.
     pub rest: RestKind,
-    /// Share of its resting places from which a start from rest stays in this motion: `1 - X/b`; all where friction or a
-    /// wall hold it, 0 where none does and only other starts lead here.
+    /// Share of its resting places from which it stays in this motion under an excitation that grows slowly: `1 - A/b`; all
+    /// where friction or a wall hold it, 0 where none does and only other starts lead here.
     pub share: f64,
+    /// The same under one that begins at once: `1 - X/b`, by simulation where friction or a tilt move the absorber.
+    pub sudden: f64,
     /// Amplitude of the structure in closed form, over the clearance; of an absorber that slides at first order in friction.
     pub amplitude: f64,
 }
@@ -69,7 +72,7 @@ impl Rest {
             0.0 => RestKind::Sliding,
             _ => RestKind::Held,
         };
-        Self { rest, share: 0.0, amplitude }
+        Self { rest, share: 0.0, sudden: 0.0, amplitude }
     }
 }
 
@@ -83,27 +86,25 @@ pub(super) struct AtRest {
 }
 
 impl AtRest {
-    /// That of a system; `None` where every start from rest wakes the absorber.
+    /// That of a system; `None` where a wall reaches every resting place.
     pub fn of(system: &System) -> Option<Self> {
-        match RestCandidate::of(system)? {
-            RestCandidate { rest: RestKind::Floating, amplitude } => {
-                let floating = Floating::of(system).filter(|one| one.share > 0.0)?;
-                let rest = Rest { rest: RestKind::Floating, share: floating.share, amplitude };
-                Some(Self { rest, facts: Facts::of_sine(amplitude, 0.0), state: floating.state })
+        let RestCandidate { rest, amplitude, share } = RestCandidate::of(system)?;
+        let told = |sudden| Rest { rest, share, sudden, amplitude };
+        match rest {
+            RestKind::Floating => {
+                let Floating { sudden, state, .. } = Floating::of(system)?;
+                Some(Self { rest: told(sudden), facts: Facts::of_sine(amplitude, 0.0), state })
             }
-            RestCandidate { rest: RestKind::Held, amplitude } => {
-                let held = Carried::of(system).filter(|held| held.stays(system))?;
+            RestKind::Held => {
+                let held = Carried::of(system)?;
                 let facts = Facts::of_sine(amplitude, static_shift(system));
-                let rest = Rest { rest: RestKind::Held, share: 1.0, amplitude };
-                Some(Self { rest, facts, state: held.state(system) })
+                Some(Self { rest: told(held.sudden(system)), facts, state: held.state(system) })
             }
-            RestCandidate { rest: RestKind::Sliding, amplitude } => {
+            RestKind::Sliding => {
                 let stay: Vec<State> = resting(system, amplitude).collect();
-                let state = *stay.first()?;
-                let share = stay.len() as f64 / f64::from(PLACES);
-                let facts = measured(system, state)?;
-                let rest = Rest { rest: RestKind::Sliding, share, amplitude };
-                Some(Self { rest, facts, state })
+                let state = sliding(system, amplitude).or(stay.first().copied())?;
+                let sudden = stay.len() as f64 / f64::from(PLACES);
+                Some(Self { rest: told(sudden), facts: measured(system, state)?, state })
             }
         }
     }
@@ -135,44 +136,42 @@ fn static_shift(system: &System) -> f64 {
     system.mass_ratio() * system.cavity().gravity_along.abs()
 }
 
-/// How an absorber would rest, in closed form, and the structure's amplitude then.
+/// How an absorber would rest, in closed form, the share of its places, and the structure's amplitude then.
 struct RestCandidate {
     rest: RestKind,
+    share: f64,
     amplitude: f64,
 }
 
 impl RestCandidate {
     fn of(system: &System) -> Option<Self> {
         if !system.cavity().moves_absorber() {
-            let amplitude = Floating::of(system)?.amplitude;
-            return Some(Self { rest: RestKind::Floating, amplitude });
+            let Floating { amplitude, share, .. } = Floating::of(system)?;
+            return Some(Self { rest: RestKind::Floating, share, amplitude });
         }
         let Cavity { gravity_along: a, friction_acceleration: f, .. } = system.cavity();
         let held = Carried::of(system)?;
-        let [steady, largest] = held.accelerations;
-        // A transient may throw it off the wall that it rests on, where it comes to rest again.
-        let needed = if a == 0.0 { largest } else { steady };
-        if needed <= a.abs() + f {
-            return Some(Self { rest: RestKind::Held, amplitude: held.steady.amplitude() });
+        if held.accelerations[0] <= a.abs() + f {
+            let amplitude = held.steady.amplitude();
+            return Some(Self { rest: RestKind::Held, share: 1.0, amplitude });
         }
-        let amplitude = if a == 0.0 { sliding_amplitude(system, f)? } else { return None };
-        Some(Self { rest: RestKind::Sliding, amplitude })
+        let (amplitude, share) = if a == 0.0 { sliding_amplitude(system, f)? } else { return None };
+        Some(Self { rest: RestKind::Sliding, share, amplitude })
     }
 
     /// The same where enough resting places stay for it to count.
     fn counting(system: &System) -> Option<Self> {
-        Self::of(system).filter(|one| match one.rest {
-            RestKind::Floating => Floating::of(system).is_some_and(|one| one.share >= NEGLIGIBLE),
-            RestKind::Held | RestKind::Sliding => true,
-        })
+        Self::of(system).filter(|one| one.share >= NEGLIGIBLE)
     }
 
     /// Whether there is that motion, by simulation where closed form does not say.
     fn is_one(system: &System) -> bool {
         Self::counting(system).is_some_and(|one| match one.rest {
-            RestKind::Floating => true,
-            RestKind::Held => Carried::of(system).is_some_and(|held| held.stays(system)),
-            RestKind::Sliding => resting(system, one.amplitude).next().is_some(),
+            RestKind::Floating | RestKind::Held => true,
+            RestKind::Sliding => {
+                sliding(system, one.amplitude).is_some()
+                    || resting(system, one.amplitude).next().is_some()
+            }
         })
     }
 }
@@ -180,8 +179,9 @@ impl RestCandidate {
 /// An absorber that nothing moves but the walls.
 struct Floating {
     amplitude: f64,
-    /// Below 0 where a wall reaches every resting place.
     share: f64,
+    /// See [`Rest::sudden`].
+    sudden: f64,
     state: State,
 }
 
@@ -204,8 +204,9 @@ impl Floating {
         };
         let largest = largest_from_rest(forced, free, zeta, (natural - omega).abs());
         // Without damping the free part stays.
-        let amplitude = if zeta == 0.0 { largest } else { steady.amplitude() };
-        Some(Self { amplitude, share: 1.0 - largest, state })
+        let amplitude =
+            if zeta == 0.0 && largest < 1.0 { largest } else { steady.amplitude() };
+        Some(Self { amplitude, share: 1.0 - amplitude, sudden: (1.0 - largest).max(0.0), state })
     }
 }
 
@@ -217,8 +218,8 @@ fn measured(system: &System, state: State) -> Option<Facts> {
     Some(watch.sample(&simulation, stop)?.facts)
 }
 
-/// Amplitude with an absorber that slides in a level cavity.
-fn sliding_amplitude(system: &System, friction: f64) -> Option<f64> {
+/// Amplitude with an absorber that slides in a level cavity, and the share of its places in which no wall reaches it.
+fn sliding_amplitude(system: &System, friction: f64) -> Option<(f64, f64)> {
     let omega = system.frequency_ratio();
     let dry = DRY * friction;
     let (sine, cosine) = system.excitation_amplitudes();
@@ -230,27 +231,50 @@ fn sliding_amplitude(system: &System, friction: f64) -> Option<f64> {
     let reaction = stiffness * drag;
     let root = (force * force * scale - reaction * reaction).max(0.0).sqrt();
     let amplitude = (root - loss * drag) / scale;
-    let fits = amplitude > 0.0 && libm::hypot(amplitude, dry / (omega * omega)) < 1.0;
-    fits.then_some(amplitude)
+    let share = 1.0 - libm::hypot(amplitude, dry / (omega * omega));
+    (amplitude > 0.0 && share > 0.0).then_some((amplitude, share))
 }
 
-/// Motions of an absorber that slides, one from each place where it stays. On its way from rest it drifts by some amplitudes of
-/// the structure however small the friction is: which places stay is found by simulation.
+/// Motions of an absorber that slides after a sudden start, one from each place where it stays. On its way from rest it drifts by
+/// some amplitudes of the structure however small the friction is: which places stay is found by simulation.
 fn resting(system: &System, amplitude: f64) -> impl Iterator<Item = State> {
     let places = (0..PLACES).map(|k| (2.0 * f64::from(k) + 1.0) / f64::from(PLACES) - 1.0);
-    // A drift `u` meets the mean friction `2 f u/(pi Omega X)`.
-    let dry = DRY * system.cavity().friction_acceleration;
-    let drift = 0.5 * dry / (system.frequency_ratio() * amplitude);
-    let stay = places.filter_map(move |place| from_rest(system, place, 1, drift));
+    let drift = drift(system, amplitude);
+    let rests = move |place: f64| State { y: -place, ..State::AT_REST };
+    let stay = places.filter_map(move |place| followed(system, rests(place), 1, drift));
     stay.filter(|(impacts, _)| *impacts == [0, 0]).map(|(_, state)| state)
 }
 
-/// Impacts of a simulation from rest, the absorber at a place `x - y`, until the transient is over, in which a drift of the
-/// absorber fades at a rate, and in periods after it, and the state then, at phase 0; none where `most` are reached.
-fn from_rest(system: &System, place: f64, most: u64, drift: f64) -> Option<([u64; 2], State)> {
+/// That of one in the middle whose structure is on its steady motion already; none where a wall reaches it.
+fn sliding(system: &System, amplitude: f64) -> Option<State> {
+    let steady = system.linear_response()?;
+    let State { x, x_velocity, .. } = steady.state(system);
+    let [x, x_velocity] = [x, x_velocity].map(|of| of * amplitude / steady.amplitude());
+    // What would be left of a drift otherwise takes it off the middle.
+    let omega = system.frequency_ratio();
+    let swing = DRY * system.cavity().friction_acceleration / (omega * omega * amplitude);
+    let (y, y_velocity) = (-swing * x_velocity / omega, swing * omega * x);
+    let start = State { x, x_velocity, y, y_velocity };
+    let (impacts, state) = followed(system, start, 1, drift(system, amplitude))?;
+    (impacts == [0, 0]).then_some(state)
+}
+
+/// The rate at which a drift of an absorber that slides fades: a drift `u` meets the mean friction `2 f u/(pi Omega X)`.
+fn drift(system: &System, amplitude: f64) -> f64 {
+    let dry = DRY * system.cavity().friction_acceleration;
+    0.5 * dry / (system.frequency_ratio() * amplitude)
+}
+
+/// Impacts of a simulation until the transient is over, in which a drift of the absorber fades at a rate, and in periods after it,
+/// and the state then, at phase 0; none where `most` are reached.
+fn followed(
+    system: &System,
+    start: State,
+    most: u64,
+    drift: f64,
+) -> Option<([u64; 2], State)> {
     let decay = (0.5 * system.mass_ratio() * system.damping()).min(drift) * system.period();
     let periods = (TRANSIENT / decay).clamp(PERIODS[0], PERIODS[1]) as u64;
-    let start = State { y: -place, ..State::AT_REST };
     let mut simulation = Simulation::new(system, start, 0.0).ok()?;
     let mut impacts = [0; 2];
     for (part, periods) in impacts.iter_mut().zip([periods, LAST]) {
@@ -292,15 +316,20 @@ impl Carried {
         Some(Self { steady, accelerations: [forced, largest] })
     }
 
-    /// Whether friction and gravity hold the absorber, or a wall does after a transient.
-    fn stays(&self, system: &System) -> bool {
+    /// See [`Rest::sudden`]: a transient may throw the absorber off the wall that it rests on, where it comes to rest again, and
+    /// in a level cavity it may slide into a wall.
+    fn sudden(&self, system: &System) -> f64 {
         let Cavity { gravity_along: a, friction_acceleration: f, .. } = system.cavity();
-        let settles = || {
-            let after = from_rest(system, -a.signum(), MOST_IMPACTS, f64::INFINITY);
-            after.is_some_and(|(impacts, _)| impacts[1] == 0)
-        };
-        let [steady, largest] = self.accelerations;
-        largest <= a.abs() + f || a != 0.0 && steady <= a.abs() + f && settles()
+        if self.accelerations[1] <= a.abs() + f {
+            return 1.0;
+        }
+        if a == 0.0 {
+            let stay = resting(system, self.steady.amplitude()).count();
+            return stay as f64 / f64::from(PLACES);
+        }
+        let start = State { y: a.signum(), ..State::AT_REST };
+        let after = followed(system, start, MOST_IMPACTS, f64::INFINITY);
+        f64::from(after.is_some_and(|(impacts, _)| impacts[1] == 0))
     }
 
     /// The steady motion at phase 0, the absorber on the wall that gravity pulls it to, or in the middle.
@@ -383,17 +412,26 @@ mod tests {
                 system.with_clearance_scaled(2.0 * largest_by_steps(&system)).expect("valid");
             let found = AtRest::of(&half).expect("half of the places stay");
             // The envelope differs from the motion by what the fast phase leaves: 2 % so near resonance.
-            assert!((found.rest.share - 0.5).abs() < 0.01, "{zeta} {omega}: {found:?}");
+            assert!((found.rest.sudden - 0.5).abs() < 0.01, "{zeta} {omega}: {found:?}");
             let steady = half.linear_response().expect("steady").amplitude();
             let amplitude = if zeta == 0.0 { 0.5 } else { steady };
+            assert!((found.rest.share - (1.0 - amplitude)).abs() < 0.01, "{found:?}");
             assert!(
                 (found.facts.peak.value / amplitude - 1.0).abs() < 0.02,
                 "{zeta} {omega}: {found:?}"
             );
             // Half of the clearance, and what the envelope leaves.
             let narrow = half.with_clearance_scaled(0.49).expect("valid");
-            let left = AtRest::of(&narrow).map(|one| one.rest);
-            assert!(left.is_none(), "{zeta} {omega}: a wall reaches every place: {left:?}");
+            let left = AtRest::of(&narrow).map(|one| [one.rest.share, one.rest.sudden]);
+            // A wall reaches every place on the way; the steady motion still fits, but next to resonance.
+            let fits = (steady < 0.49).then_some([1.0 - steady / 0.49, 0.0]);
+            let alike = match (left, fits) {
+                (Some(left), Some(fits)) => (left[0] - fits[0]).abs() < 1e-9 && left[1] == fits[1],
+                (left, fits) => left.is_none() && fits.is_none(),
+            };
+            assert!(alike, "{zeta} {omega}: {left:?} {fits:?}");
+            let none = AtRest::of(&half.with_clearance_scaled(0.999 * steady).expect("valid"));
+            assert!(none.is_none(), "{zeta} {omega}: {none:?}");
         }
     }
 
@@ -456,7 +494,7 @@ mod tests {
         };
         for (a, f) in [(0.1, 0.0), (0.1, 0.04), (0.03, 0.1), (0.0, 0.1)] {
             let held = of(0.4, a, f).expect("held");
-            assert_eq!(held.rest.share, 1.0);
+            assert_eq!([held.rest.share, held.rest.sudden], [1.0; 2]);
             assert_eq!(of(1.05, a, f).is_some(), a == 0.0, "{a} {f}");
         }
         // Sliding: what slides against 40 times the friction moves as simulation says.
@@ -468,11 +506,20 @@ mod tests {
         let mut measured = Measurement::begin(&system, simulation.state());
         simulation.run(50, u64::MAX, &mut measured);
         assert_eq!(simulation.impacts(), 0);
-        assert!(found.rest.share > 0.2 && found.rest.share < 0.9, "{found:?}");
+        assert!(found.rest.sudden > 0.2 && found.rest.sudden < 0.9, "{found:?}");
         let peak = measured.statistics().peak();
         assert!((found.facts.peak.value / peak - 1.0).abs() < 1e-6, "{found:?} {peak}");
         // Second order: (4 f/(pi X))^2 is 0.4 %; without friction it would be 3 % larger.
-        let amplitude = sliding_amplitude(&system, f).expect("slides");
+        let (amplitude, share) = sliding_amplitude(&system, f).expect("slides");
         assert!((amplitude / peak - 1.0).abs() < 4e-3, "{amplitude} {peak}");
+        // A wall begins to reach it that much off the middle, from which a transient took it by less than a tenth of that.
+        assert_eq!(found.rest.share, share);
+        for (factor, stays) in [(0.9, true), (1.1, false)] {
+            let mut start = found.state;
+            start.y += factor * share;
+            let mut simulation = Simulation::new(&system, start, 0.0).expect("inside");
+            simulation.run(LAST, u64::MAX, &mut ());
+            assert_eq!(simulation.impacts() == 0, stays, "{factor} {found:?}");
+        }
     }
 }

@@ -29,6 +29,9 @@ pub fn inactive(
         "at": at,
         "share": Quantity::new(&of::INACTIVE_SHARE, rest.share, of),
         "within": scale.units.quantity(&of::CLEARANCE, rest.share, of),
+        // Those from which it does so when the excitation begins at once.
+        "sudden_share": Quantity::new(&of::SUDDEN_SHARE, rest.sudden, of),
+        "sudden_within": scale.units.quantity(&of::CLEARANCE, rest.sudden, of),
         "why_not": motion.why_not(counts),
     });
     // Held or sliding; else it floats in the middle of its cavity.

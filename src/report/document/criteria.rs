@@ -107,6 +107,8 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
         "records": judged.records,
         // Share of the resting places from which the absorber stays inactive, where that motion decides.
         "inactive_share": judged.inactive.map(share),
+        // That of an absorber at rest with which it would not hold, where it is too small to count.
+        "but_at_rest": judged.but_at_rest.map(share),
         // The motion that decides, in the list of its place.
         "motion": judged.motion.map(Motions::id),
         // Excitation periods after which a motion that could decide otherwise was still settling.

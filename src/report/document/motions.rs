@@ -60,6 +60,8 @@ fn one(scale: &Scale, motions: &Motions, index: usize, count_rest: bool) -> Opti
         "efficiency": motion.facts().efficiency,
         // How an absorber at rest rests.
         "rest": motion.rest().map(|rest| rest.rest),
+        // Its share of resting places when the excitation begins at once.
+        "sudden_share": motion.rest().map(|rest| rest.sudden),
         "starts": motion.reached().starts,
         "of_starts": motions.of_starts(),
         "share": motions.share(motion),
