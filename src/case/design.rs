@@ -89,7 +89,9 @@ static PHYSICAL: Writing = Writing {
         MassRatio = absorber.mass_ratio, MASS_RATIO { absorber_mass_kg over mass_kg }
         Mass = oscillator.mass, OSCILLATOR_MASS { mass_kg }
         Stiffness = oscillator.stiffness, STIFFNESS { stiffness_n_per_m }
+        // By its stiffness: mass and damping ratio stay.
         NaturalFrequency = oscillator.frequency, NATURAL_FREQUENCY { |held| held.natural_frequency_rad_per_s() / TAU, |value| {
+            held.damping_n_s_per_m *= TAU * value / held.natural_frequency_rad_per_s();
             held.stiffness_n_per_m = held.mass_kg * (TAU * value) * (TAU * value);
         } }
         Damping = oscillator.damping, DAMPING { damping_n_s_per_m }

@@ -28,7 +28,7 @@ impl Case {
         Some(Self { band, ..self.with_design(design)? })
     }
 
-    /// The same of a structure with so many times the natural frequency, by its stiffness: mass and damping constant stay.
+    /// The same of a structure with so many times the natural frequency, by its stiffness: mass, force and damping ratio stay.
     /// None where there is none, as of a reduced case that is not driven steadily, whose time is that of its structure.
     pub(crate) fn with_natural_frequency(&self, factor: f64) -> Option<Self> {
         let mut design = self.design;
@@ -40,7 +40,6 @@ impl Case {
             Design::Reduced(of) if of.transient.is_none() => {
                 of.frequency_ratio = Some(of.frequency_ratio() / factor);
                 of.detuning = None;
-                of.damping /= factor;
                 of.cavity = of.cavity.with_clearance_scaled(factor * factor);
                 if of.excitation == Excitation::Force {
                     of.forcing /= factor * factor;

@@ -7,7 +7,7 @@ use super::sensors::{measured, measures, sensors};
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
 use crate::measure::PlaceMeasure;
-use crate::motions::{ModalMotion, longest_flight, modal_motions};
+use crate::motions::{ModalMotion, longest_flight, modal_motions, worst_between};
 use crate::numerics::scan;
 
 /// What is known along a load.
@@ -122,8 +122,7 @@ impl AlongLoad {
         Ok(Self { load: *load, bare: bare.collect(), places, modes })
     }
 
-    /// The worst of a place; none where no motion was found. Between the frequencies it may be worse by as much as the top of the
-    /// parabola through the worst and its neighbours is higher.
+    /// The worst of a place; none where no motion was found. Between the frequencies it may be worse as [`worst_between`] has it.
     pub fn worst(&self, load: usize, place: usize, asked: PlaceMeasure) -> Option<WorstOfPlace> {
         let motions = || {
             let each = self.places.iter().enumerate();
@@ -169,16 +168,14 @@ impl AlongLoad {
         })
     }
 
-    /// By how much it may be more, where absorbers move, than at the frequency where it is most: the top of the parabola through that
-    /// and its neighbours.
+    /// By how much it may be more, where absorbers move, beside the frequency where it is most.
     fn between(&self, k: usize, place: usize, asked: PlaceMeasure, value: f64) -> f64 {
-        let at = self.places[k].at;
-        let beside = |there: Option<&AtFrequency>| {
-            let there = there?;
-            Some([there.at - at, there.largest(place, asked, false)? - value])
-        };
-        let [left, right] = neighbours(&self.places, k).map(beside);
-        left.zip(right).map_or(0.0, |(left, right)| top_above(left, right))
+        let number = |there: &AtFrequency| Some([there.at, there.largest(place, asked, false)?]);
+        let [left, right] = neighbours(&self.places, k).map(|there| there.and_then(number));
+        let around: Vec<[f64; 2]> =
+            left.into_iter().chain([[self.places[k].at, value]]).chain(right).collect();
+        let gaps = (1..around.len()).map(|gap| worst_between(&around, gap));
+        gaps.fold(value, f64::max) - value
     }
 }
 
@@ -204,16 +201,6 @@ impl AtFrequency {
         let motions = self.counting().filter(|one| rests || !one.rests());
         motions.map(|one| measured(one, place, asked)[0]).max_by(f64::total_cmp)
     }
-}
-
-/// By how much the top of the parabola through the origin and two points to its left and right, which are no higher, is above the
-/// origin.
-fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -> f64 {
-    // y = p x + c x^2.
-    let [a, b] = [below_left / left, below_right / right];
-    let c = (b - a) / (right - left);
-    let p = a - c * left;
-    if c < 0.0 { (-0.25 * p * p / c).max(0.0) } else { 0.0 }
 }
 
 /// The next frequencies to either side of one, but for those that are almost the same.

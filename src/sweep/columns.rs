@@ -185,6 +185,8 @@ fn number(recorded: Recorded, facts: &PointFacts, found: &PointMotions) -> Optio
     let main = || motions.main();
     // A point has no criteria of its own: what the case leaves out is not for it to say.
     let counting = || motions.counting(true).map(|(_, motion)| motion);
+    let peak = |motion: &&Motion| motion.facts().peak.value;
+    let largest = || counting().max_by(|a, b| peak(a).total_cmp(&peak(b)));
     match recorded {
         Recorded::TheoryPeak => facts.theory_peak().map(length),
         Recorded::BoundaryDistance => facts.boundary_distance(),
@@ -202,15 +204,13 @@ fn number(recorded: Recorded, facts: &PointFacts, found: &PointMotions) -> Optio
             let all = f64::from(motions.of_starts().max(1));
             Some(f64::from(main()?.reached().starts) / all)
         }
-        Recorded::LargestPeak => {
-            let peaks = counting().map(|motion| motion.facts().peak.value);
-            peaks.max_by(f64::total_cmp).map(length)
-        }
+        Recorded::LargestPeak => largest().map(|motion| length(motion.facts().peak.value)),
         Recorded::Motions => Some(counting().count() as f64).filter(|_| !motions.is_empty()),
         other => {
-            let (main, bare) = (main()?, facts.bare().unwrap_or(f64::INFINITY));
+            let motion = if other == Recorded::ReductionDb { largest() } else { main() }?;
+            let bare = facts.bare().unwrap_or(f64::INFINITY);
             let of = other.asked().0;
-            of.of_motion(main, &|fact| fact.of(main), bare, units).map(|[value, _]| value)
+            of.of_motion(motion, &|fact| fact.of(motion), bare, units).map(|[value, _]| value)
         }
     }
 }

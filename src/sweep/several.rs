@@ -9,8 +9,10 @@ use crate::criteria::together;
 use crate::executor::Serial;
 use crate::measure::Device;
 use crate::modal::{ModalAnswer, seconds};
+use crate::motions::ModalMotion;
 use crate::quantity::catalogue::ROOM;
 use crate::quantity::{Dimension, Kind};
+use crate::simulation::Reading;
 use crate::system::Parameter;
 
 /// What is worked out at every point of a structure of several modes.
@@ -19,6 +21,12 @@ pub struct ModalPlan {
     /// Its points.
     pub grid: Grid,
     case: ModalCase,
+}
+
+/// The largest displacement of any place in a motion.
+fn peak(motion: &ModalMotion) -> f64 {
+    let all = motion.read(Reading::Displacement).map(|one| one.peak);
+    all.fold(0.0, f64::max)
 }
 
 /// The column that says whether all limits hold.
@@ -83,8 +91,11 @@ impl ModalPlan {
             .iter()
             .map(|axis| number(axis.parameter.key(), self.case.kind(axis.parameter).dimension));
         columns.extend(axes);
-        columns.push(number("peak", Dimension::Length));
-        columns.push(number("error_of_peak", Dimension::Length));
+        if self.at_a_frequency() {
+            columns.push(number("peak", Dimension::Length));
+        }
+        columns.push(number("largest_peak", Dimension::Length));
+        columns.push(number("error_of_largest_peak", Dimension::Length));
         columns.push(number("bare_amplitude", Dimension::Length));
         columns.push(number("reduction_db", Dimension::Level));
         match self.at_a_frequency() {
@@ -121,17 +132,18 @@ impl ModalPlan {
         let number = |value: f64| Some(Cell::Number(value));
         let Some(worst) = answer.worst(None) else { return Vec::new() };
         let bare = answer.bare();
-        let mut cells = vec![
+        let here = self.at_a_frequency().then(|| &answer.along[0].places[0]);
+        // The most common comes first.
+        let main = here.map(|here| number(peak(here.motions.first()?)));
+        let mut cells: Vec<Option<Cell>> = main.into_iter().collect();
+        cells.extend([
             number(worst.value),
             number(worst.error),
             number(bare),
             // What is certain of it.
             number(20.0 * libm::log10(bare / (worst.value + worst.error))),
-        ];
-        cells.push(match self.at_a_frequency() {
-            true => number(answer.along[0].places[0].motions.len() as f64),
-            false => number(worst.at),
-        });
+            here.map_or_else(|| number(worst.at), |here| number(here.counting().count() as f64)),
+        ]);
         if let Some(outcome) = together(&answer.criteria()) {
             cells.push(Some(Cell::Text(outcome.name())));
             let rooms = answer

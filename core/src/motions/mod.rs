@@ -17,6 +17,7 @@
 //! Lengths are over the clearance, in fast time.
 
 mod along;
+mod between;
 mod cluster;
 mod facts;
 mod flight;
@@ -40,6 +41,7 @@ mod watch;
 use serde::Serialize;
 
 pub use along::{Along, along};
+pub use between::worst_between;
 pub use facts::{Facts, Value};
 pub use follow::{DiagramError, DiagramPoint, SweepDirection, carried_over, follow, sweep};
 pub use identity::orbit_of;

@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 
+use super::between::worst_between;
 use super::stability::Extreme;
 use super::{Effort, Motion, MotionKind, Motions, Place, motions};
 use crate::executor::Executor;
@@ -391,15 +392,19 @@ impl Motions {
     }
 }
 
-/// The worst that a number may be between two neighbouring places: the worse of theirs and half of the
-/// range of the four places around. Around a smooth top, whose neighbours are lower by as much as it is
-/// from its own, that is enough; steep flanks and scatter make it wide.
+/// The worst that a number may be between two neighbouring places.
 fn possible(spots: &[Spot], right: usize, of: Extreme) -> Option<f64> {
-    let around = &spots[right.saturating_sub(2)..spots.len().min(right + 2)];
     // Where nothing moves nothing is large; how small it is is not known.
     let value = |spot: &Spot| spot.worst(of).or((!of.least).then_some(0.0));
-    let values = || around.iter().filter_map(value);
-    let range = values().max_by(f64::total_cmp)? - values().min_by(f64::total_cmp)?;
-    let worse = spots[right - 1..=right].iter().filter_map(value).max_by(f64::total_cmp)?;
-    Some(worse + 0.5 * range)
+    let place = |spot: &Spot| Some([spot.at, value(spot)?]);
+    let [one, other] = [&spots[right - 1], &spots[right]];
+    // An end at which nothing is known is taken for as bad as the other.
+    let left_end = [one.at, value(one).or_else(|| value(other))?];
+    let right_end = [other.at, value(other).or_else(|| value(one))?];
+    let before = right.checked_sub(2).and_then(|k| place(&spots[k]));
+    let after = spots.get(right + 1).and_then(place);
+    let gap = 1 + usize::from(before.is_some());
+    let around: Vec<[f64; 2]> =
+        before.into_iter().chain([left_end, right_end]).chain(after).collect();
+    Some(worst_between(&around, gap))
 }

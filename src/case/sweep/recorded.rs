@@ -53,7 +53,7 @@ names! { key:
         Acceleration = "acceleration",
         /// Its root mean square acceleration of the oscillator between impacts.
         RmsAcceleration = "rms_acceleration",
-        /// Its reduction of the peak against the oscillator alone.
+        /// Reduction of the largest peak of any motion that counts against the oscillator alone.
         ReductionDb = "reduction_db",
         /// Share of the excitation's work that its impacts dissipate.
         Efficiency = "efficiency",
@@ -67,7 +67,7 @@ names! { key:
         Section = "section",
         /// Share of the starts that lead to it.
         ShareOfStarts = "share_of_starts",
-        /// Largest peak of any motion that a start leads to.
+        /// Largest peak of any motion that counts.
         LargestPeak = "largest_peak",
         /// Number of distinct motions that starts lead to.
         Motions = "motions",

@@ -141,6 +141,8 @@ struct Counted<'a> {
     present: Vec<(Regime, usize)>,
     /// Those of [`RANGED`] that have values.
     ranged: Vec<(Recorded, Numbers)>,
+    /// The largest peaks of any motion.
+    largest: Option<Numbers>,
     /// Peaks of the exact orbit where it attracts.
     orbit: Option<Numbers>,
 }
@@ -155,8 +157,9 @@ impl<'a> Counted<'a> {
         let mut ranged: Vec<(Recorded, Numbers)> =
             RANGED.into_iter().filter_map(|of| Some((of, swept.numbers(of, direction)?))).collect();
         ranged.retain(|(_, column)| column.iter().any(Option::is_some));
+        let largest = swept.numbers(Recorded::LargestPeak, direction);
         let orbit = swept.numbers(Recorded::OrbitPeak, Direction::Single);
-        Self { swept, direction, regimes, present, ranged, orbit }
+        Self { swept, direction, regimes, present, ranged, largest, orbit }
     }
 
     fn motions(&self) -> Value {
@@ -167,7 +170,7 @@ impl<'a> Counted<'a> {
             // Quantities of which each regime and stretch has a smallest and a largest value.
             "ranged": self.ranged.iter().filter_map(|(of, _)| Some(of.kind()?.id)).collect::<Vec<_>>(),
             "regimes": self.regimes(),
-            "smallest_peak": self.extreme(Recorded::Peak, -1.0),
+            "smallest_peak": self.extreme(self.peaks(), -1.0),
             "reduction": self.reduction(),
             "coexistence": self.coexistence(),
             "more_stretches": stretches.len().saturating_sub(MOST_STRETCHES),
@@ -176,9 +179,7 @@ impl<'a> Counted<'a> {
             "theory": self.theory(),
             "orbit": self.orbit(),
         });
-        if let Some(largest) =
-            self.extreme(Recorded::Peak, 1.0).filter(|_| self.swept.is_of_several())
-        {
+        if let Some(largest) = self.extreme(Recorded::LargestPeak, 1.0) {
             facts["largest_peak"] = largest;
         }
         if let Some(decay) = self.decay() {
@@ -190,14 +191,23 @@ impl<'a> Counted<'a> {
     /// Points with a motion.
     fn worked_out(&self) -> usize {
         let rms = self.swept.numbers(Recorded::Rms, self.direction);
-        let columns = || self.ranged.iter().map(|(_, column)| column).chain(&rms);
+        let columns =
+            || self.ranged.iter().map(|(_, column)| column).chain(&rms).chain(&self.largest);
         let is_there = |point: &usize| {
             self.regimes[*point].is_some() || columns().any(|column| column[*point].is_some())
         };
         (0..self.swept.points()).filter(is_there).count()
     }
 
+    /// What a point is held against another by: the largest peak of any motion, where it is recorded.
+    fn peaks(&self) -> Recorded {
+        if self.largest.is_some() { Recorded::LargestPeak } else { Recorded::Peak }
+    }
+
     fn column(&self, of: Recorded) -> Option<&Numbers> {
+        if of == Recorded::LargestPeak {
+            return self.largest.as_ref();
+        }
         self.ranged.iter().find(|(one, _)| *one == of).map(|(_, column)| column)
     }
 

@@ -101,7 +101,7 @@ impl Band {
     }
 
     /// The same excitation of a structure whose natural frequency is `factor` times as high, by its
-    /// stiffness: mass and damping constant stay. Lengths stay over the clearance, places are over the new
+    /// stiffness: mass, force and damping ratio stay. Lengths stay over the clearance, places are over the new
     /// natural frequency. `None` where no system has such values.
     pub fn with_structure_detuned(&self, factor: f64) -> Option<Self> {
         let parameters = self.base.parameters();
@@ -110,7 +110,6 @@ impl Band {
             Excitation::BaseDisplacement => 1.0,
         };
         let base = System::new(Parameters {
-            damping: parameters.damping / factor,
             frequency_ratio: parameters.frequency_ratio / factor,
             forcing_per_clearance: parameters.forcing_per_clearance / over_stiffness,
             cavity: parameters.cavity.with_clearance_scaled(factor * factor),

@@ -23,13 +23,14 @@ const WORDS: &str = "captions/sweep-line";
 
 pub(super) fn all(swept: &Swept, axis: &AxisShown) -> Vec<Figure> {
     let diagram = LineDiagram { swept, axis, directions: swept.directions() };
-    let values = |of: fn(Recorded) -> bool| {
-        let some = QUANTITIES.iter().filter(move |(_, one, _)| of(*one));
-        some.filter_map(|(name, one, _)| diagram.values(name, *one))
+    let values = |of: &dyn Fn(Recorded) -> bool| {
+        let some = QUANTITIES.iter().filter(|(_, one, _)| of(*one));
+        some.filter_map(|(name, one, _)| diagram.values(name, *one)).collect::<Vec<Figure>>()
     };
-    let mut figures: Vec<Figure> = values(|one| one == Recorded::DecayTime).collect();
+    let mut figures = values(&|one| one == Recorded::DecayTime);
     figures.extend(diagram.peaks().into_iter().chain(diagram.section()));
-    figures.extend(values(|one| !matches!(one, Recorded::DecayTime | Recorded::Peak)));
+    let drawn = [Recorded::DecayTime, Recorded::LargestPeak, Recorded::Peak];
+    figures.extend(values(&|one| !drawn.contains(&one)));
     figures
 }
 
@@ -66,7 +67,10 @@ impl LineDiagram<'_> {
         let facts = json!({
             "of": of.id, "x": self.axis.kind.id, "x_ends": self.axis.ends(),
             "followed": self.directions.len() > 1, "steady": self.swept.is_steady(), "several": self.swept.is_of_several(),
-            "simulated": self.directions.iter().any(|way| self.swept.cells(Recorded::Peak.key(), *way).is_some())
+            "simulated": self.directions.iter().any(|way| {
+                let is_there = |of: Recorded| self.swept.cells(of.key(), *way).is_some();
+                is_there(Recorded::Peak) || is_there(Recorded::LargestPeak)
+            }),
         });
         Some(Figure::new(name, "").with_panel(panel).with_facts(WORDS, facts))
     }
@@ -100,7 +104,11 @@ impl LineDiagram<'_> {
         let of = |recorded| self.swept.numbers(recorded, Direction::Single);
         let [orbit, largest] = [Recorded::OrbitPeak, Recorded::LargestPeak].map(of);
         let beside = self.beside(Recorded::Peak);
-        let peaks = self.swept.in_directions(Recorded::Peak);
+        let mut peaks = self.swept.in_directions(Recorded::Peak);
+        // Over a range of frequencies no motion is the most common one.
+        if peaks.is_empty() {
+            peaks = self.swept.in_directions(Recorded::LargestPeak);
+        }
         let all = peaks.iter().map(|(_, one)| one).chain(beside.iter().map(|(one, _)| one));
         let y = self.swept.axis_of(&PEAK, all.chain(&orbit));
         let mut layers = self.lines(&beside);

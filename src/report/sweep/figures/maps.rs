@@ -52,6 +52,7 @@ pub(super) fn all(swept: &Swept) -> Vec<Figure> {
     let first = regimes(swept).or_else(|| areas(swept)).or_else(|| limits(swept));
     let mut maps: Vec<Map> = first.into_iter().collect();
     maps.extend(QUANTITIES.iter().filter_map(|(name, of, ramp)| panels.values(name, *of, *ramp)));
+    maps.dedup_by(|next, before| next.name == before.name);
     maps.extend(motions(swept));
     maps.iter().filter_map(|map| panels.figure(map)).collect()
 }

@@ -9,10 +9,12 @@ use super::Swept;
 use crate::case::Recorded;
 use crate::report::figure::{Figure, Ramp};
 
-/// What has a map, or a diagram over one axis, of its own: the figure's name, the quantity, the colours.
-const QUANTITIES: [(&str, Recorded, Ramp); 8] = [
+/// What has a map, or a diagram over one axis, of its own: the figure's name, the quantity, the colours; of one name the first
+/// that is recorded.
+const QUANTITIES: [(&str, Recorded, Ramp); 9] = [
     ("sweep-decay-time", Recorded::DecayTime, Ramp::Sequential),
     ("sweep-reduction", Recorded::ReductionDb, Ramp::Diverging),
+    ("sweep-amplitude", Recorded::LargestPeak, Ramp::Sequential),
     ("sweep-amplitude", Recorded::Peak, Ramp::Sequential),
     ("sweep-reduction-tmd", Recorded::ReductionDbTmd, Ramp::Diverging),
     ("sweep-peak-frequency", Recorded::PeakFrequency, Ramp::Sequential),
