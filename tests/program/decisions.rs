@@ -50,14 +50,14 @@ fn without_deviations(text: &str) -> &str {
     text.split_once("[uncertainty]").expect("its last table").0
 }
 
-/// The peak hides between even places: at 10.66 mm it is 133.4 mm at 2.0835 Hz, at 50 mm 97.7 mm, and at
-/// 104.4 mm irregular motions have 75 mm and an absorber that never wakes 94 mm (`peers/brute`, 231
-/// frequencies).
+/// The peak hides between even places: at 10.66 mm it is 133.4 mm at 2.0835 Hz, at 50 mm 97.7 mm (`peers/brute`, 231
+/// frequencies). At 104.4 mm irregular motions have 75 mm, an absorber that a sudden start does not wake 94 mm, and one that
+/// a force which grows slowly leaves one place in a hundred 99 % of the clearance.
 #[test]
 fn the_worst_of_a_band_is_that_of_a_dense_scan() {
     let folder = tempfile::tempdir().expect("a folder");
     for (clearance, truth) in
-        [("10.66", 0.1334), ("14.4", 0.1270), ("50", 0.0977), ("104.4", 0.0937)]
+        [("10.66", 0.1334), ("14.4", 0.1270), ("50", 0.0977), ("104.4", 0.99 * 0.1044)]
     {
         let path = changed(
             folder.path(),

@@ -198,7 +198,7 @@ fn the_command_writes_a_table_and_a_page() {
     let most = rooms.map(|row| number(row, "room")).fold(f64::NEG_INFINITY, f64::max);
     assert_eq!(document["limits"]["best"]["of"]["value"], most);
     for row in &cells[1..] {
-        let most = number(row, "peak") + number(row, "error_of_peak");
+        let most = number(row, "largest_peak") + number(row, "error_of_largest_peak");
         let left = 20.0 * libm::log10(number(row, "bare_amplitude") / most);
         assert!((number(row, "reduction_db") - left).abs() < 1e-9, "{row:?}");
     }
