@@ -20,6 +20,7 @@ mod inputs;
 mod modal;
 mod number;
 mod number_table;
+mod one;
 mod optimize;
 mod parameter;
 mod peer;
@@ -82,6 +83,7 @@ use crate::excitation::Scene;
 use crate::motions::{BandEffort, Effort};
 use crate::quantity::Units;
 use crate::system::{Band, System};
+use one::OneMode;
 use reader::{Reader, Table};
 
 /// A design case: what its file says, and the system that follows from it.
@@ -241,14 +243,38 @@ impl Case {
         let refused = |problems, more| CaseError::new(name, visible, problems, more);
         let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
         let mut reader = Reader::of(visible);
-        match read(&mut reader, &document, text_sha256(text)) {
+        let lists = OneMode::of(&document);
+        let (document, shape) = match &lists {
+            Some(one) => (&one.document, one.shape),
+            None => (&document, 1.0),
+        };
+        let case = read(&mut reader, document, text_sha256(text));
+        let case = case.and_then(|case| case.with_shape(shape));
+        match case {
             Some(mut case) if reader.problems.is_empty() => {
                 case.text = Arc::from(visible);
                 case.warnings = warnings::of(&case);
                 Ok(case)
             }
-            _ => Err(refused(reader.problems, reader.more)),
+            // What is wrong with lists is told of lists.
+            _ => match ModalCase::parse(name, text) {
+                Err(error) if lists.is_some() => Err(error),
+                _ => Err(refused(reader.problems, reader.more)),
+            },
         }
+    }
+
+    /// The same where the absorber's place moves by so much of what its mass is of: the mass there is that over the square.
+    fn with_shape(self, shape: f64) -> Option<Self> {
+        let Design::Physical(mut of) = self.design else { return Some(self) };
+        if shape * shape == 1.0 {
+            return Some(self);
+        }
+        let scale = 1.0 / (shape * shape);
+        of.mass_kg *= scale;
+        of.stiffness_n_per_m *= scale;
+        of.damping_n_s_per_m *= scale;
+        self.with_design(Design::Physical(of))
     }
 
     /// Whether a criterion is of velocity or acceleration of the structure.

@@ -257,7 +257,7 @@ impl Reader<'_> {
 }
 
 /// A number without a unit, whole or not.
-fn plain_number(value: &DeValue) -> Option<f64> {
+pub(super) fn plain_number(value: &DeValue) -> Option<f64> {
     let number = match value {
         // A whole number too long for an integer is still a number.
         DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())

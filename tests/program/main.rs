@@ -8,6 +8,7 @@ mod common;
 mod band;
 #[cfg(unix)]
 mod book;
+mod both_writings;
 mod browser;
 mod case;
 mod case_properties;

@@ -24,6 +24,7 @@ use super::comment;
 use super::criteria::Criterion;
 use super::document;
 use super::error::{CaseError, Problem};
+use super::one::OneMode;
 use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::contact::Impacts;
@@ -223,7 +224,7 @@ pub fn is_modal(text: &str) -> bool {
     let Ok(document) = document::parse(text.strip_prefix('\u{feff}').unwrap_or(text)) else {
         return false;
     };
-    tells_several(&document).is_some()
+    tells_several(&document).is_some() && OneMode::of(&document).is_none()
 }
 
 /// The path of the file that the modes of a text are in, relative to the case file.
