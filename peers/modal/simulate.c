@@ -2,7 +2,9 @@
    modes and excitation, and bisection of each contact: shares no code and no method with the engine, which proves its impacts.
    Reads, in SI units: modes N, absorbers M; of each mode its frequency in Hz, damping ratio, mass, force, participation and its shape
    at the place that is watched and at each absorber; of each absorber mass, clearance and restitution; the excitation's frequency in
-   Hz, the amplitude of the base, a seed, periods that are left out and periods that are measured. Prints the largest displacement of
+   Hz, the amplitude of the base, a seed, periods that are left out and periods that are measured; and, if there is one more number,
+   which absorbers rest, 1 for the first, 2 for the second, 4 for the third: the structure moves without them through half of the
+   periods that are left out, then each is put somewhere in its cavity without a velocity. Prints the largest displacement of
    the place in m, its root mean square, the same of its velocity and of its acceleration between contacts, the largest jump of its
    velocity, impacts of each absorber in a period, and the phase of the last impact of each, over the period, with its speed then.
    cc -O2 simulate.c -lm */
@@ -15,6 +17,7 @@ static int modes, absorbers;
 static double w[MOST], damping[MOST], mass[MOST], force[MOST], watched[MOST], shape[MOST][MOST], base;
 static double participation[MOST], ball[MOST], clearance[MOST], restitution[MOST], omega;
 static double q[MOST], v[MOST], y[MOST], u[MOST];
+static int absent[MOST];
 static double steady[MOST][2];
 /* What a whole step makes of a free motion. */
 static double whole[MOST][4];
@@ -65,7 +68,7 @@ static int beyond(double t)
     double most = 1, moved = base * sin(omega * t);
     for (int j = 0; j < absorbers; j++) {
         double gap = fabs(at(j, q, moved) - y[j]) / clearance[j];
-        if (gap > most) worst = j, most = gap;
+        if (!absent[j] && gap > most) worst = j, most = gap;
     }
     return worst;
 }
@@ -112,7 +115,9 @@ int main(void)
     /* In coordinates against the base a force that its acceleration makes. */
     for (int k = 0; k < modes; k++) force[k] += mass[k] * participation[k] * omega * omega * base;
     srand((unsigned)number());
-    double fastest = omega, out = number(), measured = number();
+    double fastest = omega, out = number(), measured = number(), rest;
+    if (scanf("%lf", &rest) != 1) rest = 0;
+    for (int j = 0; j < absorbers; j++) absent[j] = ((int)rest >> j) & 1;
     double share = 1.2 * rand() / RAND_MAX, moving = base * omega;
     long impacts[MOST] = {0};
     double last[MOST][2] = {{0}};
@@ -135,6 +140,13 @@ int main(void)
     long steps = (long)(out + measured) * each, first = (long)out * each;
     for (long i = 0; i < steps; i++) {
         double t = (double)(i % each) * step, left = step;
+        for (int j = 0; j < absorbers && i == first / 2; j++) {
+            if (!absent[j]) continue;
+            double now = at(j, q, base * sin(omega * t)), place = clearance[j] * (2.0 * rand() / RAND_MAX - 1);
+            /* It is inside of its walls now. */
+            y[j] = fmax(now - 0.999 * clearance[j], fmin(now + 0.999 * clearance[j], place));
+            u[j] = 0, absent[j] = 0;
+        }
         /* So many contacts in a step are of chatter, whose rest is lost. */
         for (int contacts = 0; left > 0; contacts++) {
             double q0[MOST], v0[MOST], y0[MOST];

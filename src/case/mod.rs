@@ -256,11 +256,10 @@ impl Case {
                 case.warnings = warnings::of(&case);
                 Ok(case)
             }
-            // What is wrong with lists is told of lists.
-            _ => match ModalCase::parse(name, text) {
-                Err(error) if lists.is_some() => Err(error),
-                _ => Err(refused(reader.problems, reader.more)),
-            },
+            _ => {
+                let told = |problem| if lists.is_some() { one::of_lists(problem) } else { problem };
+                Err(refused(reader.problems.into_iter().map(told).collect(), reader.more))
+            }
         }
     }
 

@@ -11,6 +11,7 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::error::Problem;
 use super::number::plain_number;
 use crate::quantity::Dimension;
 
@@ -35,7 +36,9 @@ const WHOLE: f64 = 1e-9;
 impl<'t> OneMode<'t> {
     /// None where there are several of something, or it says what the other form cannot.
     pub fn of(document: &DeTable<'t>) -> Option<Self> {
-        if ["oscillator", "reduced", "modes", "band"].iter().any(|name| document.contains_key(*name))
+        if ["oscillator", "reduced", "modes", "band"]
+            .iter()
+            .any(|name| document.contains_key(*name))
         {
             return None;
         }
@@ -88,6 +91,17 @@ impl<'t> OneMode<'t> {
     }
 }
 
+/// A problem in the words of lists.
+pub(super) fn of_lists(problem: Problem) -> Problem {
+    let words = |text: String| text.replace("[oscillator]", "[[mode]]");
+    Problem {
+        message: words(problem.message),
+        expected: words(problem.expected),
+        help: problem.help.map(words),
+        ..problem
+    }
+}
+
 fn key<'t>(name: &'static str, span: &Range<usize>) -> Spanned<Cow<'t, str>> {
     Spanned::new(span.clone(), Cow::Borrowed(name))
 }
@@ -117,7 +131,8 @@ fn only<'t>(document: &DeTable<'t>, name: &str) -> Option<(Range<usize>, DeTable
 /// The one place of a mode and its shape there.
 fn shape_of(mode: &DeTable) -> Option<(String, f64)> {
     let known = |key: &str| STRUCTURE.contains(&key) || ["shape", "participation"].contains(&key);
-    if !mode.iter().all(|(key, _)| known(key.get_ref())) {
+    let is_whole = STRUCTURE.iter().all(|key| mode.contains_key(*key));
+    if !is_whole || !mode.iter().all(|(key, _)| known(key.get_ref())) {
         return None;
     }
     let mut places = mode.get("shape")?.get_ref().as_table()?.iter();

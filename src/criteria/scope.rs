@@ -127,9 +127,8 @@ impl Scope<'_> {
     fn too_few(&self, criterion: &Criterion) -> Option<f64> {
         let places = self.survey.motions.places().iter();
         let each = places.flat_map(|(at, here)| here.iter().map(move |one| (*at, 0, one)));
-        let few = each.filter(|one| {
-            one.2.why_not(self.survey.count_rest) == Some(WhyNot::BelowThreshold)
-        });
+        let few = each
+            .filter(|one| one.2.why_not(self.survey.count_rest) == Some(WhyNot::BelowThreshold));
         let fails = few.filter(|one| {
             self.of(criterion, *one).is_some_and(|judged| judged.0.holds == Some(false))
         });

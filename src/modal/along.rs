@@ -30,6 +30,8 @@ pub struct AtFrequency {
     pub at: f64,
     /// The long-term motions.
     pub motions: Vec<ModalMotion>,
+    /// Whether those count in which absorbers rest.
+    pub count_rest: bool,
 }
 
 /// The largest of what is measured of a place along a load, of any motion.
@@ -188,12 +190,12 @@ impl AtFrequency {
     ) -> Result<Self, ModalError> {
         let system = case.system(load, at)?;
         let motions = modal_motions(&system, &sensors(case), starts, case.periods)?;
-        Ok(Self { at, motions })
+        Ok(Self { at, motions, count_rest: case.count_inactive })
     }
 
     /// The motions that count.
     pub fn counting(&self) -> impl Iterator<Item = &ModalMotion> {
-        self.motions.iter().filter(|one| one.counts())
+        self.motions.iter().filter(|one| one.counts(self.count_rest))
     }
 
     /// The largest of what is measured of a place, also with every absorber at rest or not.

@@ -104,20 +104,21 @@ impl ModalOptimum {
         let looked_at = frequencies(case, &own.answer, &limits);
         let most = |n: usize| looked_at.iter().map(|one| one.over[n]).fold(0.0, f64::max);
         let own_cost = cost(&(0..limits.len()).map(most).collect::<Vec<_>>());
-        let (count, sensors) = (numbers(case), sensors(case));
+        let (count, sensors, count_rest) = (numbers(case), sensors(case), case.count_inactive);
         let score = |parts: &[f64], best: f64| {
             let candidate = candidate(case, parts);
             let at_rest = case.loads.iter().flat_map(|load| farthest_at_rest(&candidate, load));
             let at_rest: Vec<ModalMotion> = at_rest.map(|one| one.1).collect();
             let known = best.max(-own_cost);
-            let mut over: Vec<f64> = limits.iter().map(|one| over_limit(&at_rest, one)).collect();
+            let mut over: Vec<f64> =
+                limits.iter().map(|one| over_limit(&at_rest, one, count_rest)).collect();
             for LookedAt { load, at, .. } in &looked_at {
                 let found = candidate.system(load, *at).ok();
                 let found =
                     found.and_then(|system| modal_motions(&system, &sensors, FEW_STARTS, 0).ok());
                 let Some(motions) = found else { return f64::NEG_INFINITY };
                 for (over, limit) in over.iter_mut().zip(&limits) {
-                    *over = over.max(over_limit(&motions, limit));
+                    *over = over.max(over_limit(&motions, limit, count_rest));
                 }
                 if -cost(&over) < known {
                     break;
@@ -166,13 +167,13 @@ fn limits(case: &ModalCase, answer: &ModalAnswer) -> Vec<Limit> {
 }
 
 /// The most of any motion over what is allowed.
-fn over_limit(motions: &[ModalMotion], limit: &Limit) -> f64 {
+fn over_limit(motions: &[ModalMotion], limit: &Limit, count_rest: bool) -> f64 {
     let of = |motion: &ModalMotion| {
         let places = 0..motion.read(limit.measure.reads).count();
         let asked = places.filter(|p| limit.place.is_none_or(|place| place == *p));
         asked.map(|p| measured(motion, p, limit.measure)[0]).fold(0.0, f64::max)
     };
-    motions.iter().filter(|one| one.counts()).map(of).fold(0.0, f64::max) / limit.most
+    motions.iter().filter(|one| one.counts(count_rest)).map(of).fold(0.0, f64::max) / limit.most
 }
 
 /// A load and a frequency that candidates are flown at.
@@ -188,10 +189,12 @@ struct LookedAt {
 fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<LookedAt> {
     let mut found = Vec::new();
     for along in &own.along {
-        let over = |k: usize, one: &Limit| over_limit(&along.places[k].motions, one);
+        let over = |k: usize, one: &Limit| {
+            over_limit(&along.places[k].motions, one, along.places[k].count_rest)
+        };
         let moving = |k: usize, one: &Limit| {
             let all = along.places[k].motions.iter().filter(|one| !one.rests());
-            over_limit(&all.cloned().collect::<Vec<_>>(), one)
+            over_limit(&all.cloned().collect::<Vec<_>>(), one, along.places[k].count_rest)
         };
         let last = along.places.len() - 1;
         let [from, to] = along.load.range_hz;

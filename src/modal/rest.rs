@@ -21,8 +21,8 @@ fn reach_at_rest(case: &ModalCase, load: &Load, at: f64) -> f64 {
 /// wall begins to reach one.
 pub(super) fn farthest_at_rest(case: &ModalCase, load: &Load) -> Vec<(f64, ModalMotion)> {
     let sensors = sensors(case);
-    let at_rest =
-        |at: f64| modal_at_rest(&case.system(load, at).ok()?, &sensors).filter(ModalMotion::counts);
+    let counts = |one: &ModalMotion| one.counts(case.count_inactive);
+    let at_rest = |at: f64| modal_at_rest(&case.system(load, at).ok()?, &sensors).filter(counts);
     let mut all = linear_places(load.range_hz, case);
     // An absorber may be near a node of the structure's motion in a range of frequencies that no two of these hold.
     let reaches: Vec<f64> = all.iter().map(|at| reach_at_rest(case, load, *at)).collect();
@@ -113,7 +113,7 @@ mod tests {
                 let motion = |k: u32| modal_at_rest(&case.system(load, at(k)).ok()?, &sensors);
                 let scanned = (0..=3_000)
                     .filter_map(motion)
-                    .filter(ModalMotion::counts)
+                    .filter(|one| one.counts(true))
                     .map(|one| one.sensors[p].peak);
                 let scanned = scanned.fold(0.0, f64::max);
                 let found = farthest.iter().map(|one| one.1.sensors[p].peak).fold(0.0, f64::max);

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use serde_json::Value;
-use vinesink::case::{Case, Design};
-use vinesink::system::Excitation;
+use vinesink::case::{Case, Design, Rounding, is_modal};
+use vinesink::system::{Excitation, Parameter};
 
 use super::common::random::Random;
 use super::run::vinesink;
@@ -242,6 +242,65 @@ fn one_mode_is_one_structure_however_it_is_written() {
         holds += usize::from(judged["cases"][0]["criteria"][0]["holds"] == true);
     }
     println!("{shipped} shipped of {}, {holds} hold", designs.len());
-    assert!(differ == 0, "{shipped} shipped, {differ} answers of {} differ:\n{told}", designs.len());
+    assert!(
+        differ == 0,
+        "{shipped} shipped, {differ} answers of {} differ:\n{told}",
+        designs.len()
+    );
     assert!(holds > 5 && holds < designs.len() - 5, "{holds}");
+}
+
+const LISTS: &str = "title = 't'\nsource = 's'\n[[mode]]\nfrequency = '180 Hz'\ndamping_ratio = '1 %'\nmass = '0.4 kg'\n\
+    shape = { centre = 2.0 }\n[[absorber]]\nplace = 'centre'\nmass = '4 g'\nclearance = '60 um'\nrestitution = 0.6\n\
+    [[excitation]]\nkind = 'force'\nplace = 'centre'\namplitude = '0.5 N'\nfrom = '165 Hz'\nto = '175 Hz'\n\
+    [criteria]\npeak_displacement = { limit = '<= 0.1 mm', place = 'centre' }\n[uncertainty]\nclearance = '3 um'\n";
+const TABLES: &str = "title = 't'\nsource = 's'\n[oscillator]\nfrequency = '180 Hz'\ndamping_ratio = '1 %'\nmass = '0.1 kg'\n\
+    [absorber]\nmass = '4 g'\nclearance = '60 um'\nrestitution = 0.6\n[excitation]\nkind = 'force'\namplitude = '0.5 N'\n\
+    frequency = '175 Hz'\n[band]\nfrom = '165 Hz'\nto = '175 Hz'\n[criteria]\npeak_displacement = '<= 0.1 mm'\n\
+    [uncertainty]\nclearance = '3 um'\n";
+
+/// At a place where the shape is 2 the mass is a quarter of that of the mode. A range has its own excitation at the structure's
+/// frequency, or at the end next to it; every table of one mode stands beside lists as well.
+#[test]
+fn lists_of_one_are_one_structure() {
+    let parsed = |text: &str| Case::parse("case.toml", text).unwrap_or_else(|e| panic!("{e:?}"));
+    let (lists, tables) = (parsed(LISTS), parsed(TABLES));
+    let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-14;
+    let [one, other] = [&lists, &tables].map(|case| case.system());
+    assert!(close(one.mass_ratio(), other.mass_ratio()) && close(one.mass_ratio(), 0.04));
+    assert!(close(one.damping(), other.damping()));
+    assert!(close(one.forcing_per_clearance(), other.forcing_per_clearance()));
+    assert!(close(one.frequency_ratio(), other.frequency_ratio()));
+    assert_eq!(
+        lists.range().range.map(|end| (end * 1e12).round()),
+        tables.range().range.map(|end| (end * 1e12).round())
+    );
+    assert_eq!(lists.criteria.len(), 1);
+    assert!(lists.uncertainty.parameters().next().is_some());
+    // What stands in lists is changed there.
+    let design = lists.design.with(Parameter::Clearance, 70e-6);
+    let changed = lists.rewritten("case.toml", LISTS, &design, Rounding::Nearest);
+    assert_eq!(changed.expect("a case").text, LISTS.replace("'60 um'", "\"70 um\""));
+
+    // A base moves the structure as it does itself only with phi Gamma = 1.
+    let base = |participation: f64| {
+        let moved = format!("2.0 }}\nparticipation = {participation}");
+        let text = LISTS
+            .replace("2.0 }", &moved)
+            .replace("place = 'centre'\namplitude = '0.5 N'", "amplitude = '1 um'");
+        text.replace("kind = 'force'", "kind = 'base-displacement'")
+    };
+    assert_eq!(parsed(&base(0.5)).system().excitation(), Excitation::BaseDisplacement);
+    let two = "2.0, edge = 0.1 }";
+    let several = [
+        base(0.6),
+        LISTS.replace("2.0 }", two),
+        LISTS.replace("kind = 'force'\nplace = 'centre'", "kind = 'force'\nmode = 1"),
+    ];
+    for text in &several {
+        assert!(is_modal(text), "{text}");
+    }
+    assert!(!is_modal(LISTS) && !is_modal(TABLES));
+    let error = Case::parse("case.toml", &LISTS.replace("'1 %'", "'1 Hz'")).expect_err("no share");
+    assert!(!error.to_string().contains("oscillator"), "{error}");
 }

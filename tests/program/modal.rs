@@ -551,6 +551,23 @@ fn modes_may_be_in_a_universal_file() {
     assert!(told.contains("ends within data set 55") && told.contains("truncated"), "{told}");
 }
 
+/// With a wider cavity the one at midspan may rest while the other impacts, in 4 % of its places. No start leads there.
+#[test]
+fn an_absorber_that_rests_while_the_other_impacts_counts_unless_it_cannot() {
+    let wide = text("cases/several/floor.toml").replacen("0.85 mm", "1.05 mm", 1);
+    let wide = wide.replacen("to = \"5.6 Hz\"", "to = \"5.4 Hz\"", 1);
+    let judged = |text: &str| {
+        let case = ModalCase::parse("case.toml", text).expect("a case");
+        let answer = ModalAnswer::of(&case, &Serial).expect("flown");
+        (answer.judged[0].judged.holds, answer.judged[0].judged.found.expect("a value"))
+    };
+    let (holds, found) = judged(&wide);
+    assert!(holds == Some(false) && found > 1e-3, "{holds:?} {found}");
+    let (holds, awake) =
+        judged(&wide.replacen("[criteria]", "[criteria]\ncount_inactive = false", 1));
+    assert!(holds == Some(true) && awake < 0.8e-3, "{holds:?} {awake}");
+}
+
 /// Absorbers that rest move the structure up to where a wall reaches all but a hundredth of their places: between two frequencies of
 /// a search, where the structure alone moves by 99 % of the clearance.
 #[test]

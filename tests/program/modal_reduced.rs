@@ -187,7 +187,10 @@ fn it_is_optimised_and_swept_in_its_own_units() {
     let output = vinesink(&["sweep", &path, "--out", &out, "--csv"]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let table = fs::read_to_string(format!("{out}/case/sweep.csv")).expect("written");
-    assert!(table.starts_with("point,clearance,absorber_mass,largest_peak,error_of_largest_peak,"), "{table}");
+    assert!(
+        table.starts_with("point,clearance,absorber_mass,largest_peak,error_of_largest_peak,"),
+        "{table}"
+    );
     let page = fs::read_to_string(format!("{out}/case/sweep.md")).expect("written");
     // A mass of 0.8 is 0.04 of the first mode's, 20.
     assert!(page.contains("from 0.02 m₁ to 0.04 m₁"), "{page}");

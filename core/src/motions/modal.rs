@@ -555,9 +555,9 @@ impl ModalMotion {
     }
 
     /// Whether it is one that may be met: a start led to it, or absorbers that rest do so in a share of their places that is not
-    /// negligible.
-    pub fn counts(&self) -> bool {
-        self.starts > 0 || self.rest_share().is_none_or(|share| share >= NEGLIGIBLE)
+    /// negligible; none in which one rests where these do not count.
+    pub fn counts(&self, count_rest: bool) -> bool {
+        self.rest_share().is_none_or(|share| count_rest && (self.starts > 0 || share >= NEGLIGIBLE))
     }
 
     /// What sensors of a kind read, in their order.

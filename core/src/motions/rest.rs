@@ -155,7 +155,8 @@ impl RestCandidate {
             let amplitude = held.steady.amplitude();
             return Some(Self { rest: RestKind::Held, share: 1.0, amplitude });
         }
-        let (amplitude, share) = if a == 0.0 { sliding_amplitude(system, f)? } else { return None };
+        let (amplitude, share) =
+            if a == 0.0 { sliding_amplitude(system, f)? } else { return None };
         Some(Self { rest: RestKind::Sliding, share, amplitude })
     }
 
@@ -204,8 +205,7 @@ impl Floating {
         };
         let largest = largest_from_rest(forced, free, zeta, (natural - omega).abs());
         // Without damping the free part stays.
-        let amplitude =
-            if zeta == 0.0 && largest < 1.0 { largest } else { steady.amplitude() };
+        let amplitude = if zeta == 0.0 && largest < 1.0 { largest } else { steady.amplitude() };
         Some(Self { amplitude, share: 1.0 - amplitude, sudden: (1.0 - largest).max(0.0), state })
     }
 }
@@ -267,12 +267,7 @@ fn drift(system: &System, amplitude: f64) -> f64 {
 
 /// Impacts of a simulation until the transient is over, in which a drift of the absorber fades at a rate, and in periods after it,
 /// and the state then, at phase 0; none where `most` are reached.
-fn followed(
-    system: &System,
-    start: State,
-    most: u64,
-    drift: f64,
-) -> Option<([u64; 2], State)> {
+fn followed(system: &System, start: State, most: u64, drift: f64) -> Option<([u64; 2], State)> {
     let decay = (0.5 * system.mass_ratio() * system.damping()).min(drift) * system.period();
     let periods = (TRANSIENT / decay).clamp(PERIODS[0], PERIODS[1]) as u64;
     let mut simulation = Simulation::new(system, start, 0.0).ok()?;

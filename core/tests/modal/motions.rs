@@ -123,7 +123,7 @@ fn some_absorbers_rest_while_others_impact() {
         worst.resting[0].is_some_and(|share| (share - 0.45).abs() < 0.01)
             && worst.resting[1].is_none()
     );
-    assert!(worst.counts() && worst.starts == 0);
+    assert!(worst.counts(true) && !worst.counts(false) && worst.starts == 0);
 }
 
 /// On structures that nobody chose: absorbers that are placed where they may rest are met by no wall, and the others move as is said.

@@ -38,6 +38,10 @@ pub(super) struct ModalCriteriaTable {
     /// shows with a peak of 2 f_c times the jump of the velocity, as `contact_time` = pi/(4 f_c) of every absorber does.
     #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0), example = "1 kHz")]
     pub acceleration_upto: Option<f64>,
+    /// Whether absorbers that rest where no wall reaches them count; true unless given. False for devices in which they cannot
+    /// rest there.
+    #[schemars(example = false)]
+    pub count_inactive: Option<bool>,
 }
 
 /// An example of a limit.

@@ -64,6 +64,8 @@ pub struct ModalCase {
     pub absorbers: Vec<PlacedAbsorber>,
     /// What may drive it, one at a time.
     pub loads: Vec<Load>,
+    /// Whether motions count in which absorbers rest.
+    pub count_inactive: bool,
     /// Limits of what places do.
     pub criteria: Vec<PlaceCriterion>,
     /// Starts at each frequency, that from rest among them.

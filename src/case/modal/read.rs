@@ -249,6 +249,7 @@ pub(super) fn read(
         reader.report(span.clone(), message, "expected limits alone", help);
     }
     let contact_is_sensors = upto.is_some();
+    let count_inactive = asked.as_ref().and_then(|(_, read)| read.count_inactive).unwrap_or(true);
     read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
     let Some(heading) = heading.filter(|_| reader.problems.is_empty()) else { return Ok(None) };
@@ -264,6 +265,7 @@ pub(super) fn read(
         modes,
         absorbers,
         loads,
+        count_inactive,
         criteria,
         starts,
         periods,

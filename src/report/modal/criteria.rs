@@ -34,6 +34,7 @@ pub(super) fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
     let longest = times().max_by(f64::total_cmp).filter(|longest| Some(*longest) != least);
     if let Some(counted) = &mut counted {
         let time = |one: f64| given(&of::CONTACT_TIME, one);
+        counted["count_inactive"] = json!(case.count_inactive);
         counted["contact_time"] = json!(least.map(time));
         counted["longest_contact_time"] = json!(longest.map(time));
     }

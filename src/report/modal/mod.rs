@@ -153,7 +153,7 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
         .working
         .iter()
         .map(|range| range.map(|range| range.map(|at| closed(&of::PEAK, at))));
-    let step = |one: &ForceStep| json!({ "amplitude": amplitude(one.times), "motions": one.motions.iter().map(motion_row).collect::<Vec<_>>() });
+    let step = |one: &ForceStep| json!({ "amplitude": amplitude(one.times), "motions": motion_rows(case, &one.motions) });
     json!({
         "at": of_load.at.iter().map(|at| given(&of::EXCITATION_FREQUENCY, *at)).collect::<Vec<_>>(),
         "limits": limits,
@@ -197,7 +197,11 @@ fn load_row(case: &ModalCase, load: &Load) -> Value {
     json!({ "amplitude": given(kind, load.amplitude), "place": place, "mode": mode, "from": from, "to": to })
 }
 
-fn motion_row(motion: &ModalMotion) -> Value {
+fn motion_rows(case: &ModalCase, motions: &[ModalMotion]) -> Vec<Value> {
+    motions.iter().map(|one| motion_row(one, case.count_inactive)).collect()
+}
+
+fn motion_row(motion: &ModalMotion, count_rest: bool) -> Value {
     let row = |[peak, rms]: [&'static Kind; 2], one: &SensorExtent| {
         json!({
             "peak": simulated(peak, one.peak).with_error(one.error),
@@ -227,7 +231,7 @@ fn motion_row(motion: &ModalMotion) -> Value {
         // Absorbers that do, each with the share of its cavity within which it may; together; and whether that is enough.
         "resting": resting.collect::<Vec<_>>(),
         "share_of_places": motion.rest_share(),
-        "counts": motion.counts(),
+        "counts": motion.counts(count_rest),
         "impacts_per_period": motion.impacts_per_period.iter().map(|[count, _]| count).collect::<Vec<_>>(),
         "largest_multiplier": motion.largest_multiplier,
         "places": places,
@@ -289,14 +293,14 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
             "worst": worst.map(|worst| worst_row(case, &worst)),
             // Starts at that frequency.
             "searched": here.map(|one| one.motions.iter().map(|motion| motion.starts).sum::<u32>()),
-            "motions": here.map(|one| one.motions.iter().map(motion_row).collect::<Vec<_>>()),
+            "motions": here.map(|one| motion_rows(case, &one.motions)),
             "alone": beside.alone.get(k).and_then(|one| one.as_ref()).map(|one| {
                 simulated(&of::PEAK, one.value).with_error(one.error)
             }),
             "dampers": beside.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, one.worst[k])).collect::<Vec<_>>(),
             "forces": beside.forces.get(k).and_then(|one| one.as_ref()).map(|one| forces_row(case, &along.load, one)),
             "places": along.places.iter().map(|one| json!({
-                "at": one.at, "unit": frequency_unit(case), "motions": one.motions.iter().map(motion_row).collect::<Vec<_>>(),
+                "at": one.at, "unit": frequency_unit(case), "motions": motion_rows(case, &one.motions),
             })).collect::<Vec<_>>(),
         })
     });
