@@ -32,17 +32,36 @@ impl Convergency<f64> for BracketWidth {
     }
 }
 
-/// Brent's method on `[from, to]` until the bracket is `width` wide; `None` where the ends do not differ
-/// in sign, or the bracket does not shrink.
-pub fn brent(from: f64, to: f64, width: f64, mut function: impl FnMut(f64) -> f64) -> Option<Root> {
+/// Why a bracket gave no root.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NoRoot {
+    /// The ends do not differ in sign, or one of them is not a number: there may be none.
+    #[error("the function does not change its sign between the ends")]
+    NoSignChange,
+    /// There is a change of sign, and after 200 steps the bracket is still wider than asked for.
+    #[error("the bracket of a root did not shrink to the width that was asked for")]
+    NotConverged,
+}
+
+/// Brent's method on `[from, to]` until the bracket is `width` wide (Brent, Algorithms for Minimization without Derivatives,
+/// 1973, chapter 4).
+///
+/// # Errors
+/// [`NoRoot`].
+pub fn brent(
+    from: f64,
+    to: f64,
+    width: f64,
+    mut function: impl FnMut(f64) -> f64,
+) -> Result<Root, NoRoot> {
     let (at_from, at_to) = (function(from), function(to));
     for (at, residual) in [(from, at_from), (to, at_to)] {
         if residual == 0.0 {
-            return Some(Root { at, residual });
+            return Ok(Root { at, residual });
         }
     }
     if at_from.is_nan() || at_to.is_nan() || (at_from > 0.0) == (at_to > 0.0) {
-        return None;
+        return Err(NoRoot::NoSignChange);
     }
     // The ends are known, and of the places in between that of the smallest value is usually the root.
     let mut best = Root { at: f64::NAN, residual: f64::INFINITY };
@@ -57,8 +76,9 @@ pub fn brent(from: f64, to: f64, width: f64, mut function: impl FnMut(f64) -> f6
             residual
         }
     };
-    let at = find_root_brent(from, to, known, &mut BracketWidth { width }).ok()?;
-    Some(if at == best.at { best } else { Root { at, residual: function(at) } })
+    let found = find_root_brent(from, to, known, &mut BracketWidth { width });
+    let at = found.map_err(|_| NoRoot::NotConverged)?;
+    Ok(if at == best.at { best } else { Root { at, residual: function(at) } })
 }
 
 /// Where `function` changes between above 0 and not above 0, from the side on which it is at `from`, to
@@ -127,8 +147,16 @@ mod tests {
 
     #[test]
     fn ends_of_one_sign_are_refused() {
-        assert_eq!(brent(0.0, 1.0, 1e-15, |x| x + 1.0), None);
+        assert_eq!(brent(0.0, 1.0, 1e-15, |x| x + 1.0), Err(NoRoot::NoSignChange));
+        assert_eq!(brent(0.0, 1.0, 1e-15, |_| f64::NAN), Err(NoRoot::NoSignChange));
         assert_eq!(bisected([0.0, 1.0], |x| x + 1.0), None);
+    }
+
+    /// Next to 1 doubles are 2e-16 apart, and the root is none of them.
+    #[test]
+    fn a_bracket_that_cannot_shrink_so_far_is_told() {
+        let found = brent(0.5, 3.0, 1e-17, |x| x * x - 2.0);
+        assert_eq!(found, Err(NoRoot::NotConverged));
     }
 
     /// A smooth root, one of third order, the end of a square root, a jump, and a root among huge numbers.

@@ -27,7 +27,7 @@ pub fn largest_each<const N: usize>(
         for of in 0..N - 1 {
             found[of] = found[of].max(after[of].abs());
             if (before[of + 1] > 0.0) != (after[of + 1] > 0.0)
-                && let Some(root) = brent(from, from + step, WIDTH, |s| at(s)[of + 1])
+                && let Ok(root) = brent(from, from + step, WIDTH, |s| at(s)[of + 1])
             {
                 found[of] = found[of].max(at(root.at)[of].abs());
             }

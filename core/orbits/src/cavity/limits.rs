@@ -47,7 +47,7 @@ impl AsymmetricLimits {
                 let shape = at(nu);
                 condition(restitution, &shape, cavity.velocities(&shape))
             };
-            brent(SMALLEST, LARGEST, WIDTH, f).map(|root| cavity.complete(&at(root.at)))
+            brent(SMALLEST, LARGEST, WIDTH, f).ok().map(|root| cavity.complete(&at(root.at)))
         };
         let grazing = end(grazing);
         let before = |one: &CavityMotion| grazing.is_some_and(|end| one.deviation < end.deviation);

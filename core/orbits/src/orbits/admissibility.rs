@@ -320,7 +320,7 @@ pub(super) fn zeros(
     let mut between = |low: f64, high: f64| {
         // Where the exact values do not differ in sign, the zero is at an end, but for rounding.
         let nearest = || if value(low).abs() < value(high).abs() { low } else { high };
-        let at = brent(low, high, width, value).map_or_else(nearest, |root| root.at);
+        let at = brent(low, high, width, value).map_or_else(|_| nearest(), |root| root.at);
         found.extend(Some(at).filter(|at| 0.0 < *at && *at < duration));
     };
     let mut before = exact(0.0);
@@ -331,7 +331,7 @@ pub(super) fn zeros(
             between(low, high);
         } else if before[0] * before[1] < 0.0
             && after[0] * after[1] > 0.0
-            && let Some(flattest) = brent(low, high, width, |s| exact(s)[1])
+            && let Ok(flattest) = brent(low, high, width, |s| exact(s)[1])
             && (value(flattest.at) > 0.0) != (before[0] > 0.0)
         {
             // It turns and turns back within one piece, as it does after a weak rebound.

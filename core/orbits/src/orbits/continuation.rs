@@ -347,7 +347,7 @@ pub(super) fn sign_change<F: Family>(
         _ => family.advance(here, s),
     };
     let value = |s: f64| at(s).map_or(f64::NAN, |point| test(&point));
-    let root = brent(0.0, step, LOCATED * step, value)?;
+    let root = brent(0.0, step, LOCATED * step, value).ok()?;
     let point = at(root.at).ok()?;
     let value = family.value(&point);
     let width = LOCATED * step;

@@ -190,7 +190,7 @@ impl Family {
         let proven = |root: &f64| {
             NEARBY.iter().find_map(|share| {
                 let reach = share * root;
-                Some(brent(root - reach, root + reach, WIDTH, test)?.at)
+                Some(brent(root - reach, root + reach, WIDTH, test).ok()?.at)
             })
         };
         let roots = real_roots(&self.polynomial(kind, power));

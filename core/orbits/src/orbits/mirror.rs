@@ -44,7 +44,7 @@ pub(super) fn met(
         let (low, high) = (guess - reach, guess + reach);
         (test(low) * test(high) < 0.0).then_some((low, high))
     })?;
-    let root = brent(low, high, LOCATED * guess.abs(), test)?;
+    let root = brent(low, high, LOCATED * guess.abs(), test).ok()?;
     let orbit = tracer.at(&half, root.at)?;
     let scale = tracer.scale;
     let value = root.at * scale;
