@@ -9,6 +9,7 @@ use crate::executor::{Executor, map};
 use crate::measure::PlaceMeasure;
 use crate::motions::{ModalMotion, longest_flight, modal_motions, worst_between};
 use crate::numerics::scan;
+use crate::system::MOST_MODES;
 
 /// What is known along a load.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,6 +54,10 @@ pub struct WorstOfPlace {
     pub all_settled: bool,
     /// Whether every absorber rests in it.
     pub rests: bool,
+    /// Which of the absorbers rest in it.
+    pub resting: [bool; MOST_MODES],
+    /// The share of their places in which those may, together; none where none does.
+    pub share: Option<f64>,
 }
 
 /// Even frequencies along a load, each searched with half of the starts, and rounds of closer ones around the worst of each
@@ -167,6 +172,8 @@ impl AlongLoad {
             settled: settled.fold(0.0, f64::max),
             all_settled: motions().all(|(_, one)| one.settled),
             rests: motion.rests(),
+            resting: std::array::from_fn(|j| motion.resting.get(j).copied().flatten().is_some()),
+            share: motion.rest_share(),
         })
     }
 

@@ -161,6 +161,7 @@ impl ModalAnswer {
         let undecided = (!worst.all_settled && !fails).then_some(followed);
         let judged =
             Judged::of_worst(&asked.criterion, [worst.value, worst.error], decided_by, undecided);
+        let judged = Judged { inactive: worst.share, ..judged };
         Some(JudgedPlace { place: asked.place, worst, judged })
     }
 

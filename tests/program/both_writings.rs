@@ -131,7 +131,7 @@ impl Written {
 /// What a command says of a case in each way of writing.
 fn said(texts: &[String; 2], arguments: &[&str]) -> [Value; 2] {
     let folder = tempfile::tempdir().expect("a folder");
-    let each = [0, 1].map(|k| {
+    [0, 1].map(|k| {
         // The same name, as pages have it.
         let place = folder.path().join(k.to_string());
         std::fs::create_dir(&place).expect("a folder");
@@ -151,8 +151,7 @@ fn said(texts: &[String; 2], arguments: &[&str]) -> [Value; 2] {
         serde_json::from_slice(&text).unwrap_or_else(|_| {
             panic!("{arguments:?}\n{}\n{}", texts[k], String::from_utf8_lossy(&output.stderr))
         })
-    });
-    each
+    })
 }
 
 /// Keys of what is written, and of where it was: the text is another one.

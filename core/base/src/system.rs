@@ -193,7 +193,7 @@ impl System {
         self.parameters.mass_ratio
     }
 
-    /// `lambda`, so that the damping term of the oscillator is `eps lambda x'`.
+    /// `lambda`, a pure number, so that the damping term of the oscillator is `eps lambda x'` in fast time.
     pub fn damping(&self) -> f64 {
         self.parameters.damping
     }
@@ -209,7 +209,7 @@ impl System {
         [half, -half].map(|half| (self.parameters.restitution + half).clamp(0.0, 1.0))
     }
 
-    /// `r`, the coefficient of restitution; the mean where the walls differ.
+    /// `r`, the coefficient of restitution, a ratio from 0 to 1; the mean where the walls differ.
     pub fn restitution(&self) -> f64 {
         self.parameters.restitution
     }
@@ -343,18 +343,18 @@ impl State {
     /// Nothing moves, and the absorber is in the middle of its cavity.
     pub const AT_REST: Self = Self { x: 0.0, x_velocity: 0.0, y: 0.0, y_velocity: 0.0 };
 
-    /// Relative displacement `w = x - y`.
+    /// Relative displacement `w = x - y`, over the clearance.
     pub fn relative_displacement(&self) -> f64 {
         self.x - self.y
     }
 
-    /// Largest absolute value among the four.
+    /// Largest absolute value among the four, lengths over the clearance and fast time.
     pub fn size(&self) -> f64 {
         let Self { x, x_velocity, y, y_velocity } = *self;
         [x, x_velocity, y, y_velocity].iter().map(|part| part.abs()).fold(0.0, f64::max)
     }
 
-    /// Largest difference from `other` in any of the four.
+    /// Largest difference from `other` in any of the four, lengths over the clearance and fast time.
     pub fn distance(&self, other: &Self) -> f64 {
         let difference = Self {
             x: self.x - other.x,

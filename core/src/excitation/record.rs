@@ -150,7 +150,7 @@ impl Record {
         }
     }
 
-    /// Largest absolute value.
+    /// Largest absolute value, in the unit of the record.
     pub fn peak(&self) -> f64 {
         self.samples.iter().map(|sample| sample[1].abs()).fold(0.0, f64::max)
     }
@@ -225,7 +225,7 @@ impl Spectrum {
         (samples, offset)
     }
 
-    /// The density at a frequency between the first and the last corner.
+    /// The density at a frequency between the first and the last corner, in the unit of its corners.
     pub fn density(&self, frequency: f64) -> f64 {
         let above = self.corners.partition_point(|corner| corner[0] < frequency);
         let above = above.clamp(1, self.corners.len() - 1);

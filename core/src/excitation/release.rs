@@ -82,7 +82,7 @@ impl Release {
     }
 }
 
-/// The amplitude of a structure in a state.
+/// The amplitude of a structure in a state, in the unit of its displacement.
 pub fn amplitude(state: &State) -> f64 {
     libm::hypot(state.x, state.x_velocity)
 }

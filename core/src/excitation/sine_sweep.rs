@@ -159,7 +159,7 @@ pub struct SweepStretch {
 }
 
 impl SweepStretch {
-    /// Fast time from its beginning to its end.
+    /// Fast time from its beginning to its end, a pure number.
     pub fn duration(&self) -> f64 {
         (TAU - self.begins) / self.ratio
     }

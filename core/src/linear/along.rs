@@ -76,7 +76,8 @@ impl<'a> BandSystems<'a> {
         Self { band, systems: all.into_iter().filter_map(system).collect() }
     }
 
-    /// Where an amplitude is largest, and that amplitude.
+    /// Where an amplitude is largest, `Omega` or an amplitude over the base system's own, and that amplitude over the
+    /// clearance.
     pub fn largest(&self, amplitude: impl Fn(&System) -> f64) -> (f64, f64) {
         let there = |at: f64| self.band.system(at).ok().map(|system| amplitude(&system));
         let [from, to] = self.band.range;

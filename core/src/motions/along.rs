@@ -109,12 +109,14 @@ impl Along {
         self.value_of(motion, Fact::Peak).unwrap_or_default()
     }
 
-    /// Where the attracting 1:1 motion has its largest peak; none where none attracts.
+    /// The place, `Omega` or an amplitude over the base system's own, where the attracting 1:1 motion has its largest peak;
+    /// none where none attracts.
     pub fn peak_at(&self) -> Option<f64> {
         self.peak_at
     }
 
-    /// Where the structure with an absorber at rest moves farthest; none where every start wakes it.
+    /// The place, `Omega` or an amplitude over the base system's own, where the structure with an absorber at rest moves
+    /// farthest; none where every start wakes it.
     pub fn rest_at(&self) -> Option<f64> {
         self.rest_at
     }

@@ -247,6 +247,9 @@ fn worst_row(case: &ModalCase, worst: &WorstOfPlace) -> Value {
         "most": simulated(&of::PEAK, worst.value + worst.error),
         "settled": worst.all_settled,
         "rests": worst.rests,
+        // Which absorbers do, from 1, and in which share of their places.
+        "resting": worst.resting.iter().zip(1..).filter(|(rests, _)| **rests).map(|(_, j)| j).collect::<Vec<u32>>(),
+        "share_of_places": worst.share,
     })
 }
 

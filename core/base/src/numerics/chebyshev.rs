@@ -71,7 +71,7 @@ pub struct Interpolant {
 }
 
 impl Interpolant {
-    /// That of a function of -1 to 1, held against its values at the places between the nodes.
+    /// That of a function of -1 to 1, in the function's unit, held against its values at the places between the nodes.
     pub fn of(f: impl Fn(f64) -> f64) -> Self {
         let CosineTables { nodes, between, by_value, at_between, .. } = &*TABLES;
         let coefficients = combined(by_value, &nodes.map(&f));

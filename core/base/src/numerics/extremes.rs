@@ -50,7 +50,7 @@ impl Cubic {
         Self { duration, ends }
     }
 
-    /// Its largest absolute value.
+    /// Its largest absolute value, in its own unit.
     pub fn largest(&self) -> f64 {
         let h = self.duration;
         let [[x0, v0], [x1, v1]] = self.ends;
@@ -67,7 +67,7 @@ impl Cubic {
         at_ends.max((x0 + p * (h * v0 + p * (c + p * d))).abs())
     }
 
-    /// When it first goes beyond a size outwards; none where it stays within.
+    /// When it first goes beyond a size outwards, in the unit of its time; none where it stays within.
     pub fn leaves(&self, size: f64) -> Option<f64> {
         const PARTS: u32 = 16;
         let h = self.duration;
@@ -87,7 +87,7 @@ impl Cubic {
         Some(h * outside)
     }
 
-    /// Its integral.
+    /// Its integral, in its own unit times that of its time.
     pub fn integral(&self) -> f64 {
         let h = self.duration;
         let [[x0, v0], [x1, v1]] = self.ends;

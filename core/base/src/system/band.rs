@@ -75,7 +75,7 @@ impl Band {
         }
     }
 
-    /// The place of the base system's own excitation; it may lie outside.
+    /// The place of the base system's own excitation, `Omega` or an amplitude over its own; it may lie outside.
     pub fn own(&self) -> f64 {
         match self.over {
             BandOver::Frequency => self.base.frequency_ratio(),
@@ -129,7 +129,7 @@ impl Band {
         Self { base, ..self.clone() }
     }
 
-    /// Its length.
+    /// Its length, in `Omega` or amplitudes over the base system's own.
     pub fn width(&self) -> f64 {
         self.range[1] - self.range[0]
     }

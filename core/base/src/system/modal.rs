@@ -221,7 +221,7 @@ impl ModalSystem {
         self.0.frequency_ratio
     }
 
-    /// `Z`.
+    /// `Z`, the amplitude of the base, in the unit of the structure's lengths.
     pub fn base_amplitude(&self) -> f64 {
         self.0.base_amplitude
     }
@@ -284,7 +284,7 @@ pub enum ModalParameter {
 }
 
 impl ModalParameter {
-    /// Its value; not a number where there is no such absorber.
+    /// Its value, in the units of the structure; not a number where there is no such absorber.
     pub fn of(self, system: &ModalSystem) -> f64 {
         let absorber = |j: usize| system.absorbers().get(j);
         match self {

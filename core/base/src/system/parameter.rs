@@ -95,7 +95,7 @@ impl Parameter {
         matches!(self, Self::Clearance | Self::Amplitude | Self::AbsorberMass)
     }
 
-    /// The value at a part of the way between two, from 0 to 1.
+    /// The value at a part of the way between two, from 0 to 1, in their unit.
     pub fn between(self, [low, high]: [f64; 2], part: f64) -> f64 {
         if self.is_logarithmic() {
             low * libm::exp(part * libm::log(high / low))
@@ -104,7 +104,7 @@ impl Parameter {
         }
     }
 
-    /// The part of the way between two at which a value lies; the inverse of [`Parameter::between`].
+    /// The part of the way between two at which a value lies, a ratio; the inverse of [`Parameter::between`].
     pub fn part(self, [low, high]: [f64; 2], value: f64) -> f64 {
         if self.is_logarithmic() {
             libm::log(value / low) / libm::log(high / low)

@@ -30,18 +30,18 @@ impl Structure {
         Self { damping_n_s_per_m, ..undamped }
     }
 
-    /// `omega0 = sqrt(k1/m1)`.
+    /// `omega0 = sqrt(k1/m1)`, in radians per second.
     pub fn natural_frequency_rad_per_s(&self) -> f64 {
         self.stiffness_n_per_m.sqrt() / self.mass_kg.sqrt()
     }
 
-    /// `2 sqrt(k1 m1)`, the damping at which the structure alone ceases to ring.
+    /// `2 sqrt(k1 m1)` in N s/m, the damping per unit of velocity at which the structure alone ceases to ring.
     pub fn critical_damping_n_s_per_m(&self) -> f64 {
         2.0 * self.stiffness_n_per_m.sqrt() * self.mass_kg.sqrt()
     }
 }
 
-/// `k1 = m1 (2 pi f0)^2` in N/m.
+/// `k1 = m1 (2 pi f0)^2` in N/m, of a mass in kg and a frequency in Hz.
 pub fn modal_stiffness(mass_kg: f64, natural_frequency_hz: f64) -> f64 {
     let omega0 = TAU * natural_frequency_hz;
     mass_kg * omega0 * omega0

@@ -85,8 +85,8 @@ impl Boundaries {
         }
     }
 
-    /// `gamma` at which steady 1:1 resonance ends as the forcing falls: two fixed points collide on the stable branch, or one
-    /// reaches the fold.
+    /// `gamma`, forcing over the clearance, at which steady 1:1 resonance ends as the forcing falls: two fixed points collide
+    /// on the stable branch, or one reaches the fold.
     pub fn end_of_steady(&self) -> f64 {
         let node = self.saddle_node.filter(|node| node.branch == ManifoldBranch::Stable);
         node.map_or(self.hopf, |node| node.forcing_over_clearance)

@@ -60,8 +60,8 @@ impl FixedPointCurve {
         }
     }
 
-    /// `gamma^2` of the fixed point with `beta = B/b`: no difference of large numbers, since the
-    /// smallest value is known.
+    /// `gamma^2`, forcing over the clearance squared, of the fixed point with `beta = B/b`: no difference of large numbers,
+    /// since the smallest value is known.
     pub fn forcing_squared(&self, beta: f64) -> f64 {
         let [_, _, square] = self.coefficients;
         let node = [self.collision_ratio, self.collision_forcing];
@@ -75,22 +75,22 @@ impl FixedPointCurve {
         (beta > 0.0 && beta.is_finite() && gamma > 0.0).then_some((gamma, beta))
     }
 
-    /// `gamma_H`, where a fixed point reaches the fold.
+    /// `gamma_H`, forcing over the clearance, where a fixed point reaches the fold.
     pub fn hopf(&self) -> f64 {
         self.hopf
     }
 
-    /// `gamma_c`, where a fixed point reaches symmetry breaking.
+    /// `gamma_c`, forcing over the clearance, where a fixed point reaches symmetry breaking.
     pub fn symmetry_breaking(&self) -> f64 {
         self.symmetry_breaking
     }
 
-    /// `gamma` at which a fixed point of the left branch reaches `B = 0` and is lost.
+    /// `gamma`, forcing over the clearance, at which a fixed point of the left branch reaches `B = 0` and is lost.
     pub fn vanishing(&self) -> f64 {
         self.coefficients[0].sqrt()
     }
 
-    /// `gamma` at which a motion of an ideal cavity is a fixed point.
+    /// `gamma`, forcing over the clearance, at which a motion of an ideal cavity is a fixed point.
     pub fn forcing_of(&self, motion: &CavityMotion) -> f64 {
         let CavityMotion { resistance, reactance, oscillator_amplitude, .. } = *motion;
         let given = [self.damping, self.detuning, resistance, reactance, oscillator_amplitude];

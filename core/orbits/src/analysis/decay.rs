@@ -88,13 +88,13 @@ impl FreeDecay {
         self.largest
     }
 
-    /// The amplitude `C/b` at which capture ends, the manifold's fold.
+    /// The amplitude `C/b`, over the clearance, at which capture ends, the manifold's fold.
     pub fn residual_amplitude(&self) -> f64 {
         self.manifold.fold.oscillator_amplitude
     }
 
-    /// Slow time `tau_1 = eps tau` from one amplitude `C/b` down to another. None where one of them is not on the
-    /// stable branch or the first is the smaller; infinite where nothing takes energy.
+    /// Slow time `tau_1 = eps tau`, fast time times the mass ratio, from one amplitude `C/b` down to another. None where one
+    /// of them is not on the stable branch or the first is the smaller; infinite where nothing takes energy.
     pub fn time(&self, from: f64, to: f64) -> Option<f64> {
         let BranchStretch { rates: [before, after], arctangent, .. } = self.stretch(from, to)?;
         let (curvature, impacts) = (self.manifold.curvature, self.impact_coefficient);
@@ -104,8 +104,8 @@ impl FreeDecay {
         Some(DECAY_TIME.at([curvature, impacts, self.rate_coefficient, arctangent, before, after]))
     }
 
-    /// The amplitude `C/b` a slow time after another. None where the first is not on the stable branch, and once
-    /// capture has ended.
+    /// The amplitude `C/b`, over the clearance, a slow time after another. None where the first is not on the stable branch,
+    /// and once capture has ended.
     pub fn amplitude(&self, from: f64, slow_time: f64) -> Option<f64> {
         let to = self.residual_amplitude();
         let all = self.time(from, to)?;

@@ -103,7 +103,7 @@ impl Manifold {
         }
     }
 
-    /// `B/b` on the stable branch, or beyond it, by `C/b`: the larger root of (16); `None` below the fold.
+    /// `B/b`, over the clearance, on the stable branch, or beyond it, by `C/b`: the larger root of (16); `None` below the fold.
     pub fn stable_absorber(&self, oscillator: f64) -> Option<f64> {
         let root = STABLE_ROOT.at([self.curvature, oscillator * oscillator]);
         (root >= 0.0).then(|| STABLE_RATIO.at([self.curvature, root]))
@@ -120,8 +120,9 @@ impl Manifold {
         }
     }
 
-    /// The largest amplitude `C/b` of the stable branch whose points are motions: that of symmetry breaking, except
-    /// for almost plastic impacts, `r` below a few hundredths, after which the absorber would leave its cavity.
+    /// The largest amplitude `C/b`, over the clearance, of the stable branch whose points are motions: that of symmetry
+    /// breaking, except for almost plastic impacts, `r` below a few hundredths, after which the absorber would leave its
+    /// cavity.
     pub fn largest_stable_motion(&self) -> f64 {
         let [from, to] = [self.fold, self.symmetry_breaking].map(|end| end.oscillator_amplitude);
         let beyond = |oscillator: f64| {

@@ -142,9 +142,9 @@ impl CavityTheory {
         Some(ManifoldPoint { absorber_amplitude, oscillator_amplitude })
     }
 
-    /// `nu`, a quarter of what the flight from `w = b` to `w = -b` takes longer than that back, at an absorber amplitude
-    /// `B/b`: first order in tilt and difference of the ends, and singular where symmetry would break. A difference
-    /// `rho_d` of the ends looks like a tilt `a = -2 rho_d B/(pi^2 rho)`.
+    /// `nu`, an angle of the excitation in radians: a quarter of what the flight from `w = b` to `w = -b` takes longer than
+    /// that back, at an absorber amplitude `B/b`: first order in tilt and difference of the ends, and singular where symmetry
+    /// would break. A difference `rho_d` of the ends looks like a tilt `a = -2 rho_d B/(pi^2 rho)`.
     pub fn small_deviation(&self, absorber: f64) -> f64 {
         let [mean, difference] = self.ratios;
         DEVIATION.at([self.acceleration, self.friction, mean, difference, absorber])

@@ -58,7 +58,7 @@ pub struct ExactBoundaries {
 }
 
 impl ExactBoundaries {
-    /// Where the asymmetric orbits graze a wall: the border between Z2 and Z1.
+    /// The clearance over the system's own at which the asymmetric orbits graze a wall: the border between Z2 and Z1.
     pub fn grazing(&self) -> Option<f64> {
         self.asymmetric.as_ref()?.grazing
     }

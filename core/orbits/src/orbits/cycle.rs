@@ -167,7 +167,8 @@ impl Cycle {
             })
     }
 
-    /// Largest difference between its states and those of a cycle with as many impacts.
+    /// Largest difference, lengths over the clearance and fast time, between its states and those of a cycle with as many
+    /// impacts.
     pub fn distance(&self, other: &Self) -> f64 {
         let pairs = self.impacts.iter().zip(&other.impacts);
         pairs.map(|(a, b)| (a.vector() - b.vector()).amax()).fold(0.0, f64::max)

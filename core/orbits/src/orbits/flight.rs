@@ -101,7 +101,7 @@ impl OrbitFlight {
         }
     }
 
-    /// `2 d = eps lambda`.
+    /// `2 d = eps lambda`, twice the decay rate per unit of fast time.
     pub fn damping(&self) -> f64 {
         2.0 * self.decay
     }

@@ -28,7 +28,7 @@ pub enum Wall {
 }
 
 impl Wall {
-    /// +1 or -1.
+    /// +1 or -1, a factor.
     pub fn sign(self) -> f64 {
         match self {
             Self::Plus => 1.0,

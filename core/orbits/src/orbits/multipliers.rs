@@ -42,7 +42,7 @@ impl Multipliers {
         Some(Self { values: [0, 1, 2, 3].map(|k| values[k]) })
     }
 
-    /// Largest modulus.
+    /// Largest modulus, a ratio over the period.
     pub fn spectral_radius(&self) -> f64 {
         let [re, im] = self.values[0];
         libm::hypot(re, im)
@@ -82,8 +82,8 @@ pub enum Leading {
     ComplexPair,
 }
 
-/// Eigenvalues `[re, im]` of a matrix of any size, largest modulus first, conjugates next to one another; `None` where it is not
-/// finite or the iteration does not converge.
+/// Eigenvalues `[re, im]` of a matrix of any size, largest modulus first, conjugates next to one another; `None` where it is
+/// not finite or the iteration does not converge.
 pub(super) fn eigenvalues<D>(matrix: &OMatrix<f64, D, D>) -> Option<Vec<[f64; 2]>>
 where
     D: Dim + DimSub<U1>,
@@ -130,12 +130,12 @@ pub(super) fn has_pair_on_circle(multipliers: &[[f64; 2]]) -> bool {
     multipliers.iter().any(on_circle)
 }
 
-/// `det(J - I)`: 0 where a multiplier is +1.
+/// `det(J - I)`, a pure number without unit: 0 where a multiplier is +1.
 pub fn plus_one(jacobian: &Matrix4<f64>) -> f64 {
     (jacobian - Matrix4::identity()).determinant()
 }
 
-/// `det(J + I)`: 0 where a multiplier is -1.
+/// `det(J + I)`, a pure number without unit: 0 where a multiplier is -1.
 pub fn minus_one(jacobian: &Matrix4<f64>) -> f64 {
     (jacobian + Matrix4::identity()).determinant()
 }

@@ -153,7 +153,7 @@ impl SymmetricCurve {
         }
     }
 
-    /// `gamma` at which the orbit with `beta` exists.
+    /// `gamma`, forcing over the clearance, at which the orbit with `beta` exists.
     pub fn forcing(&self, beta: f64) -> f64 {
         if self.kick == 0.0 {
             return formulas::FORCING.at([beta, self.gain, self.displacement, self.velocity]);
@@ -170,7 +170,7 @@ impl SymmetricCurve {
         ]
     }
 
-    /// `beta` where the two orbits collide: the saddle-node.
+    /// `beta`, over the clearance, where the two orbits collide: the saddle-node.
     pub fn turning(&self) -> f64 {
         let (a, d) = (self.displacement, self.velocity);
         if self.kick == 0.0 {

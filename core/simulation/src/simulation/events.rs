@@ -46,7 +46,7 @@ impl Side {
         if gap > 0.0 { Self::Plus } else { Self::Minus }
     }
 
-    /// +1 or -1.
+    /// +1 or -1, a factor.
     pub fn sign(self) -> f64 {
         match self {
             Self::Plus => 1.0,

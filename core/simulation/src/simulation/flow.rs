@@ -239,18 +239,18 @@ impl SmoothMotion {
         (self.free_x, self.free_v)
     }
 
-    /// Forcing a time `s` after the stretch began.
+    /// Forcing a time `s` after the stretch began, an acceleration over the clearance in fast time.
     pub fn force(&self, s: f64) -> f64 {
         self.oscillator.force(self.phase + self.oscillator.frequency * s)
     }
 
-    /// Acceleration, by equation (1) from the displacement and velocity at the same time.
+    /// Acceleration over the clearance in fast time, by equation (1) from the displacement and velocity at the same time.
     pub fn acceleration(&self, s: f64, at: Kinematics) -> f64 {
         let o = &self.oscillator;
         o.acceleration(self.phase + o.frequency * s, self.about_rest(at))
     }
 
-    /// Jerk, by the derivative of equation (1).
+    /// Jerk over the clearance in fast time, by the derivative of equation (1).
     pub fn jerk(&self, s: f64, at: Kinematics) -> f64 {
         let o = &self.oscillator;
         let (sin, cos) = libm::sincos(self.phase + o.frequency * s);

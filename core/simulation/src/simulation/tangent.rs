@@ -68,7 +68,8 @@ impl Tangent {
         }
     }
 
-    /// Size of the change: the root of the sum of squares. Growth rates do not depend on the norm.
+    /// Size of the change, lengths over the clearance and fast time: the root of the sum of squares. Growth rates do not
+    /// depend on the norm.
     pub fn size(&self) -> f64 {
         let State { x, x_velocity, y, y_velocity } = self.change;
         libm::hypot(libm::hypot(x, x_velocity), libm::hypot(y, y_velocity))
@@ -96,7 +97,7 @@ impl Tangent {
         true
     }
 
-    /// Natural logarithm of the growth since the beginning that was taken out by
+    /// Natural logarithm of the growth factor since the beginning that was taken out by
     /// [`Tangent::normalize`].
     pub fn logarithm(&self) -> f64 {
         self.taken

@@ -121,7 +121,7 @@ impl<const N: usize, const M: usize> Constants<N, M> {
         }
     }
 
-    /// The impact of an absorber that stands at a wall; the speed at which its gap opens.
+    /// The impact of an absorber that stands at a wall; the speed at which its gap opens, in the units of the structure.
     #[inline(always)]
     pub fn collide(&self, at: &mut Standing<N, M>, j: usize, wall: f64) -> f64 {
         let Gap { gap, slope, .. } = self.gap(j, &at.phasors, at.lines[j]);

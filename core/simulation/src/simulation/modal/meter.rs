@@ -72,7 +72,7 @@ impl Sensor {
         Self { shape, reads: Reading::Displacement, scale: 1.0 }
     }
 
-    /// What it reads at most of a sine of this amplitude and frequency.
+    /// What it reads at most of a sine of this amplitude and frequency, in the units of the structure times its own factor.
     pub fn of_sine(&self, amplitude: f64, frequency: f64) -> f64 {
         let Some(order) = self.reads.in_flight() else { return 0.0 };
         (0..order).fold(self.scale * amplitude, |value, _| value * frequency)
@@ -266,8 +266,8 @@ impl ModalMeter {
         }
     }
 
-    /// The integral of the square of what is seen in a flight. It is the real part of a sum of exponentials `c_a e^{p_a s}`, and
-    /// its square that of `c_a c_b e^{(p_a + p_b) s}/2` and `c_a conj(c_b) e^{(p_a + conj(p_b)) s}/2`.
+    /// The integral of the square of what is seen in a flight. It is the real part of a sum of exponentials `c_a e^{p_a s}`,
+    /// and its square that of `c_a c_b e^{(p_a + p_b) s}/2` and `c_a conj(c_b) e^{(p_a + conj(p_b)) s}/2`.
     fn add_squares(&mut self, all: &All, begin: &Phasors<MOST>, duration: f64) {
         let (constants, [sin, cos]) = (&all.constants, begin.rotor);
         let rate = |a: usize| {

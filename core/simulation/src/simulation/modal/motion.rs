@@ -448,7 +448,7 @@ impl<const N: usize, const M: usize> Constants<N, M> {
         (Slack { coefficient, slope_squared: bend * coefficient * 2.01 }, bend)
     }
 
-    /// A bound on the derivative of an order, from a moment on.
+    /// A bound on the derivative of an order, from a moment on, in the units of the structure.
     pub fn bound(&self, view: &View<N>, sizes: &[f64; N], order: i32) -> f64 {
         let power = |rate: f64| (0..order).fold(1.0, |product, _| product * rate);
         let start = view.steady_size * power(self.frequency);
