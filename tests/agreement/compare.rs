@@ -514,7 +514,7 @@ fn swept(
     });
     let bare = number(&report["quantities"]["bare_peak"]["value"]);
     if let Some(reduction) = read("reduction_db") {
-        let wanted = 20.0 * libm::log10(bare / number(&main["peak"]["value"]));
+        let wanted = 20.0 * libm::log10(bare / largest);
         judge.near("sweep, reduction", reduction, wanted, 1e-6);
     }
     let _ = analysed;
