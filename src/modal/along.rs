@@ -7,6 +7,7 @@ use super::sensors::{measured, measures, sensors};
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
 use crate::measure::PlaceMeasure;
+use crate::method::Method;
 use crate::motions::{ModalMotion, longest_flight, modal_motions, worst_between};
 use crate::numerics::scan;
 use crate::system::MOST_MODES;
@@ -54,6 +55,8 @@ pub struct WorstOfPlace {
     pub all_settled: bool,
     /// Whether every absorber rests in it.
     pub rests: bool,
+    /// Whether it is an exact orbit.
+    pub exact: bool,
     /// Which of the absorbers rest in it.
     pub resting: [bool; MOST_MODES],
     /// The share of their places in which those may, together; none where none does.
@@ -172,6 +175,7 @@ impl AlongLoad {
             settled: settled.fold(0.0, f64::max),
             all_settled: motions().all(|(_, one)| one.settled),
             rests: motion.rests(),
+            exact: motion.largest_multiplier.is_some(),
             resting: std::array::from_fn(|j| motion.resting.get(j).copied().flatten().is_some()),
             share: motion.rest_share(),
         })
@@ -185,6 +189,17 @@ impl AlongLoad {
             left.into_iter().chain([[self.places[k].at, value]]).chain(right).collect();
         let gaps = (1..around.len()).map(|gap| worst_between(&around, gap));
         gaps.fold(value, f64::max) - value
+    }
+}
+
+impl WorstOfPlace {
+    /// The layer that its motion is known by.
+    pub fn method(&self) -> Method {
+        match (self.rests, self.exact) {
+            (true, _) => Method::ClosedForm,
+            (false, true) => Method::ExactOrbit,
+            (false, false) => Method::Simulation,
+        }
     }
 }
 

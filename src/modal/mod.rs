@@ -19,7 +19,6 @@ use crate::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
 use crate::measure::PlaceMeasure;
-use crate::method::Method;
 use crate::motions::longest_flight;
 use crate::simulation::ModalStartError;
 use crate::system::InvalidModalSystem;
@@ -153,7 +152,7 @@ impl ModalAnswer {
 
     fn judge(&self, case: &ModalCase, asked: &PlaceCriterion) -> Option<JudgedPlace> {
         let worst = self.worst_of(asked.measure, asked.place, None)?;
-        let decided_by = if worst.rests { Method::ClosedForm } else { Method::Simulation };
+        let decided_by = worst.method();
         // What has settled may fail it, whatever else there is.
         let fails = worst.settled > asked.criterion.limit;
         let system = case.system(&case.loads[worst.load], worst.at).ok();

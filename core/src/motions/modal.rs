@@ -1,7 +1,9 @@
 //! Long-term motions of a structure of several modes with several absorbers at one excitation.
 //!
 //! Exact orbits that attract are solved for. Each start is flown until its states at the ends of periods are those of such an
-//! orbit, or repeat. Where they do not, what it does is measured in blocks once the slowest mode has died out.
+//! orbit, or nearly repeat: Newton's method then solves for the periodic motion ([`ModalCycle`]), which counts if it attracts.
+//! Where an absorber rests on a wall, or there are more impacts than that covers, they must repeat. Where they do not, what it
+//! does is measured in blocks once the slowest mode has died out.
 //!
 //! An absorber that rests where no wall reaches it has no part in the motion of the others: such motions are those of the
 //! structure without it, as a force that grows slowly leaves them. It may rest within `b - X` of the middle, `X` being the
@@ -16,10 +18,12 @@ use crate::linear::ModalAmplitudes;
 use crate::numerics::scatter::{
     LONGER, drifts, error_of_largest, error_of_root, twice_error_of_mean,
 };
-use crate::orbits::{antiperiodic_orbits, orbit_state};
+use crate::orbits::{
+    CycleImpact, ModalCycle, ModalPeriodicOrbit, antiperiodic_orbits, orbit_state,
+};
 use crate::simulation::{
     Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, ModalStartError, Reading,
-    Sensor, SensorRecord, Stop,
+    Sensor, SensorRecord, Side, Stop,
 };
 use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
 
@@ -47,7 +51,7 @@ pub struct ModalMotion {
     pub repeats_after: Option<u32>,
     /// Whether it has settled: it repeats, or the slowest mode has died out and no mean square drifts.
     pub settled: bool,
-    /// Largest Floquet multiplier of an excitation period, where an exact orbit is known.
+    /// Largest Floquet multiplier of an excitation period, where it was solved for: an exact orbit.
     pub largest_multiplier: Option<f64>,
     /// Starts that led to it; none of an orbit that attracts all the same, or in which absorbers rest.
     pub starts: u32,
@@ -89,8 +93,12 @@ const SHORTEST: f64 = 128.0;
 /// are the same.
 const MOST_REPEATS: usize = 6;
 const SAME_STATE: f64 = 1e-9;
-/// The same up to which a state is that of an orbit that attracts.
+/// The same from which on it is worth to solve for the motion.
+const NEARLY: f64 = 1e-4;
+/// The same up to which a state is that of an orbit that attracts; of one that was solved for from a start, beside which others
+/// may lie that belong to it, as after a period doubling.
 const NEAR_ORBIT: f64 = 1e-3;
+const NEAR_PROVEN: f64 = 1e-6;
 /// Most impacts in a period, of all absorbers: more are of chatter that does not end.
 const MOST_IMPACTS: u64 = 2000;
 /// Most impacts of a start until its slowest mode has died out: one that chatters on is given up, and measured for so many
@@ -171,11 +179,12 @@ impl Search<'_> {
     ) -> Result<(Vec<ModalMotion>, Option<ModalMotion>), ModalStartError> {
         let Some(system) = self.system.without(rest) else { return Ok((Vec::new(), None)) };
         let sensors = self.without(rest);
-        let orbits = attracting(&system, &sensors)?;
+        let mut orbits = attracting(&system, &sensors)?;
         let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
         let mut at_rest = modal_at_rest(&system, &sensors);
         for k in 0..starts {
-            let motion = from_start(&system, &sensors, &start(&system, k), self.periods, &orbits)?;
+            let motion =
+                from_start(&system, &sensors, &start(&system, k), self.periods, &mut orbits)?;
             // What is left of a transient then is no other motion.
             if let Some(at_rest) = at_rest.as_mut().filter(|_| motion.rests()) {
                 at_rest.starts += 1;
@@ -249,10 +258,76 @@ impl Search<'_> {
     }
 }
 
-/// An exact orbit that attracts.
+/// An exact orbit that attracts, by a state at the end of one of its periods.
 struct Attracting {
     state: ModalState,
+    /// Distance up to which another state is taken for one on it.
+    reach: f64,
     motion: ModalMotion,
+}
+
+impl Attracting {
+    /// The periodic motion that a state nearly is on, if it attracts, by each of its states; none where there is none, or an
+    /// absorber rests on a wall in it.
+    fn near(
+        system: &ModalSystem,
+        sensors: &[Sensor],
+        state: &ModalState,
+        periods: u32,
+    ) -> Option<Vec<Self>> {
+        let mut simulation = ModalSimulation::new(system, state, 0.0).ok()?;
+        let mut seen = Sequence::default();
+        simulation.run(periods.into(), u64::from(periods) * MOST_IMPACTS, &mut seen);
+        if seen.sticks {
+            return None;
+        }
+        let cycle = ModalCycle { state: *state, periods, impacts: seen.impacts };
+        let orbit = cycle.solve(system).ok().filter(ModalPeriodicOrbit::attracts)?;
+        let begin = orbit.cycle.state;
+        if distance(&begin, state) > NEAR_ORBIT {
+            return None;
+        }
+        // Its states, until it is there again: that may be so earlier.
+        let mut on = ModalSimulation::new(system, &begin, 0.0).ok()?;
+        let mut states = vec![begin];
+        for _ in 1..periods {
+            on.run(1, MOST_IMPACTS, &mut ());
+            if distance(&begin, &on.state()) <= SAME_STATE {
+                break;
+            }
+            states.push(on.state());
+        }
+        let periods = states.len() as u32;
+        let mut simulation = ModalSimulation::new(system, &begin, 0.0).ok()?;
+        let whole = Stretch::fly(&mut simulation, system, sensors, periods.into());
+        let motion = ModalMotion {
+            largest_multiplier: Some(orbit.radius_per_period()),
+            ..ModalMotion::of(sensors, &[whole], Some(periods), true, 1)
+        };
+        let on = |state| Self { state, reach: NEAR_PROVEN, motion: motion.clone() };
+        Some(states.into_iter().map(on).collect())
+    }
+}
+
+/// Impacts in their order, and whether an absorber came to rest on a wall.
+#[derive(Default)]
+struct Sequence {
+    impacts: Vec<CycleImpact>,
+    sticks: bool,
+}
+
+impl ModalObserver for Sequence {
+    fn detail(&self) -> Detail {
+        Detail::Events
+    }
+    fn impact(&mut self, impact: &ModalImpact) {
+        let side = if impact.side == Side::Plus { 1.0 } else { -1.0 };
+        let ModalImpact { tau: time, absorber, .. } = *impact;
+        self.impacts.push(CycleImpact { time, absorber, side });
+    }
+    fn sticks(&mut self, _absorber: usize, _loss: f64) {
+        self.sticks = true;
+    }
 }
 
 /// The exact orbits that attract, each measured over a period of its own.
@@ -272,7 +347,7 @@ fn attracting(
             starts: 0,
             ..ModalMotion::of(sensors, &[block], Some(1), true, 1)
         };
-        Ok(Attracting { state, motion })
+        Ok(Attracting { state, reach: NEAR_ORBIT, motion })
     });
     each.collect()
 }
@@ -354,12 +429,23 @@ impl ModalObserver for Seen {
 }
 
 impl Seen {
-    /// After how many periods the last state was there before.
-    fn repeats_after(&self) -> Option<u32> {
-        let (last, before) = self.states.split_last()?;
-        let found = before.iter().rev().position(|other| distance(last, other) <= SAME_STATE)?;
-        u32::try_from(found + 1).ok()
+    /// After how many periods the last state was there before, and those after which it nearly was.
+    fn repeats_after(&self) -> Repeats {
+        let Some((last, before)) = self.states.split_last() else { return Repeats::default() };
+        let each =
+            before.iter().rev().zip(1..).map(|(other, after)| (after, distance(last, other)));
+        let each: Vec<(u32, f64)> = each.collect();
+        let within = |most: f64| each.iter().filter(move |one| one.1 <= most).map(|one| one.0);
+        Repeats { exactly: within(SAME_STATE).next(), nearly: within(NEARLY).collect() }
     }
+}
+
+/// Excitation periods after which a state was there before.
+#[derive(Default)]
+struct Repeats {
+    exactly: Option<u32>,
+    /// Ascending.
+    nearly: Vec<u32>,
 }
 
 /// Largest difference of two states, over the largest number of the first.
@@ -378,8 +464,7 @@ struct Stretch {
     periods: u64,
     sensors: Vec<SensorRecord>,
     impacts: Vec<f64>,
-    /// After how many periods the last state was there before.
-    repeats_after: Option<u32>,
+    repeats_after: Repeats,
 }
 
 impl Stretch {
@@ -427,17 +512,23 @@ fn from_start(
     sensors: &[Sensor],
     start: &ModalState,
     periods: u64,
-    orbits: &[Attracting],
+    orbits: &mut Vec<Attracting>,
 ) -> Result<ModalMotion, ModalStartError> {
     let mut simulation = ModalSimulation::new(system, start, 0.0)?;
     let [decay, stretch] = lengths(system, periods);
-    // What a known orbit attracts, or what repeats.
-    let known = |simulation: &mut ModalSimulation, repeats_after: Option<u32>| {
+    // What a known orbit attracts, what is solved for, or what repeats.
+    let mut known = |simulation: &mut ModalSimulation, repeats: &Repeats| {
         let state = simulation.state();
-        if let Some(near) = orbits.iter().find(|one| distance(&one.state, &state) < NEAR_ORBIT) {
+        if let Some(near) = orbits.iter().find(|one| distance(&one.state, &state) < one.reach) {
             return Some(ModalMotion { starts: 1, ..near.motion.clone() });
         }
-        let after = repeats_after?;
+        let solve = |after: &u32| Attracting::near(system, sensors, &state, *after);
+        if let Some(solved) = repeats.nearly.iter().find_map(solve) {
+            let motion = solved[0].motion.clone();
+            orbits.extend(solved);
+            return Some(motion);
+        }
+        let after = repeats.exactly?;
         let period = Stretch::fly(simulation, system, sensors, after.into());
         Some(ModalMotion::of(sensors, &[period], Some(after), true, periods))
     };
@@ -448,7 +539,7 @@ fn from_start(
             let seen = Stretch::fly(&mut simulation, system, sensors, GIVEN_UP);
             return Ok(ModalMotion::of(sensors, &[seen], None, false, periods));
         }
-        if let Some(known) = known(&mut simulation, seen.repeats_after()) {
+        if let Some(known) = known(&mut simulation, &seen.repeats_after()) {
             return Ok(known);
         }
     }
@@ -463,8 +554,8 @@ fn from_start(
             for _ in 0..STRETCHES {
                 stretches.push(Stretch::fly(&mut simulation, system, sensors, stretch));
             }
-            let last = stretches.last().and_then(|one| one.repeats_after);
-            if let Some(known) = known(&mut simulation, last) {
+            let last = stretches.last().map(|one| &one.repeats_after);
+            if let Some(known) = last.and_then(|last| known(&mut simulation, last)) {
                 return Ok(known);
             }
         }

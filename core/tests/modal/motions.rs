@@ -1,7 +1,8 @@
 //! Long-term motions and linear devices: one mode and one absorber by the room that knows them, and closed forms.
 
+use vinesink_core::executor::Serial;
 use vinesink_core::linear::{ModalAmplitudes, ModalDamper, TunedMassDamper, bare_amplitude};
-use vinesink_core::motions::modal_motions;
+use vinesink_core::motions::{Effort, Motion, Place, modal_motions, motions};
 use vinesink_core::orbits::FullSystem;
 use vinesink_core::simulation::{
     Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, Sensor,
@@ -20,12 +21,16 @@ const FORCE: f64 = 0.25 / 20.0;
 
 /// One mode with one absorber, lengths over the clearance.
 fn one(omega: f64) -> (System, ModalSystem) {
+    forced(omega, FORCE, 0.6)
+}
+
+fn forced(omega: f64, force: f64, restitution: f64) -> (System, ModalSystem) {
     let parameters = Parameters {
         mass_ratio: EPS,
         damping: 2.0 * ZETA / EPS,
-        restitution: 0.6,
+        restitution,
         frequency_ratio: omega,
-        forcing_per_clearance: FORCE / EPS,
+        forcing_per_clearance: force / EPS,
         excitation: Excitation::Force,
         cavity: Cavity::IDEAL,
     };
@@ -33,11 +38,11 @@ fn one(omega: f64) -> (System, ModalSystem) {
         frequency: 1.0,
         damping_ratio: ZETA,
         mass: 1.0,
-        forcing: FORCE,
+        forcing: force,
         shape: vec![1.0],
         ..Mode::default()
     };
-    let absorber = ModalAbsorber { mass: EPS, clearance: 1.0, restitution: 0.6 };
+    let absorber = ModalAbsorber { mass: EPS, clearance: 1.0, restitution };
     let modal = ModalParameters {
         modes: vec![mode],
         absorbers: vec![absorber],
@@ -84,6 +89,43 @@ fn the_motion_of_one_mode_and_one_absorber_is_its_exact_orbit() {
         led += orbit.starts;
     }
     assert!(seen > 1 && led > 0, "{seen} orbits attract, {led} starts lead to one");
+}
+
+/// What repeats is an exact orbit: the one that the search for one mode and one absorber has, with its multiplier.
+#[test]
+fn what_repeats_is_proven_as_with_one_mode() {
+    let mut draw = Draw(20_261_130);
+    let (mut proven, mut further, mut others, mut long) = (0, 0, 0, 0);
+    for number in 0..60 {
+        let (omega, force) = (draw.within(0.96, 1.04), FORCE * draw.within(0.3, 3.0));
+        let (system, modal) = forced(omega, force, draw.within(0.3, 0.8));
+        let known = motions(&[Place::new(&system, 32)], &Effort::default(), &Serial);
+        let known = known.expect("they fly").remove(0);
+        let found = modal_motions(&modal, &[Sensor::displacement(vec![1.0])], 3, 300);
+        for one in found.expect("they fly").iter().filter(|one| !one.rests()) {
+            let Some(multiplier) = one.largest_multiplier else {
+                others += usize::from(one.repeats_after.is_some());
+                continue;
+            };
+            let peak = one.sensors[0].peak;
+            let same = |other: &&Motion| {
+                let orbit = other.orbit();
+                let radius = orbit.map_or(f64::NAN, |orbit| orbit.radius_per_period());
+                (other.facts().peak.value / peak - 1.0).abs() < 1e-8
+                    && other.repeats_after() == one.repeats_after
+                    && (radius - multiplier).abs() < 1e-6
+            };
+            further += usize::from(!known.iter().any(|other| same(&other)));
+            proven += 1;
+            long += usize::from(one.repeats_after.is_some_and(|after| after > 1));
+        }
+    }
+    println!(
+        "{proven} proven, {long} of more than a period, {further} further, {others} repeat otherwise"
+    );
+    // No start of the other search need lead to the smallest basins.
+    assert!(proven > 20 && long > 0, "{proven} {long}");
+    assert!(further * 20 <= proven && others * 5 < proven, "{proven} {further} {others}");
 }
 
 /// The case of a claim that an absorber at rest refuted: from 31 starts 0.215 mm, with the first of two absorbers at rest 0.362 mm.

@@ -239,12 +239,13 @@ fn motion_row(motion: &ModalMotion, count_rest: bool) -> Value {
 }
 
 fn worst_row(case: &ModalCase, worst: &WorstOfPlace) -> Value {
+    let known = |value: f64| Quantity::new(&of::PEAK, value, worst.method());
     json!({
         "load": worst.load,
         "place": case.places[worst.place],
         "at": given(&of::EXCITATION_FREQUENCY, worst.at),
-        "peak": simulated(&of::PEAK, worst.value).with_error(worst.error),
-        "most": simulated(&of::PEAK, worst.value + worst.error),
+        "peak": known(worst.value).with_error(worst.error),
+        "most": known(worst.value + worst.error),
         "settled": worst.all_settled,
         "rests": worst.rests,
         // Which absorbers do, from 1, and in which share of their places.
