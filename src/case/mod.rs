@@ -257,7 +257,8 @@ impl Case {
                 Ok(case)
             }
             _ => {
-                let told = |problem| if lists.is_some() { one::of_lists(problem) } else { problem };
+                let is_mode = lists.as_ref().is_some_and(|one| one.is_mode);
+                let told = |problem| if is_mode { one::of_lists(problem) } else { problem };
                 Err(refused(reader.problems.into_iter().map(told).collect(), reader.more))
             }
         }

@@ -21,6 +21,8 @@ pub(super) struct OneMode<'t> {
     pub document: DeTable<'t>,
     /// The mode's shape at the absorber.
     pub shape: f64,
+    /// Whether its structure is written as a mode.
+    pub is_mode: bool,
 }
 
 /// Keys of a mode that are the structure's.
@@ -36,10 +38,10 @@ const WHOLE: f64 = 1e-9;
 impl<'t> OneMode<'t> {
     /// None where there are several of something, or it says what the other form cannot.
     pub fn of(document: &DeTable<'t>) -> Option<Self> {
-        if ["oscillator", "reduced", "modes", "band"]
-            .iter()
-            .any(|name| document.contains_key(*name))
-        {
+        if document.contains_key("oscillator") {
+            return Self::beside_oscillator(document);
+        }
+        if ["reduced", "modes", "band"].iter().any(|name| document.contains_key(*name)) {
             return None;
         }
         let [mode, absorber, load] =
@@ -87,7 +89,23 @@ impl<'t> OneMode<'t> {
                 choices.iter().for_each(|choice| drop(of.remove(*choice)));
             }
         }
-        Some(Self { document, shape })
+        Some(Self { document, shape, is_mode: true })
+    }
+
+    /// Lists of one absorber or one excitation beside `[oscillator]`, which has no places.
+    fn beside_oscillator(document: &DeTable<'t>) -> Option<Self> {
+        let mut document = document.clone();
+        let mut is_list = false;
+        for name in ["absorber", "excitation"] {
+            if !document.get(name)?.get_ref().is_array() {
+                continue;
+            }
+            let (span, one) = only(&document, name)?;
+            document.remove(name);
+            document.insert(key(name, &span), table(one, &span));
+            is_list = true;
+        }
+        is_list.then_some(Self { document, shape: 1.0, is_mode: false })
     }
 }
 

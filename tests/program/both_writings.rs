@@ -300,6 +300,13 @@ fn lists_of_one_are_one_structure() {
         assert!(is_modal(text), "{text}");
     }
     assert!(!is_modal(LISTS) && !is_modal(TABLES));
+    // A list of one absorber beside [oscillator] too.
+    let listed = TABLES.replace("[absorber]", "[[absorber]]");
+    let listed = listed.replace("[excitation]", "[[excitation]]");
+    assert_eq!(parsed(&listed).system(), tables.system());
+    let error = Case::parse("case.toml", &listed.replace("'4 g'", "'4 m'")).expect_err("no mass");
+    let told = error.to_string();
+    assert!(told.contains("mass") && !told.contains("[[mode]]"), "{told}");
     let error = Case::parse("case.toml", &LISTS.replace("'1 %'", "'1 Hz'")).expect_err("no share");
     assert!(!error.to_string().contains("oscillator"), "{error}");
 }

@@ -96,7 +96,7 @@ fn the_motion_of_one_mode_and_one_absorber_is_its_exact_orbit() {
 fn what_repeats_is_proven_as_with_one_mode() {
     let mut draw = Draw(20_261_130);
     let (mut proven, mut further, mut others, mut long) = (0, 0, 0, 0);
-    for number in 0..60 {
+    for _ in 0..60 {
         let (omega, force) = (draw.within(0.96, 1.04), FORCE * draw.within(0.3, 3.0));
         let (system, modal) = forced(omega, force, draw.within(0.3, 0.8));
         let known = motions(&[Place::new(&system, 32)], &Effort::default(), &Serial);
