@@ -139,7 +139,7 @@ catalogue! {
     BARE_PEAK = "bare_peak", "", "peak displacement without absorber", Length, Significant(3), Interval;
     INACTIVE_PEAK = "inactive_peak", "", "peak displacement with an inactive absorber", Length, Significant(3), Interval;
     INACTIVE_SHARE = "inactive_share", "", "share of the absorber's resting places from which it stays inactive", Share, Significant(2), Interval;
-    SUDDEN_SHARE = "sudden_share", "", "share of the absorber's resting places from which it stays inactive when the excitation begins at once", Share, Significant(2), Interval;
+    SUDDEN_SHARE = "share_sudden", "", "share of the absorber's resting places from which it stays inactive when the excitation begins at once", Share, Significant(2), Interval;
     DAMPER_PEAK = "damper_peak", "", "peak displacement with a tuned mass damper", Length, Significant(3), Interval;
     DAMPER_STROKE = "damper_stroke", "", "stroke of the tuned mass damper", Length, Significant(3), Interval;
     DAMPER_FREQUENCY = "damper_frequency", "", "frequency of the tuned mass damper", Frequency, Significant(4), Interval;

@@ -30,8 +30,8 @@ pub fn inactive(
         "share": Quantity::new(&of::INACTIVE_SHARE, rest.share, of),
         "within": scale.units.quantity(&of::CLEARANCE, rest.share, of),
         // Those from which it does so when the excitation begins at once.
-        "sudden_share": Quantity::new(&of::SUDDEN_SHARE, rest.sudden, of),
-        "sudden_within": scale.units.quantity(&of::CLEARANCE, rest.sudden, of),
+        "share_sudden": Quantity::new(&of::SUDDEN_SHARE, rest.sudden, of),
+        "within_sudden": scale.units.quantity(&of::CLEARANCE, rest.sudden, of),
         "why_not": motion.why_not(counts),
     });
     // Held or sliding; else it floats in the middle of its cavity.

@@ -61,7 +61,7 @@ fn one(scale: &Scale, motions: &Motions, index: usize, count_rest: bool) -> Opti
         // How an absorber at rest rests.
         "rest": motion.rest().map(|rest| rest.rest),
         // Its share of resting places when the excitation begins at once.
-        "sudden_share": motion.rest().map(|rest| rest.sudden),
+        "share_sudden": motion.rest().map(|rest| rest.sudden),
         "starts": motion.reached().starts,
         "of_starts": motions.of_starts(),
         "share": motions.share(motion),

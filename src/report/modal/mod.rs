@@ -219,18 +219,16 @@ fn motion_row(motion: &ModalMotion, count_rest: bool) -> Value {
             place[name] = row(kinds, one);
         }
     }
-    let resting = motion.resting.iter().enumerate();
-    let resting =
-        resting.filter_map(|(j, share)| Some(json!({ "absorber": j + 1, "share": (*share)? })));
+    let rests = motion.resting.iter().zip(1_u32..).filter(|(share, _)| share.is_some());
     json!({
         "starts": motion.starts,
         "repeats_after": motion.repeats_after,
         "settled": motion.settled,
         // Whether every absorber rests where no wall reaches it.
         "rests": motion.rests(),
-        // Absorbers that do, each with the share of its cavity within which it may; together; and whether that is enough.
-        "resting": resting.collect::<Vec<_>>(),
-        "share_of_places": motion.rest_share(),
+        // Absorbers that do, from 1, the share of their places in which they may, together, and whether that is enough.
+        "resting": rests.map(|(_, j)| j).collect::<Vec<_>>(),
+        "share": motion.rest_share(),
         "counts": motion.counts(count_rest),
         "impacts_per_period": motion.impacts_per_period.iter().map(|[count, _]| count).collect::<Vec<_>>(),
         "largest_multiplier": motion.largest_multiplier,
@@ -250,7 +248,7 @@ fn worst_row(case: &ModalCase, worst: &WorstOfPlace) -> Value {
         "rests": worst.rests,
         // Which absorbers do, from 1, and in which share of their places.
         "resting": worst.resting.iter().zip(1..).filter(|(rests, _)| **rests).map(|(_, j)| j).collect::<Vec<u32>>(),
-        "share_of_places": worst.share,
+        "share": worst.share,
     })
 }
 
