@@ -328,9 +328,12 @@ fn any_restitution() -> impl Strategy<Value = f64> {
     prop_oneof![2 => Just(0.0), 3 => hardly, 2 => 0.0..=1.0]
 }
 
-/// Whether a clearance, over the system's own, is too close to a limit to tell.
-fn next_to_a_limit(family: &SymmetricFamily, clearance: f64) -> bool {
-    family.limits.iter().any(|limit| (limit.clearance / clearance - 1.0).abs() < 1e-6)
+/// Whether a clearance, over the system's own, is too close to a limit to tell. Beside an undamped resonance lengths are rounded at
+/// the size of the steady motion: whether an absorber without rebound leaves its wall is told where it does so by more than 64 units
+/// in the last place of that, at an amplitude of 5e5 from 1e-5 to 1e-4 of the clearance on, at 5e3 from 1e-7 to 1e-6.
+fn next_to_a_limit(family: &SymmetricFamily, clearance: f64, amplitude: f64) -> bool {
+    let told = (3e-10 * amplitude).max(1e-6);
+    family.limits.iter().any(|limit| (limit.clearance / clearance - 1.0).abs() < told)
 }
 
 fn attracts_at(system: &System, clearance: f64) -> Option<Vec<f64>> {
@@ -379,7 +382,7 @@ proptest! {
             }
         }
         for clearance in tried {
-            if next_to_a_limit(&family, clearance) {
+            if next_to_a_limit(&family, clearance, amplitude) {
                 continue;
             }
             let attracting = attracts_at(&system, clearance).expect("valid");
