@@ -171,20 +171,24 @@ pub(super) fn cells(plan: &Plan, facts: &PointFacts) -> Vec<Option<Cell>> {
             Recorded::Section => cells.extend((0..SECTION).map(|k| {
                 found.section.displacements.get(k).map(|x| Cell::Number(point.units.length(*x)))
             })),
-            other => cells.push(number(other, facts, found).map(Cell::Number)),
+            other => cells.push(number(plan, other, facts, found).map(Cell::Number)),
         }
     }
     cells
 }
 
 /// The value of what fills one column of numbers, whole numbers or flags.
-fn number(recorded: Recorded, facts: &PointFacts, found: &PointMotions) -> Option<f64> {
+fn number(
+    plan: &Plan,
+    recorded: Recorded,
+    facts: &PointFacts,
+    found: &PointMotions,
+) -> Option<f64> {
     let units = &facts.point.units;
     let length = |over_clearance: f64| units.length(over_clearance);
     let motions = &found.motions;
     let main = || motions.main();
-    // A point has no criteria of its own: what the case leaves out is not for it to say.
-    let counting = || motions.counting(true).map(|(_, motion)| motion);
+    let counting = || motions.counting(plan.count_rest).map(|(_, motion)| motion);
     let peak = |motion: &&Motion| motion.facts().peak.value;
     let largest = || counting().max_by(|a, b| peak(a).total_cmp(&peak(b)));
     match recorded {
@@ -207,7 +211,9 @@ fn number(recorded: Recorded, facts: &PointFacts, found: &PointMotions) -> Optio
         Recorded::LargestPeak => largest().map(|motion| length(motion.facts().peak.value)),
         Recorded::Motions => Some(counting().count() as f64).filter(|_| !motions.is_empty()),
         other => {
-            let motion = if other == Recorded::ReductionDb { largest() } else { main() }?;
+            // A point that is a start has the motion that it leads to.
+            let worst = other == Recorded::ReductionDb && facts.point.start.is_none();
+            let motion = if worst { largest() } else { main() }?;
             let bare = facts.bare().unwrap_or(f64::INFINITY);
             let of = other.asked().0;
             of.of_motion(motion, &|fact| fact.of(motion), bare, units).map(|[value, _]| value)

@@ -42,6 +42,8 @@ pub struct Plan {
     pub design: Design,
     /// Its points.
     pub grid: Grid,
+    /// Whether an absorber that stays at rest counts, as the case's criteria say.
+    count_rest: bool,
     /// What else the case says where its structure is not driven steadily.
     unsteady: Option<Unsteady>,
 }
@@ -79,7 +81,8 @@ impl Plan {
         let mut named = case.text_hash.clone();
         named.extend(unsteady.iter().filter_map(Unsteady::digest));
         let whole = Grid::of(settings, FEWEST_POINTS, &named);
-        let plan = Self { design: case.design, grid: whole, unsteady };
+        let count_rest = case.count_inactive;
+        let plan = Self { design: case.design, grid: whole, count_rest, unsteady };
         let fewest = plan.fewest_points();
         let grid = Grid::of(plan.settings.clone(), fewest, &named);
         Some(Self { grid, ..plan })

@@ -590,6 +590,20 @@ fn every_column_is_what_its_layer_says() {
     );
 }
 
+/// An absorber that a wall does not reach keeps the structure at its own amplitude; in a device in which it cannot rest the orbit
+/// is the worst. A point that is a start has the reduction of the motion that it leads to.
+#[test]
+fn an_absorber_at_rest_counts_in_a_sweep_unless_the_case_leaves_it_out() {
+    let sweep = "starts = 4\nperiods = 100\nclearance = { values = [\"15 mm\", \"20 mm\"] }\n";
+    let one = |text: &str, name: &str| numbers(&swept(text), name);
+    let text = sweeping(&format!("{sweep}frequency = {{ values = [\"8.5 Hz\"] }}\n"));
+    let [worst, main] = ["largest_peak [m]", "peak [m]"].map(|name| one(&text, name));
+    assert!(worst.iter().zip(&main).all(|(worst, main)| *worst > 1.5 * main), "{worst:?} {main:?}");
+    let awake = format!("{text}\n[criteria]\ncount_inactive = false\n");
+    assert_eq!(one(&awake, "largest_peak [m]"), one(&awake, "peak [m]"));
+    assert!(one(&awake, "reduction_db [dB]").iter().all(|reduction| *reduction > 4.0));
+}
+
 /// Upwards the upper branch is kept until it ends, downwards the lower: where two motions attract the
 /// columns differ, elsewhere they agree; and each is a motion of its system.
 #[test]
