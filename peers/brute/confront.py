@@ -15,7 +15,7 @@ import argparse, csv, json, os, re, subprocess, sys, tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TABLE = os.path.join(HERE, "..", "..", "tests", "designs", "brute_force.csv")
-CONVENTION = "inactive-from-rest"
+CONVENTION = "inactive"
 
 
 def apart(a, b):
@@ -77,7 +77,7 @@ def main():
                 words = [sys.executable, os.path.join(HERE, "brute.py"), "scan", new]
                 lines = subprocess.run(words, check=True, capture_output=True, text=True).stdout.splitlines()
                 row = next(csv.DictReader(lines))
-                worst = float(row["inactive_from_rest_m"])
+                worst = float(row["inactive_m"])
                 # Where an inactive absorber is worst its amplitude is exact.
                 typical = float(row["typical_m"]) if worst == float(row["impacts_m"]) else worst
                 scanned = typical, worst

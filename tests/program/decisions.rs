@@ -73,7 +73,8 @@ fn the_worst_of_a_band_is_that_of_a_dense_scan() {
 }
 
 /// What `optimize` claims is what `check` says of the file it wrote; it is not worse than the start (97.7 mm),
-/// and within 5 % of brute force: 68.05 mm (`peers/brute`, an absorber that never wakes from rest counted).
+/// and within 5 % of brute force: 74.26 mm at 74.05 mm (`peers/brute`, an absorber at rest
+/// counted where the structure alone does not reach a wall).
 #[test]
 #[ignore = "deep"]
 fn an_optimum_keeps_its_word_over_the_whole_band() {
@@ -107,7 +108,7 @@ fn an_optimum_keeps_its_word_over_the_whole_band() {
     println!("claimed {claimed} m, checked {checked} (+{error}) m, {}", document["optimum"]);
     assert_eq!((claimed, number(&document["checked"]["value"])), (checked, checked));
     assert!(checked + error < peak("tests/decisions/bridge.toml")[0]);
-    assert!(checked + error < 1.05 * 0.06805, "{checked} (+{error})");
+    assert!(checked + error < 1.05 * 0.07426, "{checked} (+{error})");
 }
 
 /// The bare structure has 149.6 mm at resonance: from rest an absorber within 50 mm of the middle of its
