@@ -483,9 +483,13 @@ fn swept(
     column("impact_speed", speed.or((main["kind"] == "rest").then_some(0.0)));
     column("repeats_after", main["repeats_after"].as_f64());
     column("share_of_starts", Some(number(&main["starts"]) / starts as f64));
+    // What the criteria of the case leave out is left out of its sweep.
+    let left_out = text.contains("count_inactive = false");
     let counting = || {
         motions.iter().filter(|one| {
-            number(&one["starts"]) > 0.0 || one["kind"] != "rest" || number(&one["share"]) >= 0.01
+            let rests = one["kind"] == "rest";
+            let few = number(&one["starts"]) == 0.0 && number(&one["share"]) < 0.01;
+            !(rests && (left_out || few))
         })
     };
     column("motions", Some(counting().count() as f64));
