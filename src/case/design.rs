@@ -86,7 +86,7 @@ static PHYSICAL: Writing = Writing {
         Inclination = absorber.inclination, INCLINATION { inclination_rad }
         Friction = absorber.friction, FRICTION { friction }
         AbsorberMass = absorber.mass, ABSORBER_MASS { absorber_mass_kg }
-        MassRatio = absorber.mass_ratio, MASS_RATIO { absorber_mass_kg over mass_kg }
+        MassRatio = absorber.mass_ratio, MASS_RATIO { absorber_mass_kg over structure().mass_kg }
         Mass = oscillator.mass, OSCILLATOR_MASS { mass_kg }
         Stiffness = oscillator.stiffness, STIFFNESS { stiffness_n_per_m }
         // By its stiffness: mass and damping ratio stay.

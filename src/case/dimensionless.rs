@@ -82,7 +82,7 @@ impl Design {
     /// in 1/s: its integral over the contact is the change of the velocity. None where impacts take no time.
     fn pulse(&self) -> Option<f64> {
         let Self::Physical(p) = self else { return None };
-        let ratio = p.absorber_mass_kg / p.mass_kg;
+        let ratio = p.absorber_mass_kg / p.structure().mass_kg;
         let restitution = p.restitution + 0.5 * p.restitution_difference.abs();
         let change = ratio / (1.0 + ratio) * (1.0 + restitution);
         Some(FRAC_PI_2 * change / p.contact_time_s?)

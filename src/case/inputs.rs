@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::Serialize;
 
-use super::Case;
+use super::{Case, Design};
 
 /// One number of a case, given or derived.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,6 +48,13 @@ impl Case {
             ("forcing", "G", self.design.forcing(), unit),
             ("forcing_per_clearance", r"\gamma", system.forcing_per_clearance(), "1"),
         ];
+        let place = match &self.design {
+            Design::Physical(of) if of.shape * of.shape != 1.0 => {
+                let mass = of.structure().mass_kg;
+                Some(("mass_at_the_absorber", r"m_1/\phi^2", mass, "kg"))
+            }
+            _ => None,
+        };
         let derived =
             |(name, symbol, value, unit): (&'static str, &str, f64, &'static str)| Input {
                 table: String::new(),
@@ -66,6 +73,7 @@ impl Case {
         ];
         // A reduced design has no frequency but ratios.
         let numbers = numbers.into_iter().skip(usize::from(!units.physical));
+        let numbers = place.into_iter().chain(numbers);
         numbers.chain(of_cavity.into_iter().filter(|_| !cavity.is_ideal())).map(derived).collect()
     }
 }

@@ -244,13 +244,9 @@ impl Case {
         let document = document::parse(visible).map_err(|problems| refused(problems, 0))?;
         let mut reader = Reader::of(visible);
         let lists = OneMode::of(&document);
-        let (document, shape) = match &lists {
-            Some(one) => (&one.document, one.shape),
-            None => (&document, 1.0),
-        };
-        let case = read(&mut reader, document, text_sha256(text));
-        let case = case.and_then(|case| case.with_shape(shape));
-        match case {
+        reader.shape = lists.as_ref().map_or(1.0, |one| one.shape);
+        let document = lists.as_ref().map_or(&document, |one| &one.document);
+        match read(&mut reader, document, text_sha256(text)) {
             Some(mut case) if reader.problems.is_empty() => {
                 case.text = Arc::from(visible);
                 case.warnings = warnings::of(&case);
@@ -262,19 +258,6 @@ impl Case {
                 Err(refused(reader.problems.into_iter().map(told).collect(), reader.more))
             }
         }
-    }
-
-    /// The same where the absorber's place moves by so much of what its mass is of: the mass there is that over the square.
-    fn with_shape(self, shape: f64) -> Option<Self> {
-        let Design::Physical(mut of) = self.design else { return Some(self) };
-        if shape * shape == 1.0 {
-            return Some(self);
-        }
-        let scale = 1.0 / (shape * shape);
-        of.mass_kg *= scale;
-        of.stiffness_n_per_m *= scale;
-        of.damping_n_s_per_m *= scale;
-        self.with_design(Design::Physical(of))
     }
 
     /// Whether a criterion is of velocity or acceleration of the structure.

@@ -92,7 +92,7 @@ pub(super) struct AbsorberTable {
 /// stiffness, clearance and frequency above 0, damping and amplitude at least 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Physical {
-    /// `m1`, the mass of the linear oscillator.
+    /// `m1`, the mass of the linear oscillator; a modal mass where it is written as a mode.
     pub mass_kg: f64,
     /// `k1`, the stiffness between base and oscillator.
     pub stiffness_n_per_m: f64,
@@ -124,15 +124,18 @@ pub struct Physical {
     pub frequency_hz: f64,
     /// What is not steady harmonic excitation.
     pub transient: Option<Transient>,
+    /// `phi`, by how much the absorber's place moves where the oscillator's coordinate is 1: 1 unless it is written as a mode.
+    pub shape: f64,
 }
 
 impl Physical {
-    /// The linear oscillator.
+    /// The linear oscillator as the absorber's place has it: mass, stiffness and damping over `phi^2`.
     pub const fn structure(&self) -> Structure {
+        let scale = self.shape * self.shape;
         Structure {
-            mass_kg: self.mass_kg,
-            stiffness_n_per_m: self.stiffness_n_per_m,
-            damping_n_s_per_m: self.damping_n_s_per_m,
+            mass_kg: self.mass_kg / scale,
+            stiffness_n_per_m: self.stiffness_n_per_m / scale,
+            damping_n_s_per_m: self.damping_n_s_per_m / scale,
         }
     }
 
@@ -154,14 +157,19 @@ impl Physical {
         Harmonic { excitation, amplitude, frequency_hz }
     }
 
+    /// The same as it is written.
+    const fn own(&self) -> Structure {
+        Self { shape: 1.0, ..*self }.structure()
+    }
+
     /// `omega0 = sqrt(k1/m1)`, the natural frequency in rad/s.
     pub fn natural_frequency_rad_per_s(&self) -> f64 {
-        self.structure().natural_frequency_rad_per_s()
+        self.own().natural_frequency_rad_per_s()
     }
 
     /// `2 sqrt(k1 m1)`, the damping at which the oscillator alone ceases to ring, in N s/m.
     pub fn critical_damping_n_s_per_m(&self) -> f64 {
-        self.structure().critical_damping_n_s_per_m()
+        self.own().critical_damping_n_s_per_m()
     }
 
     /// The longest impact whose pulse is no part of the vibration, in s: a fiftieth of the natural period.
@@ -196,7 +204,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         damping_n_s_per_m: 0.0,
         absorber_mass_kg: match (absorber.mass, absorber.mass_ratio) {
             (Some(mass), _) => mass,
-            (None, ratio) => ratio? * oscillator.mass,
+            (None, ratio) => ratio? * oscillator.mass / (reader.shape * reader.shape),
         },
         clearance_m: absorber.clearance,
         restitution: absorber.restitution.mean(),
@@ -209,6 +217,7 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         amplitude: excitation.amplitude.unwrap_or_default(),
         frequency_hz: 0.0,
         transient,
+        shape: reader.shape,
     };
     physical.frequency_hz = match transient {
         Some(Transient::Sweep(sweep)) => sweep.from,

@@ -36,6 +36,8 @@ pub(super) struct Reader<'t> {
     pub of_several: Option<bool>,
     /// What drives the design, where that is a record.
     pub recording: Option<Recording>,
+    /// By how much the absorber's place moves of a structure that is written as a mode; else 1.
+    pub shape: f64,
 }
 
 impl<'t> Reader<'t> {
@@ -52,6 +54,7 @@ impl<'t> Reader<'t> {
             plain: false,
             of_several: None,
             recording: None,
+            shape: 1.0,
         }
     }
 

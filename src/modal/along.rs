@@ -220,6 +220,19 @@ impl AtFrequency {
         self.motions.iter().filter(|one| one.counts(self.count_rest))
     }
 
+    /// The largest share of places of absorbers at rest in a motion that does not count for having few of them, where more than a
+    /// limit is measured in it.
+    pub(super) fn too_few(
+        &self,
+        places: impl Iterator<Item = usize> + Clone,
+        asked: PlaceMeasure,
+        limit: f64,
+    ) -> Option<f64> {
+        let few = self.motions.iter().filter(|one| self.count_rest && !one.counts(true));
+        let over = few.filter(|one| places.clone().any(|p| measured(one, p, asked)[0] > limit));
+        over.filter_map(ModalMotion::rest_share).max_by(f64::total_cmp)
+    }
+
     /// The largest of what is measured of a place, also with every absorber at rest or not.
     fn largest(&self, place: usize, asked: PlaceMeasure, rests: bool) -> Option<f64> {
         let motions = self.counting().filter(|one| rests || !one.rests());

@@ -160,7 +160,12 @@ impl ModalAnswer {
         let undecided = (!worst.all_settled && !fails).then_some(followed);
         let judged =
             Judged::of_worst(&asked.criterion, [worst.value, worst.error], decided_by, undecided);
-        let judged = Judged { inactive: worst.share, ..judged };
+        let here = || self.along.iter().flat_map(|along| &along.places);
+        let places = (0..case.places.len()).filter(|p| asked.place.is_none_or(|one| one == *p));
+        let limit = asked.criterion.limit;
+        let few = here().filter_map(|one| one.too_few(places.clone(), asked.measure, limit));
+        let few = few.max_by(f64::total_cmp).filter(|_| judged.holds == Some(true));
+        let judged = Judged { inactive: worst.share, but_at_rest: few, ..judged };
         Some(JudgedPlace { place: asked.place, worst, judged })
     }
 

@@ -276,6 +276,17 @@ fn lists_of_one_are_one_structure() {
     );
     assert_eq!(lists.criteria.len(), 1);
     assert!(lists.uncertainty.parameters().next().is_some());
+    // The mass that is said, and that varies, is the mode's.
+    assert_eq!(lists.design.value(Parameter::Mass), Some(0.4));
+    let heavier = |case: &Case, kg: f64| case.design.with(Parameter::Mass, kg).system();
+    let [heavy, other] =
+        [heavier(&lists, 0.44), heavier(&tables, 0.11)].map(|one| one.expect("valid"));
+    assert!(
+        close(heavy.mass_ratio(), other.mass_ratio()) && close(heavy.damping(), other.damping())
+    );
+    assert!(close(heavy.frequency_ratio(), other.frequency_ratio()));
+    let share = parsed(&LISTS.replace("mass = '4 g'", "mass_ratio = '4 %'"));
+    assert!(close(share.system().mass_ratio(), 0.04));
     // What stands in lists is changed there.
     let design = lists.design.with(Parameter::Clearance, 70e-6);
     let changed = lists.rewritten("case.toml", LISTS, &design, Rounding::Nearest);

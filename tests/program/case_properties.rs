@@ -36,6 +36,7 @@ prop_compose! {
             restitution, restitution_difference, inclination_rad, friction, excitation, amplitude, frequency_hz,
             contact_time_s: None,
             support: None, transient: None,
+            shape: 1.0,
         }
     }
 }
@@ -226,6 +227,7 @@ fn restored(units: &Units, system: &System) -> Design {
         frequency_hz: units.frequency(system.frequency_ratio()),
         support: None,
         transient: None,
+        shape: 1.0,
     })
 }
 

@@ -568,6 +568,31 @@ fn an_absorber_that_rests_while_the_other_impacts_counts_unless_it_cannot() {
     assert!(holds == Some(true) && awake < 0.8e-3, "{holds:?} {awake}");
 }
 
+/// Alone the place moves by 6.43 mm, with the orbit by 4.7 mm: absorbers at rest in fewer than 1 % of the places are named, and do not
+/// count.
+#[test]
+fn absorbers_at_rest_in_few_places_are_named() {
+    let judged = |clearance: &str| {
+        let text = format!(
+            "title = 't'\nsource = 's'\n[[mode]]\nfrequency = '8.35 Hz'\ndamping_ratio = '0.69 %'\nmass = '4.168 kg'\n\
+             shape = {{ a = 1.0, b = 0.5 }}\n[[absorber]]\nplace = 'a'\nmass = '32 g'\nclearance = '{clearance} mm'\n\
+             restitution = 0.6\n[[excitation]]\nkind = 'force'\nplace = 'a'\namplitude = '2.867 N'\nfrequency = '8.5 Hz'\n\
+             [criteria]\npeak_displacement = '<= 5.5 mm'\n"
+        );
+        let case = ModalCase::parse("case.toml", &text).expect("a case");
+        let answer = ModalAnswer::of(&case, &Serial).expect("flown");
+        let judged = &answer.judged[0].judged;
+        (judged.holds, judged.but_at_rest, judged.inactive)
+    };
+    let (holds, few, _) = judged("6.45");
+    assert!(
+        holds == Some(true) && few.is_some_and(|share| (share - 0.0034).abs() < 1e-4),
+        "{few:?}"
+    );
+    let (holds, few, rests) = judged("6.5");
+    assert!(holds == Some(false) && few.is_none() && rests.is_some_and(|share| share > 0.01));
+}
+
 /// Absorbers that rest move the structure up to where a wall reaches all but a hundredth of their places: between two frequencies of
 /// a search, where the structure alone moves by 99 % of the clearance.
 #[test]

@@ -278,7 +278,12 @@ impl Attracting {
         let mut simulation = ModalSimulation::new(system, state, 0.0).ok()?;
         let mut seen = Sequence::default();
         simulation.run(periods.into(), u64::from(periods) * MOST_IMPACTS, &mut seen);
-        if seen.sticks {
+        // One that hits nothing and moves is on its way to a wall.
+        let drifts = |(j, one): (usize, &[f64; 2])| {
+            one[1] != 0.0 && seen.impacts.iter().all(|impact| impact.absorber != j)
+        };
+        let carried = &state.absorbers[..system.absorbers().len()];
+        if seen.sticks || carried.iter().enumerate().any(drifts) {
             return None;
         }
         let cycle = ModalCycle { state: *state, periods, impacts: seen.impacts };
