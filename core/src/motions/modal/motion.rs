@@ -1,0 +1,194 @@
+//! A long-term motion of a structure of several modes with several absorbers, and when two are one.
+
+use serde::Serialize;
+
+use super::stretch::Stretch;
+use crate::motions::NEGLIGIBLE;
+use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
+use crate::simulation::{Reading, Sensor, SensorRecord};
+
+/// What a sensor reads in a long-term motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SensorExtent {
+    /// What it reads.
+    pub reads: Reading,
+    /// The largest without its sign that was seen.
+    pub peak: f64,
+    /// By how much a run ten times as long may exceed it, at odds of 19 to 1; 0 of what repeats.
+    pub error: f64,
+    /// Root mean square, and twice its standard error by the scatter between blocks.
+    pub rms: [f64; 2],
+}
+
+/// A long-term motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModalMotion {
+    /// What each sensor reads.
+    pub sensors: Vec<SensorExtent>,
+    /// Impacts of each absorber per excitation period, and twice their standard error.
+    pub impacts_per_period: Vec<[f64; 2]>,
+    /// Excitation periods after which it repeats; none where that was not seen.
+    pub repeats_after: Option<u32>,
+    /// Whether it has settled: it repeats, or the slowest mode has died out and no mean square drifts.
+    pub settled: bool,
+    /// Largest Floquet multiplier of an excitation period, where it was solved for: an exact orbit.
+    pub largest_multiplier: Option<f64>,
+    /// Starts that led to it; none of an orbit that attracts all the same, or in which absorbers rest.
+    pub starts: u32,
+    /// Of each absorber that rests in it the share of its cavity within which it may; none of one that impacts.
+    pub resting: Vec<Option<f64>>,
+    /// Excitation periods of a case's window: largest values are spoken of for ten times as long.
+    #[serde(skip)]
+    pub(super) periods: u64,
+    /// What was seen of it from each start.
+    #[serde(skip)]
+    pub(super) flights: Vec<FlightCourse>,
+}
+
+/// What a flight came to in each of its stretches: the largest that each sensor reads, its mean square, and impacts in a period
+/// of each absorber.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct FlightCourse {
+    /// Excitation periods of all of them.
+    periods: u64,
+    peaks: Vec<Vec<f64>>,
+    squares: Vec<Vec<f64>>,
+    impacts: Vec<Vec<f64>>,
+}
+
+/// Relative difference up to which root mean squares and impacts of two motions that do not repeat are the same, beside their
+/// errors.
+const SAME: f64 = 0.02;
+/// The same of those that do.
+const SAME_REPEATING: f64 = 1e-6;
+
+impl ModalMotion {
+    /// From what stretches of equal length came to, in a case with a window of so many periods.
+    pub(super) fn of(
+        sensors: &[Sensor],
+        stretches: &[Stretch],
+        repeats_after: Option<u32>,
+        settled: bool,
+        periods: u64,
+    ) -> Self {
+        let of_sensors = |of: fn(&SensorRecord) -> f64| {
+            let each = |n: usize| stretches.iter().map(|one| of(&one.sensors[n])).collect();
+            (0..sensors.len()).map(each).collect()
+        };
+        let impacts = |j: usize| stretches.iter().map(|one| one.impacts[j]).collect();
+        let flight = FlightCourse {
+            periods: stretches.iter().map(|one| one.periods).sum(),
+            peaks: of_sensors(|one| one.peak),
+            squares: of_sensors(|one| one.mean_square),
+            impacts: (0..stretches[0].impacts.len()).map(impacts).collect(),
+        };
+        let unknown =
+            |one: &Sensor| SensorExtent { reads: one.reads, peak: 0.0, error: 0.0, rms: [0.0; 2] };
+        let mut found = Self {
+            sensors: sensors.iter().map(unknown).collect(),
+            impacts_per_period: vec![[0.0; 2]; flight.impacts.len()],
+            repeats_after,
+            settled,
+            largest_multiplier: None,
+            starts: 1,
+            resting: vec![None; flight.impacts.len()],
+            periods,
+            flights: vec![flight],
+        };
+        found.measure();
+        found
+    }
+
+    /// Forgets what all but so many sensors read.
+    pub(super) fn read_by_first(&mut self, count: usize) {
+        self.sensors.truncate(count);
+        for flight in &mut self.flights {
+            flight.peaks.truncate(count);
+            flight.squares.truncate(count);
+        }
+    }
+
+    /// Adds an absorber that has no impact, at a place in their list.
+    pub(super) fn insert_at_rest(&mut self, j: usize) {
+        self.impacts_per_period.insert(j, [0.0; 2]);
+        for flight in &mut self.flights {
+            let stretches = flight.squares.first().map_or(0, Vec::len);
+            flight.impacts.insert(j, vec![0.0; stretches]);
+        }
+    }
+
+    /// Its numbers by all that was seen of it.
+    fn measure(&mut self) {
+        let Self { sensors, impacts_per_period, flights, .. } = self;
+        let seen = flights.iter().map(|one| one.periods).sum::<u64>().max(1);
+        let longer = LONGER * self.periods as f64 / seen as f64;
+        let known = |windows: &[&[f64]]| {
+            let all = windows.concat();
+            let mean = all.iter().sum::<f64>() / all.len() as f64;
+            [mean, if all.len() > 1 { twice_error_of_mean(windows) } else { 0.0 }]
+        };
+        for (n, sensor) in sensors.iter_mut().enumerate() {
+            let peaks: Vec<&[f64]> = flights.iter().map(|one| one.peaks[n].as_slice()).collect();
+            let squares: Vec<&[f64]> =
+                flights.iter().map(|one| one.squares[n].as_slice()).collect();
+            let [square, error] = known(&squares);
+            let rms = square.sqrt();
+            sensor.peak = peaks.iter().copied().flatten().copied().fold(0.0, f64::max);
+            sensor.error = error_of_largest(&peaks, longer);
+            sensor.rms = [rms, error_of_root(rms, error)];
+        }
+        for (j, impacts) in impacts_per_period.iter_mut().enumerate() {
+            let counts: Vec<&[f64]> = flights.iter().map(|one| one.impacts[j].as_slice()).collect();
+            *impacts = known(&counts);
+        }
+    }
+
+    /// Whether no absorber impacts.
+    pub fn rests(&self) -> bool {
+        self.impacts_per_period.iter().all(|[count, _]| *count == 0.0)
+    }
+
+    /// The share of the resting places of all absorbers that rest in it, together; none where none does.
+    pub fn rest_share(&self) -> Option<f64> {
+        self.resting.iter().flatten().copied().reduce(|all, share| all * share)
+    }
+
+    /// Whether it is one that may be met: a start led to it, or absorbers that rest do so in a share of their places that is not
+    /// negligible; none in which one rests where these do not count.
+    pub fn counts(&self, count_rest: bool) -> bool {
+        self.rest_share().is_none_or(|share| count_rest && (self.starts > 0 || share >= NEGLIGIBLE))
+    }
+
+    /// What sensors of a kind read, in their order.
+    pub fn read(&self, reads: Reading) -> impl Iterator<Item = &SensorExtent> {
+        self.sensors.iter().filter(move |one| one.reads == reads)
+    }
+
+    /// Whether it is another flight of the same motion, by its displacements, whatever else is read.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let repeats = self.repeats_after.is_some();
+        let share = if repeats { SAME_REPEATING } else { SAME };
+        let near = |[a, of_a]: [f64; 2], [b, of_b]: [f64; 2]| {
+            (a - b).abs() <= share * a.max(b) + of_a + of_b
+        };
+        let peaks =
+            |a: &SensorExtent, b: &SensorExtent| !repeats || near([a.peak, 0.0], [b.peak, 0.0]);
+        let displaced =
+            |one: &'_ Self| one.read(Reading::Displacement).copied().collect::<Vec<_>>();
+        let (own, of) = (displaced(self), displaced(other));
+        let impacts = self.impacts_per_period.iter().zip(&other.impacts_per_period);
+        repeats == other.repeats_after.is_some()
+            && own.iter().zip(&of).all(|(a, b)| peaks(a, b) && near(a.rms, b.rms))
+            && impacts.into_iter().all(|(a, b)| near(*a, *b))
+    }
+
+    /// Adds another flight of it; what repeats is known from one.
+    pub(super) fn join(&mut self, other: &Self) {
+        self.starts += other.starts;
+        self.settled &= other.settled;
+        if self.repeats_after.is_none() {
+            self.flights.extend(other.flights.iter().cloned());
+            self.measure();
+        }
+    }
+}

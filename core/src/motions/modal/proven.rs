@@ -1,0 +1,115 @@
+//! Exact orbits that attract: those that are solved for at first, and those that a start nearly is on.
+
+use super::motion::ModalMotion;
+use super::stretch::{MOST_IMPACTS, SAME_STATE, Stretch, distance};
+use crate::orbits::{
+    CycleImpact, ModalCycle, ModalPeriodicOrbit, antiperiodic_orbits, orbit_state,
+};
+use crate::simulation::{
+    Detail, ModalImpact, ModalObserver, ModalSimulation, ModalStartError, Sensor, Side,
+};
+use crate::system::{ModalState, ModalSystem};
+
+/// Difference of states, over their size, up to which one is that of an orbit that attracts; of one that was solved for from a start, beside which others
+/// may lie that belong to it, as after a period doubling.
+const NEAR_ORBIT: f64 = 1e-3;
+const NEAR_PROVEN: f64 = 1e-6;
+
+/// An exact orbit that attracts, by a state at the end of one of its periods.
+pub(super) struct Attracting {
+    pub state: ModalState,
+    /// Distance up to which another state is taken for one on it.
+    pub reach: f64,
+    pub motion: ModalMotion,
+}
+
+impl Attracting {
+    /// The periodic motion that a state nearly is on, if it attracts, by each of its states; none where there is none, or an
+    /// absorber rests on a wall in it.
+    pub fn near(
+        system: &ModalSystem,
+        sensors: &[Sensor],
+        state: &ModalState,
+        periods: u32,
+    ) -> Option<Vec<Self>> {
+        let mut simulation = ModalSimulation::new(system, state, 0.0).ok()?;
+        let mut seen = Sequence::default();
+        simulation.run(periods.into(), u64::from(periods) * MOST_IMPACTS, &mut seen);
+        // One that hits nothing and moves is on its way to a wall.
+        let drifts = |(j, one): (usize, &[f64; 2])| {
+            one[1] != 0.0 && seen.impacts.iter().all(|impact| impact.absorber != j)
+        };
+        let carried = &state.absorbers[..system.absorbers().len()];
+        if seen.sticks || carried.iter().enumerate().any(drifts) {
+            return None;
+        }
+        let cycle = ModalCycle { state: *state, periods, impacts: seen.impacts };
+        let orbit = cycle.solve(system).ok().filter(ModalPeriodicOrbit::attracts)?;
+        let begin = orbit.cycle.state;
+        if distance(&begin, state) > NEAR_ORBIT {
+            return None;
+        }
+        // Its states, until it is there again: that may be so earlier.
+        let mut on = ModalSimulation::new(system, &begin, 0.0).ok()?;
+        let mut states = vec![begin];
+        for _ in 1..periods {
+            on.run(1, MOST_IMPACTS, &mut ());
+            if distance(&begin, &on.state()) <= SAME_STATE {
+                break;
+            }
+            states.push(on.state());
+        }
+        let periods = states.len() as u32;
+        let mut simulation = ModalSimulation::new(system, &begin, 0.0).ok()?;
+        let whole = Stretch::fly(&mut simulation, system, sensors, periods.into());
+        let motion = ModalMotion {
+            largest_multiplier: Some(orbit.radius_per_period()),
+            ..ModalMotion::of(sensors, &[whole], Some(periods), true, 1)
+        };
+        let on = |state| Self { state, reach: NEAR_PROVEN, motion: motion.clone() };
+        Some(states.into_iter().map(on).collect())
+    }
+}
+
+/// Impacts in their order, and whether an absorber came to rest on a wall.
+#[derive(Default)]
+struct Sequence {
+    impacts: Vec<CycleImpact>,
+    sticks: bool,
+}
+
+impl ModalObserver for Sequence {
+    fn detail(&self) -> Detail {
+        Detail::Events
+    }
+    fn impact(&mut self, impact: &ModalImpact) {
+        let side = if impact.side == Side::Plus { 1.0 } else { -1.0 };
+        let ModalImpact { tau: time, absorber, .. } = *impact;
+        self.impacts.push(CycleImpact { time, absorber, side });
+    }
+    fn sticks(&mut self, _absorber: usize, _loss: f64) {
+        self.sticks = true;
+    }
+}
+
+/// The exact orbits that attract, each measured over a period of its own.
+pub(super) fn attracting(
+    system: &ModalSystem,
+    sensors: &[Sensor],
+) -> Result<Vec<Attracting>, ModalStartError> {
+    let stable = antiperiodic_orbits(system).into_iter().filter(|orbit| orbit.stable());
+    let each = stable.map(|orbit| {
+        let state = orbit_state(system, &orbit);
+        let mut simulation = ModalSimulation::new(system, &state, 0.0)?;
+        let block = Stretch::fly(&mut simulation, system, sensors, 1);
+        let radius = orbit.spectral_radius();
+        let multiplier = Some(radius * radius);
+        let motion = ModalMotion {
+            largest_multiplier: multiplier,
+            starts: 0,
+            ..ModalMotion::of(sensors, &[block], Some(1), true, 1)
+        };
+        Ok(Attracting { state, reach: NEAR_ORBIT, motion })
+    });
+    each.collect()
+}
