@@ -31,18 +31,26 @@ impl Device {
     }
 }
 
-/// What a sensor at a place of a structure shows: the largest of what it reads, or the root mean square.
+/// What of a structure has a measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PlaceMeasure {
-    /// What it reads.
-    pub reads: Reading,
-    /// Whether the root mean square counts.
-    pub mean: bool,
+pub enum Part {
+    /// A place.
+    Place,
+    /// An absorber.
+    Absorber,
+    /// All of it.
+    Whole,
 }
 
-impl PlaceMeasure {
-    /// The largest displacement.
-    pub const PEAK: Self = Self { reads: Reading::Displacement, mean: false };
+impl Part {
+    /// The key that names one; empty of the whole.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Place => "place",
+            Self::Absorber => "absorber",
+            Self::Whole => "",
+        }
+    }
 }
 
 /// Something that has a number, a word or a yes.
@@ -243,18 +251,26 @@ impl Measure {
         )
     }
 
-    /// What it is of a place; none of what a sensor does not show.
-    pub const fn of_place(self) -> Option<PlaceMeasure> {
-        let (reads, mean) = match self {
-            Self::Peak => (Reading::Displacement, false),
+    /// What of a structure has it.
+    pub const fn part(self) -> Part {
+        match self {
+            Self::ImpactSpeed | Self::ImpactsPerPeriod => Part::Absorber,
+            _ if self.sensor().is_some() => Part::Place,
+            _ => Part::Whole,
+        }
+    }
+
+    /// What a sensor reads for it, and whether the root mean square of that counts; none of what a sensor does not show.
+    pub const fn sensor(self) -> Option<(Reading, bool)> {
+        Some(match self {
+            Self::Peak | Self::ReductionDb | Self::ReductionDbTmd => (Reading::Displacement, false),
             Self::Rms => (Reading::Displacement, true),
             Self::PeakVelocity => (Reading::Velocity, false),
             Self::RmsVelocity => (Reading::Velocity, true),
             Self::PeakAcceleration => (Reading::Acceleration, false),
             Self::RmsAcceleration => (Reading::Acceleration, true),
             _ => return None,
-        };
-        Some(PlaceMeasure { reads, mean })
+        })
     }
 
     /// The device whose largest displacement it compares with; none of what compares nothing.

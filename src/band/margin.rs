@@ -3,15 +3,13 @@
 use serde::Serialize;
 
 use super::Band;
+use crate::numerics::scan;
 use crate::orbits::{FullSystem, SymmetricFamily};
 
 /// Pieces in which the smallest gap is looked for before it is narrowed down. A gap is the distance to
 /// the nearest of a few smooth boundaries, so its smallest value is at an end, at a kink or in a
 /// smooth dip.
 const PIECES: u32 = 12;
-/// Halvings of the place of the smallest gap: to a thousandth of the band, which changes a smooth gap by
-/// a millionth of itself.
-const HALVINGS: u32 = 7;
 
 /// Distance of the clearance from the nearest end of the stretch with a stable symmetric 1:1 orbit, or, in a cavity that
 /// is not ideal, with a stable orbit of one impact on each wall.
@@ -45,28 +43,11 @@ impl ClearanceMargin {
 /// The smallest gap and where it is. A place without a stable 1:1 motion has none: the smallest is
 /// then 0, there.
 pub fn smallest(band: &Band) -> (f64, f64) {
-    let gap = |at: f64| (at, ClearanceMargin::of(band, at).map_or(0.0, |gap| gap.smaller()));
-    if band.is_point() {
-        return gap(0.5 * (band.range[0] + band.range[1]));
-    }
-    let better = |best: (f64, f64), at: f64| {
-        let tried = gap(at);
-        if tried.1 < best.1 { tried } else { best }
+    let range = match band.is_point() {
+        true => [0.5 * (band.range[0] + band.range[1]); 2],
+        false => band.range,
     };
-    let mut best = (band.range[0], f64::INFINITY);
-    for at in band.places(PIECES + 1) {
-        best = better(best, at);
-        if best.1 == 0.0 {
-            return best;
-        }
-    }
-    // Around the best of them, halving the distance to its neighbours.
-    let mut step = band.width() / f64::from(PIECES);
-    let [from, to] = band.range;
-    for _ in 0..HALVINGS {
-        step *= 0.5;
-        let beside = [best.0 - step, best.0 + step].into_iter();
-        best = beside.filter(|at| from <= *at && *at <= to).fold(best, better);
-    }
-    best
+    scan::smallest(range, PIECES, |at| {
+        ClearanceMargin::of(band, at).map_or(0.0, |gap| gap.smaller())
+    })
 }

@@ -6,15 +6,17 @@ use std::ops::Range;
 use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 use serde_json::{Value, json};
+use toml::Spanned;
 use toml::de::DeValue;
 
 use super::Design;
+use super::modal::find_place;
 use super::number::{Bound, Form, sign_of};
 use super::reader::{Reader, Table, kind};
 use super::schema::add_names;
 use super::value::ValuePlace;
 use crate::excitation::Scene;
-use crate::measure::{Device, Measure};
+use crate::measure::{Device, Measure, Part};
 use crate::quantity::Dimension;
 use crate::quantity::numbers::rounded_to;
 use vinesink_core::names;
@@ -69,13 +71,34 @@ pub enum Relation {
     Equal,
 }
 
-/// One line of the table.
+/// What of a structure a limit is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Of {
+    /// Everything that has it: every place, or every absorber.
+    #[default]
+    Any,
+    /// A place, by its number in the case.
+    Place(usize),
+    /// An absorber, by its number in the case from 0.
+    Absorber(usize),
+}
+
+impl Of {
+    /// Whether it speaks of this part.
+    pub fn holds(self, part: Self) -> bool {
+        self == Self::Any || self == part
+    }
+}
+
+/// One limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
     /// Its key in the table.
     pub key: &'static str,
     /// What it is about, of the structure with the absorber.
     pub measure: Measure,
+    /// Of which place or absorber.
+    pub of: Of,
     /// How it is measured.
     pub relation: Relation,
     /// Against what, in SI or the units of a reduced case; 1 for true.
@@ -93,8 +116,8 @@ impl Criterion {
     /// That a measure is at most so much, as nobody has written it yet; none of a measure that has no key.
     pub(crate) fn at_most(measure: Measure, limit: f64) -> Option<Self> {
         let subject = Subject::ALL.into_iter().find(|one| one.measure() == measure)?;
-        let relation = Relation::AtMost;
-        Some(Self { key: subject.key(), measure, relation, limit, as_written: String::new() })
+        let (relation, of) = (Relation::AtMost, Of::Any);
+        Some(Self { key: subject.key(), measure, of, relation, limit, as_written: String::new() })
     }
 }
 
@@ -152,6 +175,17 @@ pub(super) struct CriteriaTable {
     acceleration_upto: Option<f64>,
 }
 
+/// What limits are asked of.
+pub(super) struct Asked<'a> {
+    pub scene: Scene,
+    /// Whether areas of the theory are those of its cavity.
+    pub has_areas: bool,
+    pub is_physical: bool,
+    /// Places that a limit may name, and how many absorbers; none and 0 of a structure that has one of each.
+    pub places: &'a [String],
+    pub absorbers: usize,
+}
+
 /// The table as it was read.
 pub(super) struct Criteria {
     pub all: Vec<Criterion>,
@@ -165,10 +199,36 @@ pub(super) struct Criteria {
 const DECAY_LEVEL: f64 = 0.1;
 
 fn with_subjects(schema: &mut Schema) {
+    add_names::<Subject>(schema, |key| Some(Subject::of_name(key)?.property()));
+}
+
+/// The same with limits of one place or absorber, or of several in a list.
+pub(super) fn with_placed_subjects(schema: &mut Schema) {
     add_names::<Subject>(schema, |key| {
-        let subject = Subject::of_name(key).unwrap_or(Subject::NoCoexistence);
-        let (example, plain) = match subject.dimension() {
-            _ if subject == Subject::MarginClearance => (json!(">= 10 %"), Value::Null),
+        let subject = Subject::of_name(key).filter(|one| one.is_of_several())?;
+        let mut property = subject.property();
+        let part = match subject.measure().part() {
+            Part::Place => json!({ "place": { "type": "string" } }),
+            Part::Absorber => json!({ "absorber": { "type": "integer", "minimum": 1 } }),
+            Part::Whole => return Some(property),
+        };
+        let mut keys = part;
+        keys["limit"] = json!({ "anyOf": property["anyOf"].clone() });
+        let table = json!({
+            "type": "object", "properties": keys, "required": ["limit"], "additionalProperties": false,
+        });
+        let list = json!({ "type": "array", "items": { "anyOf": [property["anyOf"][0], table] } });
+        let types = property["anyOf"].as_array_mut();
+        types.into_iter().for_each(|types| types.extend([table.clone(), list.clone()]));
+        Some(property)
+    });
+}
+
+impl Subject {
+    /// A limit of it, and one without units; null where that is the same.
+    fn examples(self) -> [Value; 2] {
+        let (example, plain) = match self.dimension() {
+            _ if self == Self::MarginClearance => (json!(">= 10 %"), Value::Null),
             Some(Dimension::Length) => (json!("<= 3 mm"), json!("<= 0.3")),
             Some(Dimension::Velocity) => (json!("<= 0.5 m/s"), json!("<= 1.5")),
             Some(Dimension::Acceleration) => (json!("<= 0.5 g"), json!("<= 0.4")),
@@ -178,13 +238,25 @@ fn with_subjects(schema: &mut Schema) {
             Some(_) => (json!(">= 80 %"), Value::Null),
             None => (json!(true), Value::Null),
         };
+        [example, plain]
+    }
+
+    /// How its limit is written.
+    fn property(self) -> Value {
+        let [example, plain] = self.examples();
         let types = match &example {
             Value::Bool(_) => json!([{ "type": "boolean" }]),
             Value::Number(_) => json!([{ "type": "number", "minimum": 0 }, { "type": "string" }]),
             _ => json!([{ "type": "string" }]),
         };
-        Some(json!({ "anyOf": types, "examples": [example], "x-plain": [plain] }))
-    });
+        json!({ "anyOf": types, "examples": [example], "x-plain": [plain] })
+    }
+
+    /// Whether it may be asked of a structure of several modes or absorbers: the theory's areas are of one, and nobody releases one
+    /// yet.
+    const fn is_of_several(self) -> bool {
+        !matches!(self, Self::Z3Share | Self::DecayTime)
+    }
 }
 
 /// Reads the table. No criteria where there is none, or no design whose units they could be in.
@@ -197,8 +269,14 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Criteria {
         contact_time: None,
     };
     let (Some((table, read)), Some(design)) = (read, reader.design) else { return found };
-    let read_one = |subject| criterion(reader, &table, subject, &design);
-    found.all = Subject::ALL.into_iter().filter_map(read_one).collect();
+    let asked = Asked {
+        scene: design.scene(),
+        has_areas: design.has_ideal_cavity(),
+        is_physical: design.is_physical(),
+        places: &[],
+        absorbers: 0,
+    };
+    found.all = read_limits(reader, &table, &asked);
     found.count_inactive = read.count_inactive.unwrap_or(true);
     found.decay_level = read.decay_level.unwrap_or(DECAY_LEVEL);
     let upto = read.acceleration_upto;
@@ -265,16 +343,37 @@ pub(super) fn sensor_sees(
 /// expected instead.
 pub(crate) const AREAS_ARE_IDEAL: &str =
     "area Z3 is of a level cavity without friction whose walls are alike";
+const AREAS_ARE_OF_ONE: &str = "area Z3 is of one mode with one absorber";
 pub(super) const EXACT_INSTEAD: &str = "expected what exact orbits of this cavity decide";
 
-fn criterion(
-    reader: &mut Reader,
-    table: &Table,
-    subject: Subject,
-    design: &Design,
-) -> Option<Criterion> {
-    let (key, value) = (subject.key(), table.value(subject.key())?);
-    let (scene, measure) = (design.scene(), subject.measure());
+/// The limits of a table.
+pub(super) fn read_limits(reader: &mut Reader, table: &Table, asked: &Asked) -> Vec<Criterion> {
+    let mut found = Vec::new();
+    for subject in Subject::ALL {
+        let Some(value) = table.value(subject.key()) else { continue };
+        if !makes_sense(reader, table, subject, asked) {
+            continue;
+        }
+        let each: Vec<&Spanned<DeValue>> = match value.get_ref() {
+            DeValue::Array(all) if asked.absorbers > 0 => all.iter().collect(),
+            _ => vec![value],
+        };
+        for one in each {
+            let placed = match one.get_ref() {
+                DeValue::Table(_) if asked.absorbers > 0 => part(reader, one, subject, asked),
+                _ => Some((one, Of::Any)),
+            };
+            let limit =
+                placed.and_then(|(limit, of)| criterion(reader, table, subject, limit, of, asked));
+            found.extend(limit);
+        }
+    }
+    found
+}
+
+/// Whether a limit says anything of a structure; reported where it does not.
+fn makes_sense(reader: &mut Reader, table: &Table, subject: Subject, asked: &Asked) -> bool {
+    let (key, scene, measure) = (subject.key(), asked.scene, subject.measure());
     if !measure.is_of(scene) {
         let what = scene.words();
         let other = [Scene::Steady, Scene::Release].into_iter().find(|one| measure.is_of(*one));
@@ -289,32 +388,102 @@ fn criterion(
             None => format!("remove the line: `{key}` is for one that is {other}"),
         };
         reader.report(table.span_of(key), message, expected, help);
+        return false;
+    }
+    if subject == Subject::Z3Share && !asked.has_areas {
+        let message = if asked.absorbers > 0 { AREAS_ARE_OF_ONE } else { AREAS_ARE_IDEAL };
+        reader.report(table.span_of(key), message, EXACT_INSTEAD, "ask for `stable_share`");
+        return false;
+    }
+    true
+}
+
+/// The limit in a table beside the place or the absorber that it is of.
+fn part<'a>(
+    reader: &mut Reader,
+    one: &'a Spanned<DeValue<'a>>,
+    subject: Subject,
+    asked: &Asked,
+) -> Option<(&'a Spanned<DeValue<'a>>, Of)> {
+    let (key, own) = (subject.key(), subject.measure().part().key());
+    let entries = one.get_ref().as_table()?;
+    let example = match subject.measure().part() {
+        Part::Place => format!(", place = \"{}\"", asked.places.first().map_or("", String::as_str)),
+        Part::Absorber => ", absorber = 1".to_owned(),
+        Part::Whole => String::new(),
+    };
+    let [with_units, plain] = subject.examples();
+    let limit = if asked.is_physical || plain.is_null() { with_units } else { plain };
+    let help = format!("write {key} = {{ limit = {limit}{example} }}");
+    let foreign = entries.iter().find(|(key, _)| !["limit", own].contains(&key.get_ref().as_ref()));
+    if let Some((foreign, _)) = foreign {
+        let message = format!("`{}` says nothing of `{key}`", foreign.get_ref());
+        let expected = if own.is_empty() {
+            "expected `limit` alone, which is of the whole structure".to_owned()
+        } else {
+            format!("expected `limit` and `{own}`")
+        };
+        reader.report(foreign.span(), message, expected, help);
         return None;
     }
-    if subject == Subject::Z3Share && !design.has_ideal_cavity() {
-        reader.report(table.span_of(key), AREAS_ARE_IDEAL, EXACT_INSTEAD, "ask for `stable_share`");
+    let Some(limit) = entries.get("limit") else {
+        let message = format!("a limit of `{key}` is not written as one");
+        reader.report(one.span(), message, "expected `limit` in it", help);
         return None;
-    }
+    };
+    let Some(named) = entries.get(own) else { return Some((limit, Of::Any)) };
+    let of = match subject.measure().part() {
+        Part::Absorber => {
+            let number = match named.get_ref() {
+                DeValue::Integer(number) => number.as_str().parse::<usize>().ok(),
+                _ => None,
+            };
+            let number = number.filter(|number| (1..=asked.absorbers).contains(number));
+            if number.is_none() {
+                let message = format!("there is no absorber {}", reader.as_written(named.span()));
+                let expected = format!("expected the number of one, from 1 to {}", asked.absorbers);
+                reader.report(named.span(), message, expected, help);
+            }
+            Of::Absorber(number? - 1)
+        }
+        Part::Place | Part::Whole => {
+            let name = named.get_ref().as_str().unwrap_or_default();
+            Of::Place(find_place(reader, named.span(), Some(name), asked.places)?)
+        }
+    };
+    Some((limit, of))
+}
+
+/// A limit.
+fn criterion(
+    reader: &mut Reader,
+    table: &Table,
+    subject: Subject,
+    value: &Spanned<DeValue>,
+    of: Of,
+    asked: &Asked,
+) -> Option<Criterion> {
+    let (key, measure) = (subject.key(), subject.measure());
     let as_written = reader.as_written(value.span());
     let place = ValuePlace { alone: false, ..reader.place(table, key, value) };
+    let form = |of: Dimension| form(of, asked.is_physical);
     let found = match (value.get_ref(), subject.dimension()) {
         (DeValue::Boolean(flag), None) => Ok((Relation::Equal, f64::from(u8::from(*flag)))),
         (DeValue::String(text), Some(of)) => match relation_of(text) {
             Some((relation, sign)) => {
-                let limit =
-                    reader.number(&ValuePlace { sign, ..place.clone() }, &form(of, design))?;
+                let limit = reader.number(&ValuePlace { sign, ..place.clone() }, &form(of))?;
                 possible(limit, &as_written, of).map(|()| (relation, limit))
             }
             None => Err(format!("is \"{text}\", which says neither >= nor <=")),
         },
         (DeValue::Integer(_) | DeValue::Float(_), Some(of)) => match of {
-            Dimension::Number => Ok((Relation::Equal, reader.number(&place, &form(of, design))?)),
+            Dimension::Number => Ok((Relation::Equal, reader.number(&place, &form(of))?)),
             _ => Err(format!("does not say whether {as_written} is the least or the most")),
         },
         (other, _) => Err(format!("is {}", kind(other))),
     };
     match found {
-        Ok((relation, limit)) => Some(Criterion { key, measure, relation, limit, as_written }),
+        Ok((relation, limit)) => Some(Criterion { key, measure, of, relation, limit, as_written }),
         Err(problem) => {
             refuse(reader, &place, subject, &problem);
             None
@@ -323,11 +492,11 @@ fn criterion(
 }
 
 /// How a limit is written: a length, a velocity or an acceleration of a reduced design without unit, a share also without %.
-fn form(of: Dimension, design: &Design) -> Form {
+fn form(of: Dimension, is_physical: bool) -> Form {
     let measured = match of {
         Dimension::Number => None,
         Dimension::Length | Dimension::Velocity | Dimension::Acceleration | Dimension::Time
-            if !design.is_physical() =>
+            if !is_physical =>
         {
             None
         }

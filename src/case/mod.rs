@@ -53,12 +53,12 @@ use toml::de::DeTable;
 
 pub use band::{BandOver, BandSettings};
 pub(crate) use criteria::AREAS_ARE_IDEAL;
-pub use criteria::{Criterion, Relation};
+pub use criteria::{Criterion, Of, Relation};
 pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use modal::{
     ActsOn, Bounds, ListedMode, Load, ModalCase, ModalSweep, ModesFile, ModesListing,
-    PlaceCriterion, PlacedAbsorber, StructuralMode, is_modal, modes_file,
+    PlacedAbsorber, StructuralMode, is_modal, modes_file,
 };
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;

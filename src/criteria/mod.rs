@@ -7,10 +7,11 @@
 //! decided.
 
 pub mod contact;
+mod found;
 mod scope;
 
 use crate::band::{Survey, SurveySettings};
-use crate::case::{Case, Criterion, Relation};
+use crate::case::{Case, Criterion, Of, Relation};
 use crate::linear::{BandSystems, bare_amplitude};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
@@ -18,6 +19,7 @@ use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
 use crate::transient::{Sample, Study};
 
 pub use contact::Contact;
+pub use found::{Findings, Found, Worst};
 use scope::Scope;
 use vinesink_core::names;
 
@@ -65,8 +67,12 @@ pub struct Judged {
     pub holds: Option<bool>,
     /// Whether it is so close to its limit that the error could turn it.
     pub near_limit: bool,
-    /// Place in the band where it is worst: `Omega`, or amplitude over the case's own.
+    /// Under which load of the case it is worst.
+    pub load: usize,
+    /// Place in the band where it is worst: `Omega`, or amplitude over the case's own; of several modes the frequency in Hz.
     pub at: Option<f64>,
+    /// Which place or absorber of the structure is worst there.
+    pub of: Of,
     /// The place of the motion that decides, in the list there.
     pub motion: Option<usize>,
     /// Share of the absorber's resting places from which a start from rest stays in that motion, where it is that of an
@@ -179,7 +185,24 @@ pub fn open(case: &Case, survey: &Survey, judged: &[Judged], known: &[f64]) -> V
     open
 }
 
+/// Decibels that count as much as missing a limit by all of it: a factor of 2.
+const DOUBLE_DB: f64 = 6.0;
+
 impl Criterion {
+    /// What missing it by all of it is, in its unit.
+    pub fn scale(&self) -> f64 {
+        match self.measure {
+            Measure::ReductionDb | Measure::ReductionDbTmd => DOUBLE_DB,
+            Measure::NoCoexistence => 1.0,
+            _ => self.limit.max(f64::MIN_POSITIVE),
+        }
+    }
+
+    /// What a value is of what is allowed: 1 at the limit, more where it is missed.
+    pub fn part(&self, value: f64) -> f64 {
+        1.0 - self.room(value) / self.scale()
+    }
+
     /// Room that a value leaves: positive where it holds.
     fn room(&self, value: f64) -> f64 {
         match self.relation {
@@ -217,6 +240,8 @@ impl Criterion {
             inactive: None,
             but_at_rest: None,
             undecided: None,
+            load: 0,
+            of: Of::Any,
             decided_by,
             contact: None,
         }
@@ -224,14 +249,20 @@ impl Criterion {
 }
 
 impl Judged {
-    /// That of the worst of many motions, with an error that covers the others; `undecided` as [`Self::undecided`].
-    pub fn of_worst(
-        criterion: &Criterion,
-        [found, error]: [f64; 2],
-        decided_by: Method,
-        undecided: Option<u64>,
-    ) -> Self {
-        criterion.judged(Some(found), error, decided_by).or_undecided(undecided)
+    /// What is asked of the motions of a structure, by what is known of them.
+    pub fn of_motions(criterion: &Criterion, of: &dyn Findings) -> Self {
+        match criterion.measure {
+            Measure::NoCoexistence => found::one_motion(of, criterion),
+            _ => found::worst(of, criterion),
+        }
+    }
+
+    /// What is asked of where a 1:1 motion attracts, or by how much a clearance may be off: worst at a place under a load.
+    pub fn of_stability(criterion: &Criterion, found: f64, load: usize, at: Option<f64>) -> Self {
+        // All and nothing have no end that could be off.
+        let is_whole = found == 0.0 || found == 1.0;
+        let error = if is_whole { 0.0 } else { ROUNDING };
+        Self { load, at, ..criterion.judged(Some(found), error, Method::ExactOrbit) }
     }
 
     /// What it came to: it may be so close to its limit that its error could turn it.

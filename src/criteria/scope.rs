@@ -1,8 +1,9 @@
 //! What a survey says of each criterion.
 
+use super::found::{self, Findings, Found};
 use super::{Judged, Outcome, ROUNDING, method, of_stability};
 use crate::band::{Survey, theory};
-use crate::case::Criterion;
+use crate::case::{Criterion, Of};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::{Fact, Motion, MotionKind, WhyNot};
@@ -38,8 +39,8 @@ impl Scope<'_> {
             }
             // Where nothing was simulated, nothing is known of motions.
             _ if !motions.simulated() => criterion.judged(None, 0.0, Method::Simulation),
-            Measure::NoCoexistence => self.one_motion(criterion),
-            _ => self.worst(criterion),
+            Measure::NoCoexistence => found::one_motion(self, criterion),
+            _ => found::worst(self, criterion),
         }
     }
 
@@ -67,81 +68,15 @@ impl Scope<'_> {
         criterion.judged(Some(found), off, Method::Theory)
     }
 
-    /// 1 where every place has one motion, 0 where one has several.
-    fn one_motion(&self, criterion: &Criterion) -> Judged {
-        let count_rest = self.survey.count_rest;
-        let places = self.survey.motions.places();
-        let several = |settled: bool| {
-            places.iter().find(|(_, here)| {
-                let counting = here.counting(count_rest);
-                counting.filter(|(_, one)| one.settled() || !settled).count() > 1
-            })
-        };
-        let (certain, any) = (several(true), several(false));
-        let Some((at, here)) = certain.or(any) else {
-            return criterion.judged(Some(1.0), 0.0, Method::Simulation);
-        };
-        let open = here.iter().filter(|one| !one.settled()).map(|one| one.reached().followed).max();
-        let rest = here.counting(count_rest).find_map(|(_, one)| Some(one.rest()?.share));
-        let judged = criterion.judged(Some(0.0), 0.0, Method::Simulation);
-        let undecided = open.filter(|_| certain.is_none());
-        Judged { at: self.place(*at), inactive: rest, ..judged }.or_undecided(undecided)
-    }
-
-    /// The worst value of a criterion about motions, of equal ones that which is known best; its error covers all others with theirs.
-    fn worst(&self, criterion: &Criterion) -> Judged {
-        let counting = self.survey.motions.counting(self.survey.count_rest);
-        let all: Vec<(Judged, &Motion)> =
-            counting.filter_map(|one| self.of(criterion, one)).collect();
-        let room = |one: &Judged| one.margin.unwrap_or(f64::INFINITY);
-        let nearest = |settled: bool| {
-            let of = all.iter().filter(|(_, motion)| motion.settled() || !settled);
-            of.min_by(|a, b| {
-                let [a, b] =
-                    [&a.0, &b.0].map(|one| (room(one), one.decided_by == Method::Simulation));
-                let alike = (a.0 - b.0).abs() <= ROUNDING * criterion.limit.abs();
-                if alike { a.1.cmp(&b.1) } else { a.0.total_cmp(&b.0) }
-            })
-        };
-        let Some((worst, _)) = nearest(false) else {
-            return criterion.judged(None, 0.0, Method::Simulation);
-        };
-        let least = all.iter().map(|(one, _)| room(one) - one.error).fold(f64::INFINITY, f64::min);
-        let Judged { at, motion, inactive, .. } = *worst;
-        let judged = criterion.judged(worst.found, room(worst) - least, worst.decided_by);
-        // What has settled may fail it, whatever else there is; what lies elsewhere, or between places, can only be worse.
-        let fails = nearest(true).is_some_and(|(one, _)| room(one) < 0.0);
-        let misses = |(one, motion): &(Judged, &Motion)| {
-            let own = self.own(criterion, motion).map_or(one.error, |own| own[1]);
-            motion.settled() && room(one) < 0.0 && !criterion.is_open(room(one), own, 0)
-        };
-        let near_limit = judged.near_limit && !all.iter().any(misses);
-        let but_at_rest = judged.holds.filter(|holds| *holds).and_then(|_| self.too_few(criterion));
-        let open = all.iter().filter(|(_, motion)| !motion.settled());
-        let undecided = open.map(|(_, motion)| motion.reached().followed).max().filter(|_| !fails);
-        Judged { at, motion, inactive, but_at_rest, near_limit, ..judged }.or_undecided(undecided)
-    }
-
-    /// The largest share of resting places of an absorber at rest with which a criterion would not hold, of those that are too
-    /// few to count.
-    fn too_few(&self, criterion: &Criterion) -> Option<f64> {
-        let places = self.survey.motions.places().iter();
-        let each = places.flat_map(|(at, here)| here.iter().map(move |one| (*at, 0, one)));
-        let few = each
-            .filter(|one| one.2.why_not(self.survey.count_rest) == Some(WhyNot::BelowThreshold));
-        let fails = few.filter(|one| {
-            self.of(criterion, *one).is_some_and(|judged| judged.0.holds == Some(false))
-        });
-        fails.filter_map(|one| Some(one.2.rest()?.share)).max_by(f64::total_cmp)
-    }
-
     /// Places with a motion that only a window shows and which does not hold with its error or still settles, by the room
     /// that it leaves.
     pub(super) fn open(&self, criterion: &Criterion) -> Vec<f64> {
         let counting = self.survey.motions.counting(self.survey.count_rest);
         let open = counting.filter(|one| is_open(one.2)).filter_map(|one| {
-            let judged = self.of(criterion, one).map(|of| of.0);
-            let room = judged.as_ref().and_then(|of| of.margin);
+            let found = self.of(criterion, one);
+            let room = found.map(|found| criterion.room(found.value));
+            let judged =
+                found.map(|one| criterion.judged(Some(one.value), one.error, one.known_by));
             let open = !one.2.settled() || judged.is_some_and(|of| of.holds == Some(false));
             open.then_some((one.0, room.unwrap_or(f64::NEG_INFINITY)))
         });
@@ -174,17 +109,42 @@ impl Scope<'_> {
         }
     }
 
-    fn of<'m>(
-        &self,
-        criterion: &Criterion,
-        (at, index, motion): (f64, usize, &'m Motion),
-    ) -> Option<(Judged, &'m Motion)> {
+    fn of(&self, criterion: &Criterion, (at, index, motion): Placed<'_>) -> Option<Found> {
         let number = |fact| self.survey.motions.value_of(motion, fact);
         let against = self.against(criterion);
-        let [found, error] = criterion.measure.of_motion(motion, &number, against, &self.units)?;
-        let judged = criterion.judged(Some(found), error, method(motion));
-        let inactive = motion.rest().map(|rest| rest.share);
-        Some((Judged { at: self.place(at), motion: Some(index), inactive, ..judged }, motion))
+        let [value, error] = criterion.measure.of_motion(motion, &number, against, &self.units)?;
+        Some(Found {
+            value,
+            error,
+            own: self.own(criterion, motion).map_or(error, |own| own[1]),
+            load: 0,
+            at: self.place(at),
+            of: Of::Any,
+            motion: index,
+            known_by: method(motion),
+            settled: motion.settled(),
+            followed: motion.reached().followed,
+            resting: std::array::from_fn(|j| j == 0 && motion.rest().is_some()),
+            rest: motion.rest().map(|rest| rest.share),
+        })
+    }
+}
+
+/// A motion with its place and its number in the list there.
+type Placed<'a> = (f64, usize, &'a Motion);
+
+impl Findings for Scope<'_> {
+    fn each(&self, asked: &Criterion) -> Vec<Found> {
+        let counting = self.survey.motions.counting(self.survey.count_rest);
+        counting.filter_map(|one| self.of(asked, one)).collect()
+    }
+
+    fn too_few(&self, asked: &Criterion) -> Vec<Found> {
+        let places = self.survey.motions.places().iter();
+        let each = places.flat_map(|(at, here)| here.iter().map(move |one| (*at, 0, one)));
+        let why_not = |one: &Motion| one.why_not(self.survey.count_rest);
+        let few = each.filter(|one| why_not(one.2) == Some(WhyNot::BelowThreshold));
+        few.filter_map(|one| self.of(asked, one)).collect()
     }
 }
 

@@ -29,8 +29,9 @@ pub(super) fn worse_by(change: &Value) -> Option<f64> {
 pub(super) fn changes(old: &Document, new: &Document) -> (Vec<Value>, Vec<Value>) {
     let [old, new] = [old, new].map(|document| document.list("/criteria/all"));
     let same = |list: &[Value], wanted: &Value| {
-        let found =
-            list.iter().find(|one| ["name", "place"].iter().all(|key| one[key] == wanted[key]));
+        let found = list
+            .iter()
+            .find(|one| ["name", "place", "absorber"].iter().all(|key| one[key] == wanted[key]));
         found.cloned().unwrap_or_default()
     };
     let pairs = new.iter().map(|after| (same(old, after), after.clone()));

@@ -1,16 +1,13 @@
-//! Every long-term motion along a load, looked for more closely around the worst of each place.
+//! Every long-term motion along a load, looked for more closely around the worst of what is asked.
 
 use super::ModalError;
 use super::linear::{amplitudes, largest};
 use super::rest::farthest_at_rest;
-use super::sensors::{measured, measures, sensors};
+use super::sensors::{Look, sensors};
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
-use crate::measure::PlaceMeasure;
-use crate::method::Method;
 use crate::motions::{ModalMotion, longest_flight, modal_motions, worst_between};
 use crate::numerics::scan;
-use crate::system::MOST_MODES;
 
 /// What is known along a load.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,33 +31,6 @@ pub struct AtFrequency {
     pub motions: Vec<ModalMotion>,
     /// Whether those count in which absorbers rest.
     pub count_rest: bool,
-}
-
-/// The largest of what is measured of a place along a load, of any motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WorstOfPlace {
-    /// Which load.
-    pub load: usize,
-    /// Which place.
-    pub place: usize,
-    /// Where in Hz.
-    pub at: f64,
-    /// What it is, in SI units.
-    pub value: f64,
-    /// By how much it may be larger: by the error of any motion along the load, and by what may lie between the frequencies.
-    pub error: f64,
-    /// The largest that it is at least in a motion that has settled.
-    pub settled: f64,
-    /// Whether every motion has settled.
-    pub all_settled: bool,
-    /// Whether every absorber rests in it.
-    pub rests: bool,
-    /// Whether it is an exact orbit.
-    pub exact: bool,
-    /// Which of the absorbers rest in it.
-    pub resting: [bool; MOST_MODES],
-    /// The share of their places in which those may, together; none where none does.
-    pub share: Option<f64>,
 }
 
 /// Even frequencies along a load, each searched with half of the starts, and rounds of closer ones around the worst of each
@@ -132,74 +102,32 @@ impl AlongLoad {
         Ok(Self { load: *load, bare: bare.collect(), places, modes })
     }
 
-    /// The worst of a place; none where no motion was found. Between the frequencies it may be worse as [`worst_between`] has it.
-    pub fn worst(&self, load: usize, place: usize, asked: PlaceMeasure) -> Option<WorstOfPlace> {
-        let motions = || {
-            let each = self.places.iter().enumerate();
-            each.flat_map(|(k, here)| here.counting().map(move |motion| (k, motion)))
-        };
-        let of = |motion: &ModalMotion| measured(motion, place, asked);
-        let worst = motions().max_by(|a, b| of(a.1)[0].total_cmp(&of(b.1)[0]));
-        let (k, motion) = worst?;
-        let (at, value) = (self.places[k].at, of(motion)[0]);
-        let reach = motions().map(|(_, one)| of(one).iter().sum()).fold(value, f64::max);
-        // What rests is looked for between the frequencies as well; what moves is held against neighbours of its kind.
-        let moving = motions().filter(|(_, one)| !one.rests());
-        let moving = moving.max_by(|a, b| of(a.1)[0].total_cmp(&of(b.1)[0]));
-        let between = moving.map_or(0.0, |(k, one)| self.between(k, place, asked, of(one)[0]));
-        let error = match moving {
-            Some((_, one)) if motion.rests() => reach.max(of(one)[0] + between) - value,
-            _ => reach - value + between,
-        };
-        // Near another mode it may be more between the frequencies too.
-        let error = (0..self.modes.len()).fold(error, |error, mode| {
+    /// By how much what is looked at may be worse between the frequencies, where absorbers move, than at any of them, near every
+    /// mode.
+    pub(super) fn between(&self, case: &ModalCase, look: &Look) -> f64 {
+        let number = |there: &AtFrequency| Some([there.at, there.worst(case, look, false)?]);
+        let each: Vec<Option<f64>> =
+            self.places.iter().map(|there| there.worst(case, look, false)).collect();
+        let Some(worst) = each.iter().flatten().copied().max_by(f64::total_cmp) else { return 0.0 };
+        let tops = (0..self.modes.len().max(1)).filter_map(|mode| {
             let near = |k: &usize| nearest(&self.modes, self.places[*k].at) == mode;
-            let near = (0..self.places.len()).filter(near);
-            let moves =
-                near.filter_map(|k| Some((k, self.places[k].largest(place, asked, false)?)));
-            let top = moves.max_by(|a, b| a.1.total_cmp(&b.1));
-            let most = top.map(|(k, top)| top + self.between(k, place, asked, top));
-            most.map_or(error, |most| error.max(most - value))
+            let moves = (0..each.len()).filter(near).filter_map(|k| Some((k, each[k]?)));
+            moves.max_by(|a, b| a.1.total_cmp(&b.1))
         });
-        let settled = motions().filter(|(_, one)| one.settled).map(|(_, one)| {
-            let [value, error] = of(one);
-            // A peak was seen; a mean may be smaller.
-            if asked.mean { value - error } else { value }
+        let reach = tops.map(|(k, top)| {
+            let [left, right] = neighbours(&self.places, k).map(|there| there.and_then(number));
+            let around: Vec<[f64; 2]> =
+                left.into_iter().chain([[self.places[k].at, top]]).chain(right).collect();
+            (1..around.len()).map(|gap| worst_between(&around, gap)).fold(top, f64::max)
         });
-        Some(WorstOfPlace {
-            load,
-            place,
-            at,
-            value,
-            error,
-            settled: settled.fold(0.0, f64::max),
-            all_settled: motions().all(|(_, one)| one.settled),
-            rests: motion.rests(),
-            exact: motion.largest_multiplier.is_some(),
-            resting: std::array::from_fn(|j| motion.resting.get(j).copied().flatten().is_some()),
-            share: motion.rest_share(),
-        })
-    }
-
-    /// By how much it may be more, where absorbers move, beside the frequency where it is most.
-    fn between(&self, k: usize, place: usize, asked: PlaceMeasure, value: f64) -> f64 {
-        let number = |there: &AtFrequency| Some([there.at, there.largest(place, asked, false)?]);
-        let [left, right] = neighbours(&self.places, k).map(|there| there.and_then(number));
-        let around: Vec<[f64; 2]> =
-            left.into_iter().chain([[self.places[k].at, value]]).chain(right).collect();
-        let gaps = (1..around.len()).map(|gap| worst_between(&around, gap));
-        gaps.fold(value, f64::max) - value
+        reach.fold(worst, f64::max) - worst
     }
 }
 
-impl WorstOfPlace {
-    /// The layer that its motion is known by.
-    pub fn method(&self) -> Method {
-        match (self.rests, self.exact) {
-            (true, _) => Method::ClosedForm,
-            (false, true) => Method::ExactOrbit,
-            (false, false) => Method::Simulation,
-        }
+impl AlongLoad {
+    /// What is known at one of its frequencies.
+    pub fn at(&self, at: f64) -> Option<&AtFrequency> {
+        self.places.iter().find(|one| one.at == at)
     }
 }
 
@@ -220,23 +148,10 @@ impl AtFrequency {
         self.motions.iter().filter(|one| one.counts(self.count_rest))
     }
 
-    /// The largest share of places of absorbers at rest in a motion that does not count for having few of them, where more than a
-    /// limit is measured in it.
-    pub(super) fn too_few(
-        &self,
-        places: impl Iterator<Item = usize> + Clone,
-        asked: PlaceMeasure,
-        limit: f64,
-    ) -> Option<f64> {
-        let few = self.motions.iter().filter(|one| self.count_rest && !one.counts(true));
-        let over = few.filter(|one| places.clone().any(|p| measured(one, p, asked)[0] > limit));
-        over.filter_map(ModalMotion::rest_share).max_by(f64::total_cmp)
-    }
-
-    /// The largest of what is measured of a place, also with every absorber at rest or not.
-    fn largest(&self, place: usize, asked: PlaceMeasure, rests: bool) -> Option<f64> {
+    /// The worst of what is looked at, its sign turned where the smallest is, also with every absorber at rest or not.
+    fn worst(&self, case: &ModalCase, look: &Look, rests: bool) -> Option<f64> {
         let motions = self.counting().filter(|one| rests || !one.rests());
-        motions.map(|one| measured(one, place, asked)[0]).max_by(f64::total_cmp)
+        motions.filter_map(|one| look.signed(case, one)).max_by(f64::total_cmp)
     }
 }
 
@@ -271,19 +186,19 @@ fn close(case: &ModalCase, load: &Load) -> impl Iterator<Item = f64> {
     all.filter(move |at| (from..=to).contains(at))
 }
 
-/// Frequencies half way to the neighbours of the worst of all that is measured of each place: of all motions, and of those in which an
-/// absorber moves; near each of these modes where that is not small.
+/// Frequencies half way to the neighbours of the worst of all that is looked at: of all motions, and of those in which an absorber
+/// moves; near each of these modes where that is not small.
 fn beside_worst(places: &[AtFrequency], case: &ModalCase, modes: &[f64]) -> Vec<f64> {
     let mut wanted: Vec<f64> = Vec::new();
-    let measures = measures(case);
-    let each = measures.iter().flat_map(|asked| (0..case.places.len()).map(move |p| (p, *asked)));
-    for ((p, asked), rests) in each.flat_map(|one| [(one, true), (one, false)]) {
-        let largest = |k: usize| places[k].largest(p, asked, rests).unwrap_or_default();
-        let most = (0..places.len()).map(largest).fold(0.0, f64::max);
+    let looks = Look::all(case);
+    for (look, rests) in looks.iter().flat_map(|one| [(one, true), (one, false)]) {
+        let worst = |k: usize| places[k].worst(case, look, rests).unwrap_or(f64::NEG_INFINITY);
+        let most = (0..places.len()).map(worst).fold(f64::NEG_INFINITY, f64::max);
+        let not_small = if most > 0.0 { NOT_SMALL * most } else { most / NOT_SMALL };
         for mode in 0..modes.len().max(1) {
             let near = (0..places.len()).filter(|k| nearest(modes, places[*k].at) == mode);
-            let top = near.max_by(|a, b| largest(*a).total_cmp(&largest(*b)));
-            let Some(k) = top.filter(|k| largest(*k) >= NOT_SMALL * most) else { continue };
+            let top = near.max_by(|a, b| worst(*a).total_cmp(&worst(*b)));
+            let Some(k) = top.filter(|k| worst(*k) >= not_small) else { continue };
             for there in neighbours(places, k).into_iter().flatten() {
                 let middle = 0.5 * (places[k].at + there.at);
                 if !wanted.contains(&middle) {

@@ -1,7 +1,7 @@
 //! What a search of absorbers or dampers makes small.
 
 /// By how much limits are missed, of what they are about over what they allow: where all are met the largest, else 1 and the
-/// logarithms of those above 1, so that one that nothing meets leaves the others their say.
+/// logarithms of those above 1: a design that misses a limit which none meets is still better the more of the others it meets.
 pub(super) fn cost(over: &[f64]) -> f64 {
     let missed = over.iter().filter(|one| **one > 1.0).map(|one| libm::log(*one));
     let missed: f64 = missed.sum();

@@ -7,7 +7,7 @@ use super::linear::{
 use crate::case::{ActsOn, Load, ModalCase};
 use crate::dampers::{AtBound, penalty, simplex, within_bounds};
 use crate::linear::ModalDamper;
-use crate::measure::PlaceMeasure;
+use crate::measure::Measure;
 
 /// Dampers of equal mass, together as heavy as the absorbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,8 +22,8 @@ pub struct DamperChoice {
     pub worst: Vec<f64>,
     /// The largest stroke of each damper under any load, in m.
     pub strokes: Vec<f64>,
-    /// What each criterion comes to, in SI units.
-    pub criteria: Vec<f64>,
+    /// What each criterion comes to, in SI units; none of what only an absorber has.
+    pub criteria: Vec<Option<f64>>,
 }
 
 /// Steps of a simplex, and how often it begins again where it ended.
@@ -38,8 +38,8 @@ const BESIDE: f64 = 0.1;
 const SIMPLEX: [f64; 2] = [0.02, 0.3];
 
 /// The best one damper and, of structures that several modes drive, one for each of these modes: tuned and damped so that what criteria
-/// ask for is smallest over what they allow, or without criteria the largest displacement of any place, under any load. Each is where
-/// its mode moves most.
+/// ask for is smallest over what they allow, or without criteria the largest displacement of any place, under any load; under loads of
+/// one frequency each Den Hartog's. Each is where its mode moves most.
 pub fn choices(case: &ModalCase) -> Vec<DamperChoice> {
     let driven = driven_modes(case);
     let mut counts = vec![1];
@@ -107,7 +107,7 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
     let along: Vec<(&Load, Vec<f64>)> =
         case.loads.iter().map(|load| (load, linear_places(wide(load), case))).collect();
     let bare = case.loads.iter().map(|load| largest_peak(case, load, &[])).fold(0.0, f64::max);
-    let others = case.criteria.iter().any(|one| one.measure != PlaceMeasure::PEAK);
+    let others = case.criteria.iter().any(|one| one.measure != Measure::Peak);
     let cost = |logarithms: &[f64]| {
         let dampers = built(logarithms);
         let beyond: f64 = logarithms.chunks(2).map(|pair| penalty([pair[0], pair[1]])).product();
@@ -117,7 +117,8 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
                 let there = amplitudes(case, load, *at, &dampers);
                 peak = there.places.iter().copied().fold(peak, f64::max);
                 for (over, one) in over.iter_mut().zip(&case.criteria) {
-                    *over = over.max(asked_of(case, one, &there, *at) / one.criterion.limit);
+                    let own = asked_of(case, one, &there, *at);
+                    *over = over.max(own.map_or(0.0, |own| one.part(own)));
                 }
             }
         }
@@ -128,7 +129,12 @@ fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
             }
     };
     let sizes: Vec<f64> = (0..start.len()).map(|k| SIMPLEX[k % 2]).collect();
-    let dampers = built(&simplex(start, &sizes, STEPS, RESTARTS, cost));
+    // For loads of one frequency alone the best would be undamped and of no use beside it, as with one mode.
+    let is_range = |load: &Load| load.range_hz[0] < load.range_hz[1];
+    let dampers = match case.loads.iter().any(is_range) {
+        true => built(&simplex(start, &sizes, STEPS, RESTARTS, cost)),
+        false => built(&start),
+    };
     let at_bound =
         |(one, own): (&ModalDamper, &f64)| AtBound::of(one.frequency / own, one.damping_ratio);
     let stroke = |d: usize| {

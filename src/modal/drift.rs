@@ -2,9 +2,9 @@
 
 use super::dampers::DamperChoice;
 use super::linear::largest_peak;
-use super::{ModalAnswer, ModalError, WorstOfPlace};
+use super::{ModalAnswer, ModalError};
 use crate::case::{ModalCase, StructuralMode};
-use crate::criteria::Judged;
+use crate::criteria::{Judged, Worst};
 use crate::executor::Executor;
 use crate::linear::ModalDamper;
 
@@ -19,7 +19,7 @@ pub struct OffStructure {
     /// Without absorbers, in m.
     pub bare: f64,
     /// With the absorbers.
-    pub worst: Option<WorstOfPlace>,
+    pub worst: Option<Worst>,
     /// Its criteria.
     pub criteria: Vec<Judged>,
     /// With each choice of dampers, in m.
@@ -67,8 +67,8 @@ impl OffStructure {
         Ok(Self {
             off,
             bare: linear(&[]),
-            worst: answer.worst(None),
-            criteria: answer.criteria(),
+            worst: answer.worst(case, None),
+            criteria: answer.judged,
             dampers: choices.iter().map(with).collect(),
         })
     }

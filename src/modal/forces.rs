@@ -112,7 +112,7 @@ impl OverForce {
                 let places = at.iter().map(|at| AtFrequency::of(shifted, &load, *at, starts));
                 Ok(answer(shifted, places.collect::<Result<_, _>>()?))
             })?;
-            let outcomes = judged.criteria().iter().map(Judged::outcome).collect();
+            let outcomes = judged.judged.iter().map(Judged::outcome).collect();
             Ok(ForceStep { times: times[step], motions, bare, outcomes })
         };
         let steps = found.chunks(at.len()).enumerate().map(step);

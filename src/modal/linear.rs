@@ -1,10 +1,7 @@
 //! The structure along a load without absorbers, alone or with tuned mass dampers.
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
-use crate::case::{Load, ModalCase, PlaceCriterion};
+use crate::case::{Criterion, Load, ModalCase, Of};
 use crate::linear::{ModalAmplitudes, ModalDamper};
-use crate::measure::PlaceMeasure;
 use crate::numerics::scan;
 
 /// Pieces of a range in which the largest amplitude is looked for, beside ever closer ones around the modes.
@@ -59,29 +56,30 @@ pub(super) fn largest_peak(case: &ModalCase, load: &Load, dampers: &[ModalDamper
     (0..case.places.len()).map(of_place).fold(0.0, f64::max)
 }
 
-/// What a criterion is about, in SI units, where places move with these amplitudes at a frequency in Hz.
+/// What a criterion is about, in SI units, where places move with these amplitudes at a frequency in Hz; none of what only an absorber
+/// has, or compares with something.
 pub(super) fn asked_of(
     case: &ModalCase,
-    asked: &PlaceCriterion,
+    asked: &Criterion,
     amplitudes: &ModalAmplitudes,
     at: f64,
-) -> f64 {
+) -> Option<f64> {
     let places = amplitudes.places.iter().enumerate();
-    let places = places.filter(|(p, _)| asked.place.is_none_or(|one| one == *p));
+    let places = places.filter(|(p, _)| asked.of.holds(Of::Place(*p)));
     let amplitude = places.map(|(_, amplitude)| *amplitude).fold(0.0, f64::max);
-    let PlaceMeasure { reads, mean } = asked.measure;
-    let mean = if mean { FRAC_1_SQRT_2 } else { 1.0 };
-    (0..reads.rates())
-        .fold(mean * amplitude, |value, _| value * case.omega() * at / case.modes[0].frequency_hz)
+    asked.measure.of_sine(amplitude, case.omega() * at / case.modes[0].frequency_hz)
 }
 
-/// The most of what a criterion is about under any load, in SI units.
-pub fn linear_most(case: &ModalCase, asked: &PlaceCriterion, dampers: &[ModalDamper]) -> f64 {
+/// The most of what a criterion is about under any load, in SI units; none as there.
+pub fn linear_most(case: &ModalCase, asked: &Criterion, dampers: &[ModalDamper]) -> Option<f64> {
+    asked.measure.of_sine(0.0, 0.0)?;
     let along = |load: &Load| {
-        let of = |at: f64| asked_of(case, asked, &amplitudes(case, load, at, dampers), at);
+        let of = |at: f64| {
+            asked_of(case, asked, &amplitudes(case, load, at, dampers), at).unwrap_or_default()
+        };
         largest(load.range_hz, case, of)[0]
     };
-    case.loads.iter().map(along).fold(0.0, f64::max)
+    Some(case.loads.iter().map(along).fold(0.0, f64::max))
 }
 
 /// Frequencies in Hz at which it is looked at along a range, ascending.

@@ -8,22 +8,22 @@ mod cost;
 mod dampers;
 mod drift;
 mod forces;
+mod judge;
 mod linear;
 mod optimum;
 mod orbits;
 mod rest;
 mod sensors;
 
-use crate::case::{ActsOn, Load, ModalCase, PlaceCriterion, RewriteError};
+use crate::case::{ActsOn, Load, ModalCase, RewriteError};
 use crate::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
-use crate::measure::PlaceMeasure;
-use crate::motions::longest_flight;
+use crate::method::Method;
 use crate::simulation::ModalStartError;
-use crate::system::InvalidModalSystem;
+use crate::system::{InvalidModalSystem, ModalSystem};
 
-pub use along::{AlongLoad, AtFrequency, WorstOfPlace, seconds};
+pub use along::{AlongLoad, AtFrequency, seconds};
 pub use dampers::{DamperChoice, choices};
 pub use drift::{OffStructure, off_structures};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
@@ -52,18 +52,7 @@ pub struct ModalAnswer {
     /// Along each load, in the order of the case.
     pub along: Vec<AlongLoad>,
     /// Its criteria.
-    pub judged: Vec<JudgedPlace>,
-}
-
-/// A criterion and what it came to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JudgedPlace {
-    /// Which place was asked about; none: every one.
-    pub place: Option<usize>,
-    /// The worst place and load.
-    pub worst: WorstOfPlace,
-    /// What it came to there; its error covers every other place and load.
-    pub judged: Judged,
+    pub judged: Vec<Judged>,
 }
 
 impl ModalAnswer {
@@ -81,25 +70,31 @@ impl ModalAnswer {
         case: &ModalCase,
         again: impl Fn(&ModalCase) -> Result<Self, ModalError>,
     ) -> Result<Self, ModalError> {
-        let worst = self.judged.iter().map(|one| &one.worst).filter(|one| !one.rests);
-        let worst = worst.max_by(|a, b| a.value.total_cmp(&b.value));
-        let Some(worst) = worst else { return Ok(self) };
-        let Ok(system) = case.system(&case.loads[worst.load], worst.at) else { return Ok(self) };
+        let Some(system) = self.fastest(case) else { return Ok(self) };
         let Some(shifted) = case.acting_like(&of_absorbers(&system)) else { return Ok(self) };
         let there = again(&shifted)?;
-        let in_contact = |(one, shifted): (JudgedPlace, &JudgedPlace)| {
-            let rest = [one.worst.rests, shifted.worst.rests];
-            match rest {
+        let in_contact = |(one, shifted): (Judged, &Judged)| {
+            match [&one, shifted].map(|one| one.decided_by == Method::ClosedForm) {
                 // Absorbers at rest meet their walls where they are.
                 [true, true] => one,
-                [own, there] => JudgedPlace {
-                    judged: one.judged.in_contact(&shifted.judged, own != there),
-                    ..one
-                },
+                [own, there] => one.in_contact(shifted, own != there),
             }
         };
         let judged = self.judged.into_iter().zip(&there.judged).map(in_contact);
         Ok(Self { judged: judged.collect(), along: self.along })
+    }
+
+    /// The structure where criteria are worst, of these places that with the fastest impact; none where absorbers rest.
+    fn fastest(&self, case: &ModalCase) -> Option<ModalSystem> {
+        let speed = |one: &Judged| {
+            let (along, at) = (self.along.get(one.load)?, one.at?);
+            let motion = along.at(at)?.motions.get(one.motion?)?;
+            let speed = motion.impact_speed.iter().map(|one| one[0]).fold(0.0, f64::max);
+            (speed > 0.0).then_some((&along.load, at, speed))
+        };
+        let (load, at, _) =
+            self.judged.iter().filter_map(speed).max_by(|a, b| a.2.total_cmp(&b.2))?;
+        case.system(load, at).ok()
     }
 
     /// The same where impacts take no time.
@@ -111,7 +106,7 @@ impl ModalAnswer {
     /// Of what is known along the loads of a case.
     fn judged(case: &ModalCase, along: Vec<AlongLoad>) -> Self {
         let mut answer = Self { along, judged: Vec::new() };
-        answer.judged = case.criteria.iter().filter_map(|one| answer.judge(case, one)).collect();
+        answer.judged = case.criteria.iter().map(|one| answer.judge(case, one)).collect();
         answer
     }
 
@@ -121,62 +116,9 @@ impl ModalAnswer {
         all.map(|[most, _]| *most).fold(0.0, f64::max)
     }
 
-    /// The largest displacement of any place under a load, or under any.
-    pub fn worst(&self, load: Option<usize>) -> Option<WorstOfPlace> {
-        self.worst_of(PlaceMeasure::PEAK, None, load)
-    }
-
-    /// The worst of what is measured of a place, or of all, under a load, or under any.
-    pub fn worst_of(
-        &self,
-        asked: PlaceMeasure,
-        place: Option<usize>,
-        load: Option<usize>,
-    ) -> Option<WorstOfPlace> {
-        let loads = self.along.iter().enumerate().filter(|(k, _)| load.is_none_or(|one| one == *k));
-        let all = loads.flat_map(|(k, along)| {
-            let places = 0..along.bare.len();
-            let places = places.filter(move |p| place.is_none_or(|one| one == *p));
-            places.filter_map(move |p| along.worst(k, p, asked))
-        });
-        let all: Vec<WorstOfPlace> = all.collect();
-        let worst = all.iter().copied().max_by(|a, b| a.value.total_cmp(&b.value))?;
-        let largest = |of: fn(&WorstOfPlace) -> f64| all.iter().map(of).fold(0.0, f64::max);
-        Some(WorstOfPlace {
-            error: largest(|one| one.value + one.error) - worst.value,
-            settled: largest(|one| one.settled),
-            all_settled: all.iter().all(|one| one.all_settled),
-            ..worst
-        })
-    }
-
-    fn judge(&self, case: &ModalCase, asked: &PlaceCriterion) -> Option<JudgedPlace> {
-        let worst = self.worst_of(asked.measure, asked.place, None)?;
-        let decided_by = worst.method();
-        // What has settled may fail it, whatever else there is.
-        let fails = worst.settled > asked.criterion.limit;
-        let system = case.system(&case.loads[worst.load], worst.at).ok();
-        let followed = system.map_or(0, |system| longest_flight(&system, case.periods) as u64);
-        let undecided = (!worst.all_settled && !fails).then_some(followed);
-        let judged =
-            Judged::of_worst(&asked.criterion, [worst.value, worst.error], decided_by, undecided);
-        let here = || self.along.iter().flat_map(|along| &along.places);
-        let places = (0..case.places.len()).filter(|p| asked.place.is_none_or(|one| one == *p));
-        let limit = asked.criterion.limit;
-        let few = here().filter_map(|one| one.too_few(places.clone(), asked.measure, limit));
-        let few = few.max_by(f64::total_cmp).filter(|_| judged.holds == Some(true));
-        let judged = Judged { inactive: worst.share, but_at_rest: few, ..judged };
-        Some(JudgedPlace { place: asked.place, worst, judged })
-    }
-
-    /// Every criterion as one of a single mode is told.
-    pub fn criteria(&self) -> Vec<Judged> {
-        self.judged.iter().map(|one| one.judged.clone()).collect()
-    }
-
     /// Whether every criterion holds.
     pub fn all_hold(&self) -> bool {
-        all_hold(&self.criteria())
+        all_hold(&self.judged)
     }
 }
 
@@ -194,19 +136,19 @@ fn driven_mode(case: &ModalCase, load: &Load) -> usize {
     }
 }
 
-/// For each load the worst displacement that a model of the driven mode alone has: of the mode in which the load acts, or of
-/// that which is nearest to its range.
+/// For each load the worst displacement that a model of the driven mode alone has, with its error: of the mode in which the load
+/// acts, or of that which is nearest to its range.
 ///
 /// # Errors
 /// [`ModalError`] where a motion cannot be flown.
 pub fn modes_alone(
     case: &ModalCase,
     on: &dyn Executor,
-) -> Result<Vec<Option<WorstOfPlace>>, ModalError> {
+) -> Result<Vec<Option<[f64; 2]>>, ModalError> {
     if case.modes.len() == 1 {
         return Ok(vec![None; case.loads.len()]);
     }
-    let each = case.loads.iter().enumerate().map(|(number, load)| {
+    let each = case.loads.iter().map(|load| {
         let driven = driven_mode(case, load);
         let on_mode = match load.on {
             ActsOn::Mode(_) => ActsOn::Mode(0),
@@ -218,9 +160,9 @@ pub fn modes_alone(
             loads: vec![load],
             ..case.clone()
         };
-        let along = AlongLoad::of(&alone, &load, on)?;
-        let all = (0..case.places.len()).filter_map(|p| along.worst(number, p, PlaceMeasure::PEAK));
-        Ok(all.max_by(|a, b| a.value.total_cmp(&b.value)))
+        let along = vec![AlongLoad::of(&alone, &load, on)?];
+        let worst = ModalAnswer { along, judged: Vec::new() }.worst(&alone, None);
+        Ok(worst.map(|worst| [worst.found.value, worst.found.error]))
     });
     each.collect()
 }

@@ -9,12 +9,12 @@ use std::cmp::Ordering;
 
 use super::cost::cost;
 use super::rest::farthest_at_rest;
-use super::sensors::{measured, sensors};
+use super::sensors::{measured, parts, sensors};
 use super::{ModalAnswer, ModalError};
-use crate::case::{Bounds, Load, ModalCase, PlacedAbsorber, Rounding};
-use crate::criteria::Outcome;
+use crate::case::{Bounds, Criterion, Load, ModalCase, PlacedAbsorber, Relation, Rounding};
+use crate::criteria::{Judged, Outcome};
 use crate::executor::Executor;
-use crate::measure::PlaceMeasure;
+use crate::measure::{Measure, Part};
 use crate::motions::{ModalMotion, modal_motions};
 use crate::optimize::search::{shortlist, spread_out};
 
@@ -58,19 +58,24 @@ pub struct ModalOptimum {
 impl JudgedAbsorbers {
     fn of(case: ModalCase, text: String, on: &dyn Executor) -> Result<Self, ModalError> {
         let answer = ModalAnswer::of(&case, on)?;
-        let limits = limits(&case, &answer);
-        let reach = |one: &Limit| {
-            let worst = answer.worst_of(one.measure, one.place, None);
-            worst.map_or(f64::INFINITY, |worst| (worst.value + worst.error) / one.most)
+        let reach = |one: &Judged| {
+            let room = one.margin.map(|room| room - one.error);
+            room.map_or(f64::INFINITY, |room| 1.0 - room / one.criterion.scale())
         };
-        let reaches = limits.iter().map(reach).collect();
+        let reaches = match case.criteria.is_empty() {
+            true => {
+                let worst = answer.worst(&case, None).map(|worst| worst.found);
+                vec![worst.map_or(f64::INFINITY, |one| (one.value + one.error) / answer.bare())]
+            }
+            false => answer.judged.iter().map(reach).collect(),
+        };
         Ok(Self { case, text, answer, reaches })
     }
 
     /// First how many criteria are missed, then how many are not known to hold, then how far it may move.
     fn order(&self, other: &Self) -> Ordering {
         let count = |one: &Self, which: fn(Outcome) -> bool| {
-            one.answer.judged.iter().filter(|one| which(one.judged.outcome())).count()
+            one.answer.judged.iter().filter(|one| which(one.outcome())).count()
         };
         let fails: fn(Outcome) -> bool = |one| matches!(one, Outcome::Fails | Outcome::NotMeasured);
         let open: fn(Outcome) -> bool = |one| one != Outcome::Holds;
@@ -104,21 +109,21 @@ impl ModalOptimum {
         let looked_at = frequencies(case, &own.answer, &limits);
         let most = |n: usize| looked_at.iter().map(|one| one.over[n]).fold(0.0, f64::max);
         let own_cost = cost(&(0..limits.len()).map(most).collect::<Vec<_>>());
-        let (count, sensors, count_rest) = (numbers(case), sensors(case), case.count_inactive);
+        let (count, sensors) = (numbers(case), sensors(case));
         let score = |parts: &[f64], best: f64| {
             let candidate = candidate(case, parts);
             let at_rest = case.loads.iter().flat_map(|load| farthest_at_rest(&candidate, load));
             let at_rest: Vec<ModalMotion> = at_rest.map(|one| one.1).collect();
             let known = best.max(-own_cost);
             let mut over: Vec<f64> =
-                limits.iter().map(|one| over_limit(&at_rest, one, count_rest)).collect();
+                limits.iter().map(|one| over_limit(case, &at_rest, one)).collect();
             for LookedAt { load, at, .. } in &looked_at {
                 let found = candidate.system(load, *at).ok();
                 let found =
                     found.and_then(|system| modal_motions(&system, &sensors, FEW_STARTS, 0).ok());
                 let Some(motions) = found else { return f64::NEG_INFINITY };
                 for (over, limit) in over.iter_mut().zip(&limits) {
-                    *over = over.max(over_limit(&motions, limit, count_rest));
+                    *over = over.max(over_limit(case, &motions, limit));
                 }
                 if -cost(&over) < known {
                     break;
@@ -146,34 +151,42 @@ pub fn checks(case: &ModalCase) -> f64 {
     first as f64 * few + (JUDGED + 1) as f64
 }
 
-/// What is allowed of a place, or of all.
-struct Limit {
-    measure: PlaceMeasure,
-    place: Option<usize>,
-    /// In SI units.
-    most: f64,
-}
-
-/// What criteria allow; of a case without them the displacement that it has without absorbers.
-fn limits(case: &ModalCase, answer: &ModalAnswer) -> Vec<Limit> {
-    if case.criteria.is_empty() {
-        let bare = answer.along.iter().flat_map(|along| &along.bare);
-        let most = bare.map(|[most, _]| *most).fold(0.0, f64::max);
-        return vec![Limit { measure: PlaceMeasure::PEAK, place: None, most }];
+/// What criteria allow of single motions; of a case without such ones the displacement that it has without absorbers.
+fn limits(case: &ModalCase, answer: &ModalAnswer) -> Vec<Criterion> {
+    let of_motions = case.criteria.iter().filter(|one| one.measure.part() != Part::Whole);
+    let limits: Vec<Criterion> = of_motions.map(|one| in_amplitudes(one, answer)).collect();
+    match limits.is_empty() {
+        true => Criterion::at_most(Measure::Peak, answer.bare()).into_iter().collect(),
+        false => limits,
     }
-    let of = case.criteria.iter();
-    of.map(|one| Limit { measure: one.measure, place: one.place, most: one.criterion.limit })
-        .collect()
 }
 
-/// The most of any motion over what is allowed.
-fn over_limit(motions: &[ModalMotion], limit: &Limit, count_rest: bool) -> f64 {
-    let of = |motion: &ModalMotion| {
-        let places = 0..motion.read(limit.measure.reads).count();
-        let asked = places.filter(|p| limit.place.is_none_or(|place| place == *p));
-        asked.map(|p| measured(motion, p, limit.measure)[0]).fold(0.0, f64::max)
+/// A limit of a reduction as one of the amplitude, which candidates are compared by: that of the structure alone for either.
+fn in_amplitudes(asked: &Criterion, answer: &ModalAnswer) -> Criterion {
+    let turned = match asked.relation {
+        Relation::AtLeast => Relation::AtMost,
+        Relation::AtMost => Relation::AtLeast,
+        Relation::Equal => Relation::Equal,
     };
-    motions.iter().filter(|one| one.counts(count_rest)).map(of).fold(0.0, f64::max) / limit.most
+    match asked.measure.against() {
+        None => asked.clone(),
+        Some(_) => Criterion {
+            measure: Measure::Peak,
+            relation: turned,
+            limit: answer.bare() * libm::pow(10.0, -asked.limit / 20.0),
+            ..asked.clone()
+        },
+    }
+}
+
+/// The worst of any motion that counts as a part of what is allowed.
+fn over_limit(case: &ModalCase, motions: &[ModalMotion], limit: &Criterion) -> f64 {
+    let counting = motions.iter().filter(|one| one.counts(case.count_inactive));
+    let each = counting.flat_map(|motion| {
+        let parts = parts(case, limit.measure, limit.of);
+        parts.filter_map(|of| measured(case, motion, of, limit.measure))
+    });
+    each.map(|[value, _]| limit.part(value)).fold(0.0, f64::max)
 }
 
 /// A load and a frequency that candidates are flown at.
@@ -186,15 +199,13 @@ struct LookedAt {
 }
 
 /// Where candidates are flown, those first where the case's own absorbers are worst.
-fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<LookedAt> {
+fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Criterion]) -> Vec<LookedAt> {
     let mut found = Vec::new();
     for along in &own.along {
-        let over = |k: usize, one: &Limit| {
-            over_limit(&along.places[k].motions, one, along.places[k].count_rest)
-        };
-        let moving = |k: usize, one: &Limit| {
+        let over = |k: usize, one: &Criterion| over_limit(case, &along.places[k].motions, one);
+        let moving = |k: usize, one: &Criterion| {
             let all = along.places[k].motions.iter().filter(|one| !one.rests());
-            over_limit(&all.cloned().collect::<Vec<_>>(), one, along.places[k].count_rest)
+            over_limit(case, &all.cloned().collect::<Vec<_>>(), one)
         };
         let last = along.places.len() - 1;
         let [from, to] = along.load.range_hz;
@@ -205,7 +216,7 @@ fn frequencies(case: &ModalCase, own: &ModalAnswer, limits: &[Limit]) -> Vec<Loo
         let even = (0..FEW).map(|k| from + (to - from) * k as f64 / (FEW - 1) as f64);
         let mut chosen: Vec<usize> = even.filter_map(nearest).collect();
         for one in limits {
-            let most = |of: &dyn Fn(usize, &Limit) -> f64| {
+            let most = |of: &dyn Fn(usize, &Criterion) -> f64| {
                 (0..=last).max_by(|a, b| of(*a, one).total_cmp(&of(*b, one)))
             };
             // Where others rest is told for each by itself.

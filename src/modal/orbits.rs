@@ -95,6 +95,28 @@ pub(super) fn stable_amplitudes(
     Ok(of(&case.system(load, at)?, ModalParameter::Excitation, own, range))
 }
 
+/// The share of a load's range of frequencies in which an orbit attracts; 1 or 0 of one frequency.
+///
+/// # Errors
+/// [`ModalError::System`] where there is no steady motion.
+pub(super) fn stable_share(case: &ModalCase, load: &Load) -> Result<f64, ModalError> {
+    let [from, to] = load.range_hz;
+    let system = case.system(load, load.centre(case))?;
+    if from == to {
+        let attracts = antiperiodic_orbits(&system).iter().any(ModalOrbit::stable);
+        return Ok(f64::from(u8::from(attracts)));
+    }
+    let unit = case.modes[0].frequency_hz;
+    let found = of(&system, ModalParameter::FrequencyRatio, unit, load.range_hz).found;
+    // Of orbits that attract beside one another one is enough.
+    let (mut share, mut reached) = (0.0, from);
+    for [begin, end] in found.iter().map(|ends| ends.map(|end| end.value)) {
+        share += (end - begin.max(reached)).max(0.0);
+        reached = reached.max(end);
+    }
+    Ok(share / (to - from))
+}
+
 fn of(system: &ModalSystem, parameter: ModalParameter, unit: f64, range: [f64; 2]) -> Stretches {
     let within = range.map(|value| value / unit);
     let mut found = stable_stretches(system, parameter, within);

@@ -1,29 +1,74 @@
-//! What is measured of a case's places, and the sensors for it.
+//! What is measured of a case's places and absorbers, and the sensors for it.
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::case::ModalCase;
-use crate::measure::{PlaceMeasure, riding};
+use crate::case::{Criterion, ModalCase, Of, Relation};
+use crate::measure::{Measure, Part, riding};
 use crate::motions::ModalMotion;
 use crate::quantity::catalogue::PEAK_ACCELERATION;
 use crate::simulation::{Reading, Sensor};
 
-/// What is measured of each place: the largest displacement, and what else criteria ask for.
-pub(super) fn measures(case: &ModalCase) -> Vec<PlaceMeasure> {
-    let mut measures = vec![PlaceMeasure::PEAK];
-    for one in &case.criteria {
-        if !measures.contains(&one.measure) {
-            measures.push(one.measure);
+/// A number of a place or an absorber, and whether the smallest is the worst.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Look {
+    pub of: Of,
+    pub measure: Measure,
+    pub least: bool,
+}
+
+impl Look {
+    /// What is looked at along the loads of a case: the largest displacement of each place, and what else criteria ask for.
+    pub fn all(case: &ModalCase) -> Vec<Self> {
+        let peak = parts(case, Measure::Peak, Of::Any);
+        let mut all: Vec<Self> =
+            peak.map(|of| Self { of, measure: Measure::Peak, least: false }).collect();
+        for one in &case.criteria {
+            for look in parts(case, one.measure, one.of).flat_map(|of| Self::of(one, of)) {
+                if !all.contains(&look) {
+                    all.push(look);
+                }
+            }
         }
+        all
     }
-    measures
+
+    /// What a criterion asks of a part: one side of it, or both.
+    pub fn of(asked: &Criterion, of: Of) -> impl Iterator<Item = Self> {
+        // The peak alone says what a reduction is.
+        let (measure, turned) = match asked.measure.against() {
+            Some(_) => (Measure::Peak, true),
+            None => (asked.measure, false),
+        };
+        let (relation, both) = (asked.relation, asked.relation == Relation::Equal);
+        let sides = [false, true].into_iter();
+        let asked =
+            move |least: &bool| both || *least == ((relation == Relation::AtLeast) != turned);
+        sides.filter(asked).map(move |least| Self { of, measure, least })
+    }
+
+    /// The number in a motion, with its error, its sign turned where the smallest is the worst.
+    pub fn signed(&self, case: &ModalCase, motion: &ModalMotion) -> Option<f64> {
+        let value = measured(case, motion, self.of, self.measure)?[0];
+        Some(if self.least { -value } else { value })
+    }
+}
+
+/// The parts of a structure that have a measure, of those that are asked about.
+pub(super) fn parts(case: &ModalCase, measure: Measure, asked: Of) -> impl Iterator<Item = Of> {
+    let all: Vec<Of> = match measure.part() {
+        Part::Place => (0..case.places.len()).map(Of::Place).collect(),
+        Part::Absorber => (0..case.absorbers.len()).map(Of::Absorber).collect(),
+        Part::Whole => Vec::new(),
+    };
+    all.into_iter().filter(move |one| asked.holds(*one))
 }
 
 /// Sensors for that, in SI units: for each reading one at each place, displacements first.
 pub fn sensors(case: &ModalCase) -> Vec<Sensor> {
-    let measures = measures(case);
-    let mut readings: Vec<Reading> = measures.iter().map(|one| one.reads).collect();
-    if measures.contains(&PlaceMeasure { reads: Reading::Acceleration, mean: false }) {
+    let measures = || case.criteria.iter().map(|one| one.measure);
+    let sensed = measures().filter_map(|one| one.sensor().map(|(reads, _)| reads));
+    let mut readings: Vec<Reading> = sensed.chain([Reading::Displacement]).collect();
+    if measures().any(|one| one == Measure::PeakAcceleration) {
         let all = case.absorbers.iter().enumerate();
         let pulses = all.filter(|(_, one)| one.contact_time_s.is_some());
         readings.extend(pulses.map(|(absorber, _)| Reading::Jump { absorber }));
@@ -44,11 +89,25 @@ pub fn sensors(case: &ModalCase) -> Vec<Sensor> {
     readings.into_iter().flat_map(of).collect()
 }
 
-/// What is measured of a place in a motion, in SI units, and its error.
-pub(super) fn measured(motion: &ModalMotion, place: usize, asked: PlaceMeasure) -> [f64; 2] {
+/// What a place or an absorber has of a measure in a motion, in SI units, and its error; none of what no motion has.
+pub(super) fn measured(
+    case: &ModalCase,
+    motion: &ModalMotion,
+    of: Of,
+    measure: Measure,
+) -> Option<[f64; 2]> {
+    let place = match (of, measure) {
+        (Of::Absorber(j), Measure::ImpactSpeed) => {
+            return Some(motion.impact_speed[j].map(|one| case.omega() * one));
+        }
+        (Of::Absorber(j), Measure::ImpactsPerPeriod) => return Some(motion.impacts_per_period[j]),
+        (Of::Place(place), _) => place,
+        _ => return None,
+    };
     let read = |reads: Reading| motion.read(reads).nth(place);
-    let Some(own) = read(asked.reads) else { return [f64::NAN, 0.0] };
-    match (asked.mean, asked.reads) {
+    let (reads, mean) = measure.sensor()?;
+    let own = read(reads)?;
+    Some(match (mean, reads) {
         (true, _) => own.rms,
         // With the pulses of absorbers whose impacts take time.
         (false, Reading::Acceleration) => {
@@ -59,5 +118,5 @@ pub(super) fn measured(motion: &ModalMotion, place: usize, asked: PlaceMeasure) 
             riding(&PEAK_ACCELERATION, [own.peak, own.error], [top, most - top])
         }
         _ => [own.peak, own.error],
-    }
+    })
 }

@@ -76,9 +76,6 @@ impl JudgedDesign {
 
 /// Relative improvement of an amplitude, and of a share or margin by itself, that is none.
 const CLEARLY: [f64; 2] = [0.01, 1e-3];
-/// Decibels that count as much as missing a limit by all of it: a factor of 2.
-const DOUBLE_DB: f64 = 6.0;
-
 /// By how much the criterion that is missed most is missed, over its limit; 0 where all hold.
 pub fn missed_by(criteria: &[Judged]) -> f64 {
     criteria.iter().map(violation).fold(0.0, f64::max)
@@ -94,9 +91,8 @@ fn violation(judged: &Judged) -> f64 {
         _ => judged.error - margin,
     };
     match judged.criterion.measure {
-        Measure::ReductionDb | Measure::ReductionDbTmd => missed / DOUBLE_DB,
         Measure::NoCoexistence => 1.0,
-        _ => missed / judged.criterion.limit.max(f64::MIN_POSITIVE),
+        _ => missed / judged.criterion.scale(),
     }
 }
 

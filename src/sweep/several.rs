@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::columns::{Cell, Column, Storage, push};
 use super::{Grid, fewest_of};
-use crate::case::ModalCase;
-use crate::criteria::together;
+use crate::case::{ModalCase, Of};
+use crate::criteria::{Judged, together};
 use crate::executor::Serial;
 use crate::measure::Device;
 use crate::modal::{ModalAnswer, seconds};
@@ -66,10 +66,11 @@ impl ModalPlan {
     fn asked(&self) -> Vec<(usize, String)> {
         let mut named: Vec<(usize, String)> = Vec::new();
         for (k, asked) in self.case.criteria.iter().enumerate() {
-            let key = asked.criterion.key;
-            let name = match asked.place {
-                Some(place) => format!("{key}_{}", self.case.places[place]),
-                None => key.to_owned(),
+            let key = asked.key;
+            let name = match asked.of {
+                Of::Place(place) => format!("{key}_{}", self.case.places[place]),
+                Of::Absorber(j) => format!("{key}_absorber_{}", j + 1),
+                Of::Any => key.to_owned(),
             };
             if !named.iter().any(|(_, known)| *known == name) {
                 named.push((k, name));
@@ -108,7 +109,7 @@ impl ModalPlan {
         }
         for (k, name) in self.asked() {
             let asked = &self.case.criteria[k];
-            let kind = asked.criterion.measure.kind(Device::Absorber);
+            let kind = asked.measure.kind(Device::Absorber);
             let dimension = kind.map_or(Dimension::Number, |kind: &Kind| kind.dimension);
             columns.push(number(&name, dimension));
             columns.push(number(&format!("error_of_{name}"), dimension));
@@ -122,15 +123,17 @@ impl ModalPlan {
         for number in numbers {
             let (coordinates, case) = self.case_at(number);
             // Values that are each possible may together leave no system; then nothing is known.
-            let cells = ModalAnswer::of(&case, &Serial).map(|answer| self.cells(&answer));
+            let cells = ModalAnswer::of(&case, &Serial).map(|answer| self.cells(&case, &answer));
             push(&mut columns, number, &coordinates, cells.unwrap_or_default());
         }
         columns
     }
 
-    fn cells(&self, answer: &ModalAnswer) -> Vec<Option<Cell>> {
+    fn cells(&self, case: &ModalCase, answer: &ModalAnswer) -> Vec<Option<Cell>> {
         let number = |value: f64| Some(Cell::Number(value));
-        let Some(worst) = answer.worst(None) else { return Vec::new() };
+        let Some(worst) = answer.worst(case, None).map(|worst| worst.found) else {
+            return Vec::new();
+        };
         let bare = answer.bare();
         let here = self.at_a_frequency().then(|| &answer.along[0].places[0]);
         // The most common comes first.
@@ -141,19 +144,20 @@ impl ModalPlan {
             number(worst.error),
             number(bare),
             // What is certain of it.
-            number(20.0 * libm::log10(bare / (worst.value + worst.error))),
-            here.map_or_else(|| number(worst.at), |here| number(here.counting().count() as f64)),
+            number(20.0 * libm::log10(bare / worst.most())),
+            here.map_or_else(
+                || worst.at.map(Cell::Number),
+                |here| number(here.counting().count() as f64),
+            ),
         ]);
-        if let Some(outcome) = together(&answer.criteria()) {
+        if let Some(outcome) = together(&answer.judged) {
             cells.push(Some(Cell::Text(outcome.name())));
-            let rooms = answer
-                .judged
-                .iter()
-                .map(|one| 1.0 - (one.worst.value + one.worst.error) / one.judged.criterion.limit);
+            let room = |one: &Judged| Some((one.margin? - one.error) / one.criterion.scale());
+            let rooms = answer.judged.iter().filter_map(room);
             cells.push(number(rooms.fold(f64::INFINITY, f64::min)));
         }
         for one in self.asked().into_iter().filter_map(|(k, _)| answer.judged.get(k)) {
-            cells.extend([number(one.worst.value), number(one.worst.error)]);
+            cells.extend([one.found.map(Cell::Number), number(one.error)]);
         }
         cells
     }

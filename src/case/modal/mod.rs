@@ -29,12 +29,12 @@ use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::contact::Impacts;
 use crate::digest::text_sha256;
-use crate::measure::PlaceMeasure;
 use crate::quantity::Kind;
 use crate::quantity::catalogue as of;
 use vinesink_core::names;
 
 pub use listing::{ListedMode, ModesListing};
+pub(super) use place::find_place;
 pub(super) use read::ModalFile;
 pub use sweep::ModalSweep;
 pub(super) use sweep::form as axis_form;
@@ -66,8 +66,8 @@ pub struct ModalCase {
     pub loads: Vec<Load>,
     /// Whether motions count in which absorbers rest.
     pub count_inactive: bool,
-    /// Limits of what places do.
-    pub criteria: Vec<PlaceCriterion>,
+    /// Limits of what it does.
+    pub criteria: Vec<Criterion>,
     /// Starts at each frequency, that from rest among them.
     pub starts: u32,
     /// Excitation periods that a motion which does not repeat is measured for at least.
@@ -208,17 +208,6 @@ impl Load {
     pub fn centre(&self, case: &ModalCase) -> f64 {
         self.resonances(case)[0]
     }
-}
-
-/// A limit of what a place does, or the worst one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlaceCriterion {
-    /// Which place; none: every one.
-    pub place: Option<usize>,
-    /// What is measured there.
-    pub measure: PlaceMeasure,
-    /// What is asked of it, in SI units.
-    pub criterion: Criterion,
 }
 
 /// Whether a text is of several modes or absorbers: what does not parse is not.

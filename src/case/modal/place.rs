@@ -17,7 +17,7 @@ pub(super) fn check_names(reader: &mut Reader, root: &Table, places: &[String]) 
 }
 
 /// The place of a name, which stands there in the text; the only one where none is given.
-pub(super) fn find_place(
+pub(in crate::case) fn find_place(
     reader: &mut Reader,
     span: Range<usize>,
     name: Option<&str>,

@@ -9,9 +9,7 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::asked::{
-    ModalCriteriaTable, ModalOptimizeTable, read_bounds, read_contact_times, read_criteria,
-};
+use super::asked::{ModalCriteriaTable, ModalOptimizeTable, read_bounds, read_contact_times};
 use super::file::{ModesTable, modes_of_file};
 use super::load::{LoadTable, read_load};
 use super::mode::{ModeTable, read_mode, read_modes};
@@ -24,10 +22,11 @@ use super::table::ModesFile;
 use super::warnings::Spans;
 use super::{AbsorberKey, ModalCase, PlacedAbsorber, StructuralMode};
 use crate::case::Heading;
-use crate::case::criteria::UPTO;
+use crate::case::criteria::{Asked, UPTO, read_limits};
 use crate::case::error::CaseError;
 use crate::case::reader::{Reader, Table, fields, kind};
 use crate::case::settings::SimulationSettings;
+use crate::excitation::Scene;
 use crate::system::MOST_MODES;
 
 /// An absorber of the structure.
@@ -235,10 +234,17 @@ pub(super) fn read(
             "leave it out: every start is flown until its slowest mode has died out",
         );
     }
+    let of_structure = Asked {
+        scene: Scene::Steady,
+        has_areas: false,
+        is_physical: reduced.is_none(),
+        places: &places,
+        absorbers: absorbers.len(),
+    };
     let asked = reader.optional::<ModalCriteriaTable>(&root, "criteria");
     let (criteria, upto) = match &asked {
         Some((table, read)) => (
-            read_criteria(reader, table, &places),
+            read_limits(reader, table, &of_structure),
             read.acceleration_upto.map(|upto| (table.span_of(UPTO), upto)),
         ),
         None => (Vec::new(), None),

@@ -75,7 +75,7 @@ pub fn criterion(case: &Case, judged: &Judged) -> Value {
 
 /// The same, worst at a place.
 pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
-    let Criterion { key, measure, relation, limit, as_written } = &judged.criterion;
+    let Criterion { key, measure, relation, limit, as_written, .. } = &judged.criterion;
     let kind = measure.kind(Device::Absorber);
     let quantity = |value: f64| kind.map(|kind| Quantity::new(kind, value, judged.decided_by));
     // The errors of shares and margins are rounding, or theory's own.

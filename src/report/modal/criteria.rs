@@ -1,34 +1,48 @@
-//! Criteria by place, as data: for pages, for `check`, and beside what the structure alone and dampers come to.
+//! Criteria by place and absorber, as data: for pages, for `check`, and beside what the structure alone and dampers come to.
 
 use serde_json::{Value, json};
 
 use super::{Beside, along, closed, given, units, warnings};
-use crate::case::ModalCase;
-use crate::measure::Device;
-use crate::modal::{JudgedPlace, ModalAnswer, linear_most};
+use crate::case::{ModalCase, Of};
+use crate::criteria::Judged;
+use crate::measure::{Device, Part};
+use crate::modal::{ModalAnswer, linear_most};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::report::criteria::{Checked, row as criteria_row};
 use crate::report::document::criteria::{counted, row};
 
 /// Where a criterion is worst.
-fn frequency(judged: &JudgedPlace) -> Quantity {
-    given(&of::EXCITATION_FREQUENCY, judged.worst.at)
+fn frequency(judged: &Judged) -> Option<Quantity> {
+    judged.at.map(|at| given(&of::EXCITATION_FREQUENCY, at))
 }
 
-/// A row about a criterion with the place that it is about, that which is worst, and under which load.
-fn placed(case: &ModalCase, one: &JudgedPlace, mut row: Value) -> Value {
-    row["place"] = json!(one.place.map(|place| &case.places[place]));
-    row["worst_place"] = json!(case.places[one.worst.place]);
-    row["load"] = json!(one.worst.load);
+/// A row about a criterion with the place or the absorber that it is about, that which is worst, and under which load.
+fn placed(case: &ModalCase, one: &Judged, mut row: Value) -> Value {
+    let (key, worst) = match one.criterion.measure.part() {
+        Part::Place => ("place", "worst_place"),
+        Part::Absorber => ("absorber", "worst_absorber"),
+        Part::Whole => ("place", ""),
+    };
+    // An absorber by its number, from 1.
+    let named = |of: Of| match of {
+        Of::Any => Value::Null,
+        Of::Place(place) => json!(case.places[place]),
+        Of::Absorber(j) => json!(j + 1),
+    };
+    row[key] = named(one.criterion.of);
+    if !worst.is_empty() {
+        row[worst] = named(one.of);
+    }
+    row["load"] = json!(one.load);
     row
 }
 
 /// The criteria in the form of those of one mode.
 pub(super) fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
     let judged = &answer.judged;
-    let rows = judged.iter().map(|one| placed(case, one, row(&one.judged, Some(frequency(one)))));
-    let mut counted = counted(&answer.criteria(), rows.collect());
+    let rows = judged.iter().map(|one| placed(case, one, row(one, frequency(one))));
+    let mut counted = counted(judged, rows.collect());
     let times = || case.absorbers.iter().filter_map(|one| one.contact_time_s);
     let least = times().min_by(f64::total_cmp);
     let longest = times().max_by(f64::total_cmp).filter(|longest| Some(*longest) != least);
@@ -41,11 +55,11 @@ pub(super) fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
     json!(counted)
 }
 
-/// Whether values meet all criteria; none without criteria.
-pub(super) fn holds(case: &ModalCase, values: &[f64]) -> Option<bool> {
+/// Whether values meet all criteria that have one; none where none has.
+pub(super) fn holds(case: &ModalCase, values: &[Option<f64>]) -> Option<bool> {
     let all = case.criteria.iter().zip(values);
-    (!case.criteria.is_empty())
-        .then(|| all.into_iter().all(|(one, value)| *value <= one.criterion.limit))
+    let mut parts = all.filter_map(|(one, value)| Some(one.part((*value)?))).peekable();
+    parts.peek().is_some().then(|| parts.all(|part| part <= 1.0))
 }
 
 /// Each criterion with what the structure without absorbers and with each choice of dampers comes to, where there are any.
@@ -54,13 +68,15 @@ pub(super) fn compared(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) 
         return Vec::new();
     }
     let each = answer.judged.iter().zip(&case.criteria).enumerate();
+    let each = each.filter(|(_, (_, asked))| linear_most(case, asked, &[]).is_some());
     let rows = each.map(|(n, (judged, asked))| {
-        let told = |device: Device, value: f64| {
-            let kind = asked.criterion.measure.kind(device).unwrap_or(&of::PEAK);
-            json!({ "value": closed(kind, value), "misses": value > asked.criterion.limit })
+        let told = |device: Device, value: Option<f64>| {
+            let kind = asked.measure.kind(device);
+            let quantity = value.zip(kind).map(|(value, kind)| closed(kind, value));
+            json!({ "value": quantity, "misses": value.is_some_and(|value| asked.part(value) > 1.0) })
         };
         let dampers = beside.dampers.iter().map(|one| told(Device::Damper, one.criteria[n]));
-        let mut row = placed(case, judged, row(&judged.judged, Some(frequency(judged))));
+        let mut row = placed(case, judged, row(judged, frequency(judged)));
         row["without"] = told(Device::Without, linear_most(case, asked, &[]));
         row["dampers"] = dampers.collect();
         row
@@ -71,9 +87,7 @@ pub(super) fn compared(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) 
 /// What `check` says of it; `path` is that of its file.
 pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -> Checked {
     let units = units(case);
-    let told = |one: &JudgedPlace| {
-        placed(case, one, criteria_row(&units, &one.judged, Some(frequency(one))))
-    };
+    let told = |one: &Judged| placed(case, one, criteria_row(&units, one, frequency(one)));
     let mut document = json!({
         "case": name,
         "title": case.title,

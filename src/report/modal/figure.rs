@@ -3,9 +3,9 @@
 use serde_json::Value;
 
 use super::{Beside, units};
-use crate::case::{ActsOn, Load, ModalCase};
+use crate::case::{ActsOn, Load, ModalCase, Of};
 use crate::linear::ModalDamper;
-use crate::measure::PlaceMeasure;
+use crate::measure::Measure;
 use crate::modal::{ModalAnswer, OverForce, linear_peak, linear_places};
 use crate::motions::ModalMotion;
 use crate::quantity::catalogue as of;
@@ -37,7 +37,7 @@ pub(super) fn loads(
         }
         let highest = along.places.iter().flat_map(|one| &one.motions);
         let highest = highest.map(most).fold(0.0, f64::max);
-        let limits = limits(case, answer.worst(Some(k)).map(|one| one.place));
+        let limits = limits(case, answer.worst(case, Some(k)).map(|one| one.found.of));
         let top = 1.15 * limits.iter().map(|one| one.0).fold(highest, f64::max);
         let x = AxisOf::si(units, &of::EXCITATION_FREQUENCY).axis([from, to]);
         let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
@@ -96,7 +96,7 @@ pub(super) fn forces(
             });
             each.collect::<Vec<_>>()
         };
-        let limits = limits(case, answer.worst(Some(k)).map(|one| one.place));
+        let limits = limits(case, answer.worst(case, Some(k)).map(|one| one.found.of));
         // An absorber may work far above what is seen, and how far beyond a limit decides nothing.
         let most = seen(false).into_iter().map(|[_, y]| y).fold(0.0, f64::max);
         let top = 1.15 * limits.last().map_or(most, |(limit, _)| most.clamp(*limit, 3.0 * limit));
@@ -144,18 +144,17 @@ fn in_rows(figure: Figure) -> Figure {
 
 /// Limits of displacements of any place or of the one that moves farthest, with their names, the smallest first: each once, by its
 /// place where there is more than one.
-fn limits(case: &ModalCase, farthest: Option<usize>) -> Vec<(f64, String)> {
+fn limits(case: &ModalCase, farthest: Option<Of>) -> Vec<(f64, String)> {
     let peaks = case.criteria.iter().filter(|one| {
-        one.measure == PlaceMeasure::PEAK && (one.place.is_none() || one.place == farthest)
+        one.measure == Measure::Peak && farthest.is_none_or(|farthest| one.of.holds(farthest))
     });
-    let mut found: Vec<(f64, Option<usize>)> =
-        peaks.map(|one| (one.criterion.limit, one.place)).collect();
+    let mut found: Vec<(f64, Of)> = peaks.map(|one| (one.limit, one.of)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.dedup_by(|a, b| a.0 == b.0);
     let several = found.len() > 1;
-    let named = |(limit, place): (f64, Option<usize>)| match place.filter(|_| several) {
-        Some(place) => (limit, format!("limit at {}", case.places[place])),
-        None => (limit, "limit".to_owned()),
+    let named = |(limit, of): (f64, Of)| match of {
+        Of::Place(place) if several => (limit, format!("limit at {}", case.places[place])),
+        _ => (limit, "limit".to_owned()),
     };
     found.into_iter().map(named).collect()
 }

@@ -16,13 +16,13 @@ use super::document::{Content, Tone, Word, headed, keep_case};
 use super::error::RenderError;
 use super::render::{Files, in_lines, page_files};
 use super::template::{render, worded};
-use crate::case::{ActsOn, Load, ModalCase, StructuralMode};
-use crate::criteria::Outcome;
+use crate::case::{ActsOn, Criterion, Load, ModalCase, Of, StructuralMode};
+use crate::criteria::{Outcome, Worst};
 use crate::executor::Executor;
 use crate::method::Method;
 use crate::modal::{
-    DamperChoice, ForceStep, ModalAnswer, ModalError, OffStructure, OverForce, Stretches,
-    WorstOfPlace, choices, modes_alone, off_structures,
+    DamperChoice, ForceStep, ModalAnswer, ModalError, OffStructure, OverForce, Stretches, choices,
+    modes_alone, off_structures,
 };
 use crate::motions::{ModalMotion, SensorExtent};
 use crate::orbits::ReachEnd;
@@ -45,7 +45,7 @@ pub struct Beside {
     /// Tuned mass dampers.
     dampers: Vec<DamperChoice>,
     /// For each load what a model of the driven mode alone would say; none where there is none.
-    alone: Vec<Option<WorstOfPlace>>,
+    alone: Vec<Option<[f64; 2]>>,
     /// For each load what it does with other amplitudes; none where there is no steady motion.
     forces: Vec<Option<OverForce>>,
     /// Where the natural frequencies are off.
@@ -62,7 +62,7 @@ impl Beside {
         answer: &ModalAnswer,
         on: &dyn Executor,
     ) -> Result<Self, ModalError> {
-        let worst = |k: usize| answer.worst(Some(k)).map(|worst| worst.at);
+        let worst = |k: usize| answer.worst(case, Some(k)).and_then(|worst| worst.found.at);
         let each = answer.along.iter().enumerate();
         let forces = each.map(|(k, along)| OverForce::of(case, along, worst(k), on));
         let forces = forces.collect::<Result<_, _>>()?;
@@ -81,7 +81,7 @@ pub fn units(case: &ModalCase) -> Units {
         natural_frequency: case.omega(),
         oscillator_mass: case.modes[0].mass_kg,
     });
-    if case.criteria.iter().any(|one| one.criterion.is_in_g()) { units.in_g() } else { units }
+    if case.criteria.iter().any(Criterion::is_in_g) { units.in_g() } else { units }
 }
 
 /// The unit of frequencies in a document: "1" where they are over that of the first mode.
@@ -107,22 +107,22 @@ fn closed(kind: &'static Kind, value: f64) -> Quantity {
 }
 
 /// The word of what all criteria come to; of a case without them that of the structure against itself alone.
-fn word(answer: &ModalAnswer) -> Word {
-    badge(&answer.criteria()).unwrap_or_else(|| against_alone(answer))
+fn word(case: &ModalCase, answer: &ModalAnswer) -> Word {
+    badge(&answer.judged).unwrap_or_else(|| against_alone(case, answer))
 }
 
 /// Whether that is good news: limits that hold where the structure moves farther than without absorbers are not.
-fn tone(answer: &ModalAnswer) -> Tone {
-    match word(answer).tone() {
-        Tone::Good if against_alone(answer) == Word::MakesItWorse => Tone::Mixed,
+fn tone(case: &ModalCase, answer: &ModalAnswer) -> Tone {
+    match word(case, answer).tone() {
+        Tone::Good if against_alone(case, answer) == Word::MakesItWorse => Tone::Mixed,
         tone => tone,
     }
 }
 
 /// Whether it moves less than without absorbers.
-fn against_alone(answer: &ModalAnswer) -> Word {
-    match answer.worst(None) {
-        Some(worst) if worst.value + worst.error < answer.bare() => Word::Works,
+fn against_alone(case: &ModalCase, answer: &ModalAnswer) -> Word {
+    match answer.worst(case, None).map(|worst| worst.found) {
+        Some(worst) if worst.most() < answer.bare() => Word::Works,
         Some(worst) if worst.value > answer.bare() => Word::MakesItWorse,
         Some(_) => Word::DoesNothing,
         None => Word::NoAnswer,
@@ -130,8 +130,8 @@ fn against_alone(answer: &ModalAnswer) -> Word {
 }
 
 /// The same as a list has it.
-fn headline(answer: &ModalAnswer) -> Option<&'static str> {
-    match against_alone(answer) {
+fn headline(case: &ModalCase, answer: &ModalAnswer) -> Option<&'static str> {
+    match against_alone(case, answer) {
         Word::Works => Some("less"),
         Word::MakesItWorse => Some("worse"),
         Word::DoesNothing => Some("little"),
@@ -236,19 +236,21 @@ fn motion_row(motion: &ModalMotion, count_rest: bool) -> Value {
     })
 }
 
-fn worst_row(case: &ModalCase, worst: &WorstOfPlace) -> Value {
-    let known = |value: f64| Quantity::new(&of::PEAK, value, worst.method());
+fn worst_row(case: &ModalCase, worst: &Worst) -> Value {
+    let (all_settled, worst) = (worst.all_settled(), &worst.found);
+    let known = |value: f64| Quantity::new(&of::PEAK, value, worst.known_by);
+    let place = if let Of::Place(place) = worst.of { Some(&case.places[place]) } else { None };
     json!({
         "load": worst.load,
-        "place": case.places[worst.place],
-        "at": given(&of::EXCITATION_FREQUENCY, worst.at),
+        "place": place,
+        "at": worst.at.map(|at| given(&of::EXCITATION_FREQUENCY, at)),
         "peak": known(worst.value).with_error(worst.error),
-        "most": known(worst.value + worst.error),
-        "settled": worst.all_settled,
-        "rests": worst.rests,
+        "most": known(worst.most()),
+        "settled": all_settled,
+        "rests": worst.rests(),
         // Which absorbers do, from 1, and in which share of their places.
         "resting": worst.resting.iter().zip(1..).filter(|(rests, _)| **rests).map(|(_, j)| j).collect::<Vec<u32>>(),
-        "share": worst.share,
+        "share": worst.rest,
     })
 }
 
@@ -269,8 +271,8 @@ fn off_row(case: &ModalCase, of_off: &OffStructure) -> Value {
 fn worst_off(all: &[OffStructure]) -> Option<Value> {
     let largest = |of: &dyn Fn(&OffStructure) -> f64| all.iter().map(of).fold(0.0, f64::max);
     let choices = all.first()?.dampers.len();
-    let peak = largest(&|one| one.worst.map_or(0.0, |worst| worst.value));
-    let reach = largest(&|one| one.worst.map_or(0.0, |worst| worst.value + worst.error));
+    let peak = largest(&|one| one.worst.map_or(0.0, |worst| worst.found.value));
+    let reach = largest(&|one| one.worst.map_or(0.0, |worst| worst.found.most()));
     let dampers = (0..choices).map(|k| closed(&of::DAMPER_PEAK, largest(&|one| one.dampers[k])));
     let criteria: Vec<_> = all.iter().flat_map(|one| one.criteria.iter().cloned()).collect();
     Some(json!({
@@ -285,8 +287,8 @@ fn worst_off(all: &[OffStructure]) -> Option<Value> {
 fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
     let rows = answer.along.iter().enumerate().map(|(k, along)| {
         let largest = along.bare.iter().max_by(|a, b| a[0].total_cmp(&b[0]));
-        let worst = answer.worst(Some(k));
-        let here = worst.and_then(|worst| along.places.iter().find(|one| one.at == worst.at));
+        let worst = answer.worst(case, Some(k));
+        let here = worst.and_then(|worst| along.at(worst.found.at?));
         json!({
             "load": load_row(case, &along.load),
             "bare": largest.map(|[most, at]| json!({
@@ -296,8 +298,8 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
             // Starts at that frequency.
             "searched": here.map(|one| one.motions.iter().map(|motion| motion.starts).sum::<u32>()),
             "motions": here.map(|one| motion_rows(case, &one.motions)),
-            "alone": beside.alone.get(k).and_then(|one| one.as_ref()).map(|one| {
-                simulated(&of::PEAK, one.value).with_error(one.error)
+            "alone": beside.alone.get(k).and_then(|one| one.as_ref()).map(|[value, error]| {
+                simulated(&of::PEAK, *value).with_error(*error)
             }),
             "dampers": beside.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, one.worst[k])).collect::<Vec<_>>(),
             "forces": beside.forces.get(k).and_then(|one| one.as_ref()).map(|one| forces_row(case, &along.load, one)),
@@ -336,10 +338,10 @@ pub fn document(
     beside: &Beside,
     content: Content,
 ) -> Value {
-    let word = word(answer);
-    let worst = answer.worst(None);
-    let (bare, peak) = (answer.bare(), worst.map_or(f64::NAN, |one| one.value));
-    let error = worst.map_or(0.0, |one| one.error);
+    let word = word(case, answer);
+    let worst = answer.worst(case, None);
+    let (bare, peak) = (answer.bare(), worst.map_or(f64::NAN, |one| one.found.value));
+    let error = worst.map_or(0.0, |one| one.found.error);
     let damper = beside.dampers.first().map(|one| one.worst.iter().copied().fold(0.0, f64::max));
     let level = |peak: f64| 20.0 * libm::log10(peak / bare);
     let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
@@ -388,7 +390,7 @@ pub fn document(
     });
     let fields = json!({
         "name": name,
-        "verdict": { "tone": tone(answer), "word": word, "headline": headline(answer) },
+        "verdict": { "tone": tone(case, answer), "word": word, "headline": headline(case, answer) },
         "quantities": quantities,
         "criteria": criteria(case, answer),
         "compared": compared(case, answer, beside),

@@ -14,7 +14,7 @@ use crate::report::template::render;
 fn candidate(found: &JudgedAbsorbers) -> Value {
     let loads = 0..found.case.loads.len();
     let peaks = loads.map(|k| {
-        let worst = found.answer.worst(Some(k));
+        let worst = found.answer.worst(&found.case, Some(k)).map(|worst| worst.found);
         worst.map(|one| simulated(&of::PEAK, one.value).with_error(one.error))
     });
     json!({
@@ -23,7 +23,7 @@ fn candidate(found: &JudgedAbsorbers) -> Value {
         "all_hold": found.answer.all_hold(),
         // The most that any motion may have of what a criterion is about, over what is allowed.
         "reach": found.reaches.iter().copied().fold(0.0, f64::max),
-        "worst": found.answer.worst(None).map(|one| worst_row(&found.case, &one)),
+        "worst": found.answer.worst(&found.case, None).map(|one| worst_row(&found.case, &one)),
         "loads": peaks.collect::<Vec<_>>(),
     })
 }

@@ -166,6 +166,7 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
     Some(ModalMotion {
         sensors: sensors.iter().zip(amplitudes).map(extent).collect(),
         impacts_per_period: vec![[0.0; 2]; system.absorbers().len()],
+        impact_speed: vec![[0.0; 2]; system.absorbers().len()],
         repeats_after: Some(1),
         settled: true,
         largest_multiplier: None,

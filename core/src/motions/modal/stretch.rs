@@ -19,6 +19,8 @@ pub(super) const MOST_IMPACTS: u64 = 2000;
 pub(super) struct Seen {
     states: Vec<ModalState>,
     impacts: [u64; MOST_MODES],
+    /// The largest relative speed of an impact of each absorber.
+    speeds: [f64; MOST_MODES],
 }
 
 impl ModalObserver for Seen {
@@ -26,7 +28,9 @@ impl ModalObserver for Seen {
         Detail::Events
     }
     fn impact(&mut self, impact: &ModalImpact) {
-        self.impacts[impact.absorber] += 1;
+        let ModalImpact { absorber, x_velocity: [x, _], y_velocity: [y, _], .. } = *impact;
+        self.impacts[absorber] += 1;
+        self.speeds[absorber] = self.speeds[absorber].max((x - y).abs());
     }
     fn period(&mut self, _turns: u64, state: &ModalState) {
         if self.states.len() > MOST_REPEATS {
@@ -71,7 +75,10 @@ pub(super) fn distance(of: &ModalState, other: &ModalState) -> f64 {
 pub(super) struct Stretch {
     pub periods: u64,
     pub sensors: Vec<SensorRecord>,
+    /// Of each absorber, in a period.
     pub impacts: Vec<f64>,
+    /// The largest relative speed of an impact of each.
+    pub speeds: Vec<f64>,
     pub repeats_after: Repeats,
 }
 
@@ -88,6 +95,8 @@ impl Stretch {
         let (meter, seen) = observer;
         let counts = &seen.impacts[..system.absorbers().len()];
         let impacts = counts.iter().map(|all| *all as f64 / periods as f64).collect();
-        Self { periods, sensors: meter.records(), impacts, repeats_after: seen.repeats_after() }
+        let speeds = seen.speeds[..counts.len()].to_vec();
+        let repeats_after = seen.repeats_after();
+        Self { periods, sensors: meter.records(), impacts, speeds, repeats_after }
     }
 }

@@ -1,0 +1,161 @@
+//! Criteria of structures of several modes and absorbers are those of one mode, asked of places and absorbers.
+
+use std::fs;
+
+use serde_json::Value;
+use vinesink::case::{ModalCase, Of};
+use vinesink::criteria::Outcome;
+use vinesink::executor::Serial;
+use vinesink::modal::ModalAnswer;
+use vinesink::simulation::{ModalImpact, ModalObserver, ModalSimulation};
+use vinesink::system::ModalState;
+
+use crate::run::vinesink;
+
+const HEAD: &str = "title = 't'\nsource = 's'\n";
+
+/// What `check` says of each criterion of a case.
+fn told(case: &str) -> Vec<Value> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    fs::write(&path, case).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let output = vinesink(&["check", path, "--criteria-only", "--format", "json"]);
+    let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    told["cases"][0]["criteria"].as_array().unwrap_or_else(|| panic!("{told}")).clone()
+}
+
+/// A second mode that has no shape where the absorber and the force are takes no part: every criterion of the structure is that of its
+/// first mode, which the engine, the orbits and the bands of one mode know.
+#[test]
+fn a_mode_that_takes_no_part_changes_no_criterion() {
+    let asked = "[criteria]\nstable_share = '>= 30 %'\npeak_displacement = '<= 9 mm'\nreduction_db = '>= 3'\n\
+                 reduction_db_tmd = '>= 0'\nmargin_clearance = '>= 5 %'\nimpact_velocity = '<= 0.9 m/s'\n\
+                 impacts_per_period = '>= 1.5'\nno_coexistence = true\n";
+    let absorber = |clearance: f64| {
+        format!("mass = '32 g'\nclearance = '{clearance} mm'\nrestitution = 0.6\n")
+    };
+    let force = "kind = 'force'\namplitude = '8 N'\n";
+    let mut verdicts = [0, 0];
+    for (clearance, range) in [
+        (27.0, [8.5, 8.5]),
+        (20.0, [8.35, 8.35]),
+        (12.0, [8.2, 8.2]),
+        (60.0, [8.35, 8.35]),
+        // Wide enough that what attracts is symmetric: others several modes do not count.
+        (55.0, [8.25, 8.6]),
+        (70.0, [8.3, 8.5]),
+    ] {
+        let [from, to] = range;
+        let frequency = format!("frequency = '{} Hz'\n", f64::min(8.349, to).max(from));
+        let (band, listed) = if from < to {
+            let band = format!("[band]\nfrom = '{from} Hz'\nto = '{to} Hz'\n");
+            (band, format!("from = '{from} Hz'\nto = '{to} Hz'\n"))
+        } else {
+            (String::new(), frequency.clone())
+        };
+        let absorber = absorber(clearance);
+        let one = told(&format!(
+            "{HEAD}[oscillator]\nmass = '4 kg'\nfrequency = '8.349 Hz'\ndamping_ratio = '0.7 %'\n[absorber]\n{absorber}\
+             [excitation]\n{force}{frequency}{band}{asked}"
+        ));
+        let several = told(&format!(
+            "{HEAD}[[mode]]\nfrequency = '8.349 Hz'\ndamping_ratio = '0.7 %'\nmass = '4 kg'\nshape = {{ top = 1.0, side = 0.0 }}\n\
+             [[mode]]\nfrequency = '31 Hz'\ndamping_ratio = '1 %'\nmass = '2 kg'\nshape = {{ top = 0.0, side = 1.0 }}\n\
+             [[absorber]]\nplace = 'top'\n{absorber}[[excitation]]\nplace = 'top'\n{force}{listed}\
+             [simulation]\nstarts = 12\n{asked}"
+        ));
+        assert_eq!(one.len(), several.len());
+        for (a, b) in one.iter().zip(&several) {
+            let (name, place) = (a["name"].as_str().unwrap_or_default(), format!("{clearance} {range:?}"));
+            assert_eq!(a["name"], b["name"]);
+            let [found, error] = ["found", "error"].map(|key| {
+                [a, b].map(|one| one[key].as_f64().unwrap_or_else(|| panic!("{place} {name}: {one}")))
+            });
+            // The damper is found by two searches, each to a thousandth; a band's places are others.
+            let own = match name {
+                "reduction_db_tmd" => 0.05,
+                _ if from < to => 1e-3 * found[0].abs(),
+                _ => 1e-6 * found[0].abs().max(1.0),
+            };
+            assert!(
+                (found[0] - found[1]).abs() <= own + error[0] + error[1],
+                "{place} {name}: {found:?} {error:?}"
+            );
+            assert_eq!(a["holds"], b["holds"], "{place} {name}: {found:?} {error:?}");
+            verdicts[usize::from(a["holds"] == true)] += 1;
+        }
+    }
+    assert!(verdicts.iter().all(|count| *count > 8), "{verdicts:?} says little");
+}
+
+/// The largest speed and the number of impacts of each absorber over some periods.
+#[derive(Default)]
+struct Impacts([f64; 2], [u64; 2]);
+
+impl ModalObserver for Impacts {
+    fn impact(&mut self, impact: &ModalImpact) {
+        let speed = (impact.x_velocity[0] - impact.y_velocity[0]).abs();
+        self.0[impact.absorber] = self.0[impact.absorber].max(speed);
+        self.1[impact.absorber] += 1;
+    }
+}
+
+/// Two absorbers that differ: the largest impact speed and the impacts per period of each are those that a flight of 4,000 periods
+/// from rest sees, and a limit of one absorber is of that one.
+#[test]
+fn impacts_are_asked_of_each_absorber() {
+    let text = format!(
+        "{HEAD}[[mode]]\nfrequency = '2 Hz'\ndamping_ratio = 0.01\nmass = '20 t'\nshape = {{ middle = 1.0, quarter = 0.707 }}\n\
+         [[mode]]\nfrequency = '7.7 Hz'\ndamping_ratio = 0.01\nmass = '20 t'\nshape = {{ middle = 0.0, quarter = 1.0 }}\n\
+         [[absorber]]\nplace = 'middle'\nmass = '300 kg'\nclearance = '9 mm'\nrestitution = 0.6\n\
+         [[absorber]]\nplace = 'quarter'\nmass = '200 kg'\nclearance = '4 mm'\nrestitution = 0.5\n\
+         [[excitation]]\nkind = 'force'\nplace = 'middle'\namplitude = '900 N'\nfrequency = '2 Hz'\n\
+         [criteria]\ncount_inactive = false\nimpact_velocity = [{{ limit = '<= 1 m/s', absorber = 1 }}, {{ limit = '<= 1 m/s', absorber = 2 }}, '<= 1 m/s']\n\
+         impacts_per_period = [{{ limit = '>= 0.1', absorber = 2 }}, {{ limit = '>= 0.1', absorber = 1 }}]\n"
+    );
+    let case = ModalCase::parse("case.toml", &text).expect("a case");
+    let of: Vec<Of> = case.criteria.iter().map(|one| one.of).collect();
+    let (first, second) = (Of::Absorber(0), Of::Absorber(1));
+    assert_eq!(of, [first, second, Of::Any, second, first]);
+    let answer = ModalAnswer::of(&case, &Serial).expect("flown");
+    let system = case.system(&case.loads[0], 2.0).expect("a structure");
+    let mut simulation = ModalSimulation::new(&system, &ModalState::AT_REST, 0.0).expect("it begins");
+    simulation.run(2000, u64::MAX, &mut ());
+    let mut seen = Impacts::default();
+    simulation.run(4000, u64::MAX, &mut seen);
+    let speeds = seen.0.map(|one| case.omega() * one);
+    let counts = seen.1.map(|one| one as f64 / 4000.0);
+    assert!(speeds[0].max(speeds[1]) > 1.1 * speeds[0].min(speeds[1]), "{speeds:?} tell nothing apart");
+    let judged = &answer.judged;
+    for (k, speed) in [(0, speeds[0]), (1, speeds[1]), (2, speeds[0].max(speeds[1]))] {
+        let (found, error) = (judged[k].found.expect("a speed"), judged[k].error);
+        assert!(speed <= found + error + 1e-9, "{k}: {speed} {found} {error}");
+        // One start of several, all of which come to one motion here.
+        assert!(speed >= 0.9 * found, "{k}: {speed} {found}");
+    }
+    for (k, count) in [(3, counts[1]), (4, counts[0])] {
+        let (found, error) = (judged[k].found.expect("a count"), judged[k].error);
+        assert!((count - found).abs() <= error + 0.02, "{k}: {count} {found} {error}");
+    }
+}
+
+/// A limit that a smallest value decides: whichever motion, load and absorber has the fewest impacts fails it, and says so.
+#[test]
+fn the_fewest_impacts_decide_what_is_at_least() {
+    let text = fs::read_to_string("cases/several/graded.toml").expect("a case");
+    let own = ModalCase::parse("case.toml", &text).expect("a case");
+    let answer = ModalAnswer::of(&own, &Serial).expect("flown");
+    let head = text.split("[criteria]").next().expect("its tables");
+    let asked = format!("{head}[criteria]\nimpacts_per_period = '>= 0.5'\n");
+    let asked = ModalCase::parse("case.toml", &asked).expect("a case");
+    let judged = &ModalAnswer::of(&asked, &Serial).expect("flown").judged[0];
+    let motions = answer.along.iter().flat_map(|along| &along.places);
+    let motions = motions.flat_map(|one| one.counting());
+    let counts = motions.flat_map(|one| one.impacts_per_period.iter().map(|count| count[0]));
+    let least = counts.fold(f64::INFINITY, f64::min);
+    let found = judged.found.expect("a count");
+    // Frequencies are chosen by what is asked: there may be fewer, and no more.
+    assert!(found <= least + 1e-9, "{found} {least}");
+    assert_eq!(judged.outcome(), if found < 0.5 { Outcome::Fails } else { Outcome::Holds });
+}
