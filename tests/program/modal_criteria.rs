@@ -67,10 +67,12 @@ fn a_mode_that_takes_no_part_changes_no_criterion() {
         ));
         assert_eq!(one.len(), several.len());
         for (a, b) in one.iter().zip(&several) {
-            let (name, place) = (a["name"].as_str().unwrap_or_default(), format!("{clearance} {range:?}"));
+            let (name, place) =
+                (a["name"].as_str().unwrap_or_default(), format!("{clearance} {range:?}"));
             assert_eq!(a["name"], b["name"]);
             let [found, error] = ["found", "error"].map(|key| {
-                [a, b].map(|one| one[key].as_f64().unwrap_or_else(|| panic!("{place} {name}: {one}")))
+                [a, b]
+                    .map(|one| one[key].as_f64().unwrap_or_else(|| panic!("{place} {name}: {one}")))
             });
             // The damper is found by two searches, each to a thousandth; a band's places are others.
             let own = match name {
@@ -120,13 +122,17 @@ fn impacts_are_asked_of_each_absorber() {
     assert_eq!(of, [first, second, Of::Any, second, first]);
     let answer = ModalAnswer::of(&case, &Serial).expect("flown");
     let system = case.system(&case.loads[0], 2.0).expect("a structure");
-    let mut simulation = ModalSimulation::new(&system, &ModalState::AT_REST, 0.0).expect("it begins");
+    let mut simulation =
+        ModalSimulation::new(&system, &ModalState::AT_REST, 0.0).expect("it begins");
     simulation.run(2000, u64::MAX, &mut ());
     let mut seen = Impacts::default();
     simulation.run(4000, u64::MAX, &mut seen);
     let speeds = seen.0.map(|one| case.omega() * one);
     let counts = seen.1.map(|one| one as f64 / 4000.0);
-    assert!(speeds[0].max(speeds[1]) > 1.1 * speeds[0].min(speeds[1]), "{speeds:?} tell nothing apart");
+    assert!(
+        speeds[0].max(speeds[1]) > 1.1 * speeds[0].min(speeds[1]),
+        "{speeds:?} tell nothing apart"
+    );
     let judged = &answer.judged;
     for (k, speed) in [(0, speeds[0]), (1, speeds[1]), (2, speeds[0].max(speeds[1]))] {
         let (found, error) = (judged[k].found.expect("a speed"), judged[k].error);

@@ -1,9 +1,12 @@
 //! The theory of several absorbers: published and independent values, and against exact orbits, of first order in the mass ratio.
 
-use vinesink_core::analysis::{AbsorberGroup, Analysis, Grading, GroupFixedPoint};
+use vinesink_core::analysis::{
+    AbsorberGroup, Analysis, Grading, GroupFixedPoint, apparent_restitution, effective_restitutions,
+};
+use vinesink_core::orbits::{ModalOrbit, antiperiodic_orbits};
 use vinesink_core::system::{ModalSystem, System};
 
-use super::cases::{EPS, mode, one_by_one, system, table1, two_by_two};
+use super::cases::{EPS, OMEGA, mode, one_by_one, system, table1, two_by_two};
 use super::orbits::attracting;
 
 fn stable(system: &ModalSystem) -> GroupFixedPoint {
@@ -174,4 +177,83 @@ fn bisect([mut from, mut to]: [f64; 2], falls: impl Fn(f64) -> f64) -> f64 {
         if falls(middle) > 0.0 { from = middle } else { to = middle }
     }
     from
+}
+
+/// The system of the paper with a mode that is not forced, and the same with the first mode alone; mass ratios of the absorber on each
+/// `eps`, detuning, damping and forcing of the slow flow as in the paper.
+fn with_another(eps: f64, [frequency, damping_ratio]: [f64; 2], phi: f64) -> [ModalSystem; 2] {
+    let of = |further: &[([f64; 2], f64)]| {
+        let mut parameters = table1(further, &[[eps, 20.0, 0.6]]).parameters().clone();
+        parameters.modes.iter_mut().skip(1).for_each(|one| one.forcing = 0.0);
+        let scale = eps / EPS;
+        parameters.modes[0].forcing *= scale;
+        parameters.modes[0].damping_ratio *= scale;
+        parameters.frequency_ratio = 1.0 + (OMEGA - 1.0) * scale;
+        ModalSystem::new(parameters).expect("valid")
+    };
+    [of(&[]), of(&[([frequency, damping_ratio], phi)])]
+}
+
+/// What other modes do to a symmetric 1:1 motion is a restitution, and a clearance that their displacement at an impact changes: with
+/// both the exact orbit of one mode is that of all. By hand: an oscillator under unit impulses of alternating sign every half period
+/// `h` is at `-sin b/(2 w_d (cosh a + cos b))` then, `a = zeta w h`, `b = w_d h`.
+#[test]
+fn an_orbit_of_all_modes_is_one_of_one_mode_with_the_effective_restitution() {
+    let mut compared = 0;
+    for (w, zeta, phi) in [
+        (4.3, 0.01, -1.0),
+        (6.267, 0.1, 0.8),
+        (9.0, 0.4, 1.3),
+        (2.6, 0.03, -0.6),
+        (6.267, 0.01, -1.0),
+    ] {
+        let [one, all] = with_another(0.02, [w, zeta], phi);
+        let restitution = effective_restitutions(&all, 0).expect("a mode")[0];
+        let half = std::f64::consts::PI / all.frequency_ratio();
+        let damped = w * (1.0_f64 - zeta * zeta).sqrt();
+        let (a, b) = (zeta * w * half, damped * half);
+        let displaced = -b.sin() / (2.0 * damped * (a.cosh() + b.cos()));
+        for orbit in antiperiodic_orbits(&all) {
+            let mut parameters = one.parameters().clone();
+            let absorber = &mut parameters.absorbers[0];
+            absorber.restitution = restitution;
+            absorber.clearance += 2.0 * 0.02 * phi * phi * displaced * orbit.impact_speeds[0];
+            let alone = ModalSystem::new(parameters).expect("valid");
+            let off = |other: &ModalOrbit| (other.harmonics[0] / orbit.harmonics[0] - 1.0).abs();
+            let same = antiperiodic_orbits(&alone).iter().map(off).fold(f64::INFINITY, f64::min);
+            assert!(same < 1e-10, "{w} {zeta}: {same}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 6, "{compared}");
+}
+
+/// A mode that is well damped takes the restitution of a drop test to that of a model of one mode.
+#[test]
+fn a_well_damped_mode_has_the_apparent_restitution() {
+    let [_, all] = with_another(0.02, [9.0, 0.6], 1.2);
+    let found = effective_restitutions(&all, 0).expect("a mode")[0];
+    let expected = apparent_restitution(0.6, 0.02, 0.02 * (1.0 + 1.44));
+    assert!((found - expected).abs() < 1e-6, "{found} {expected}");
+    assert_eq!(effective_restitutions(&all, 2), None);
+}
+
+/// By how much another mode changes the amplitude, theory knows to first order: at a mass ratio of 0.8 % to a tenth of that change, of
+/// 0.2 % to 3 %.
+#[test]
+fn theory_knows_what_another_mode_changes() {
+    for (eps, within) in [(EPS, 0.1), (0.25 * EPS, 0.03)] {
+        for (w, zeta) in
+            [(4.3, 0.01), (6.267, 0.01), (4.3, 0.1), (6.267, 0.1), (9.0, 0.1), (9.0, 0.4)]
+        {
+            let both = with_another(eps, [w, zeta], -1.0);
+            let [one, all] = &both;
+            let exact = [one, all].map(|system| attracting(system).harmonics[0]);
+            let (group, _) = AbsorberGroup::beside_others(all, 0).expect("seen");
+            let point = group.fixed_points().into_iter().find(|point| point.stable);
+            let theory = [stable(one).amplitude, point.expect("one is stable").amplitude];
+            let [exact, theory] = [exact, theory].map(|[without, with]| with / without - 1.0);
+            assert!((theory / exact - 1.0).abs() < within, "{eps} {w} {zeta}: {theory} {exact}");
+        }
+    }
 }

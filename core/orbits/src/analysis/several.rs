@@ -18,7 +18,7 @@ use serde::Serialize;
 use super::Manifold;
 use crate::equations::dissipation::{REACTANCE, RESISTANCE};
 use crate::numerics::bracket::bisected;
-use crate::system::ModalSystem;
+use crate::system::{ModalSystem, Mode};
 
 /// Amplitudes at which roots are looked for.
 const COUNT: usize = 2000;
@@ -131,6 +131,21 @@ impl AbsorberGroup {
                 / (own.frequency * own.frequency * mass_ratio),
             members: members.collect(),
         })
+    }
+
+    /// The same with the restitutions that impacts seem to have as they set the other modes in motion too ([`effective_restitutions`]), in
+    /// the order of the absorbers of the system. `None` also where one is below 0: impacts then shake the others more than the mode.
+    pub fn beside_others(system: &ModalSystem, mode: usize) -> Option<(Self, Vec<f64>)> {
+        let restitutions = effective_restitutions(system, mode)?;
+        if restitutions.iter().any(|one| *one < 0.0) {
+            return None;
+        }
+        let mut parameters = system.parameters().clone();
+        for (one, apparent) in parameters.absorbers.iter_mut().zip(&restitutions) {
+            one.restitution = *apparent;
+        }
+        let group = Self::of(&ModalSystem::new(parameters).ok()?, mode)?;
+        Some((group, restitutions))
     }
 
     /// The amplitudes at which every absorber is in symmetric 1:1 resonance, if there are any.
@@ -254,6 +269,37 @@ impl AbsorberGroup {
 /// sum `e` of all. A restitution fitted on the structure is already this one.
 pub fn apparent_restitution(restitution: f64, kept: f64, all: f64) -> f64 {
     (1.0 + restitution) * (1.0 + kept) / (1.0 + all) - 1.0
+}
+
+/// The restitution that impacts of each absorber of a system seem to have in a model of one of its modes, in symmetric 1:1 motion;
+/// `None` where there is no such mode, or another is as heavily damped as to not vibrate.
+///
+/// With `e_j` the sum of all `eps_kj` and `s_k` what is [`scattered`] into mode `k`, the other modes move the absorber's place right
+/// after an impact as fast as `A = (1 - r + 2 e)/(1 + r) - sum eps_k (1 - s_k)`, and
+///
+/// `r_n = (1 + 2 eps_n - A)/(1 + A)`:
+///
+/// condition (2) of an antiperiodic orbit for all modes, written as that of mode `n` alone. Where the others are well damped, `s_k = 1`,
+/// that is [`apparent_restitution`].
+pub fn effective_restitutions(system: &ModalSystem, mode: usize) -> Option<Vec<f64>> {
+    let own = system.modes().get(mode)?;
+    let each = system.absorbers().iter().enumerate().map(|(j, one)| {
+        let ratio = |mode: &Mode| one.mass * mode.shape[j] * mode.shape[j] / mode.mass;
+        let (mut all, mut kept) = (ratio(own), 0.0);
+        for (_, other) in system.modes().iter().enumerate().filter(|(k, _)| *k != mode) {
+            let unforced = UnforcedMode {
+                frequency: other.frequency,
+                damping_ratio: other.damping_ratio,
+                excitation: system.frequency_ratio(),
+            };
+            all += ratio(other);
+            kept += ratio(other) * (1.0 - scattered(unforced));
+        }
+        let r = one.restitution;
+        let a = (1.0 - r + 2.0 * all) / (1.0 + r) - kept;
+        (1.0 + 2.0 * ratio(own) - a) / (1.0 + a)
+    });
+    Some(each.collect())
 }
 
 /// A mode that is not forced, under impulses of alternating sign every half period of the excitation.
