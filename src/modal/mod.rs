@@ -14,6 +14,7 @@ mod optimum;
 mod orbits;
 mod rest;
 mod sensors;
+mod theory;
 
 use crate::case::{ActsOn, Load, ModalCase, RewriteError};
 use crate::contact::of_absorbers;
@@ -29,8 +30,9 @@ pub use drift::{OffStructure, off_structures};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
-pub use orbits::{LoadOrbits, Stretches, orbits};
+pub use orbits::{LoadOrbits, Stretches, at_resonances, orbits};
 pub use sensors::sensors;
+pub use theory::{GroupTheory, LoadTheory};
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]

@@ -42,16 +42,14 @@ pub struct Stretches {
 /// # Errors
 /// [`ModalError::System`] where there is no steady motion.
 pub fn orbits(case: &ModalCase, on: &dyn Executor) -> Result<Vec<LoadOrbits>, ModalError> {
-    let mut found = Vec::new();
+    let mut found = at_resonances(case)?;
     let mut asked = Vec::new();
-    for (number, load) in case.loads.iter().enumerate() {
-        for at in load.resonances(case) {
-            let system = case.system(load, at)?;
-            let orbits = antiperiodic_orbits(&system);
-            let each = parameters(case, load, at).into_iter();
-            asked.extend(each.map(|one| (found.len(), system.clone(), one)));
-            found.push(LoadOrbits { load: number, at, orbits, along: Vec::new() });
-        }
+    for (owner, LoadOrbits { load, at, .. }) in found.iter().enumerate() {
+        let load = &case.loads[*load];
+        let system = case.system(load, *at)?;
+        asked.extend(
+            parameters(case, load, *at).into_iter().map(|one| (owner, system.clone(), one)),
+        );
     }
     let stretches = |k: usize| {
         let (_, system, (parameter, unit, range)) = &asked[k];
@@ -62,6 +60,20 @@ pub fn orbits(case: &ModalCase, on: &dyn Executor) -> Result<Vec<LoadOrbits>, Mo
         found[*owner].along.push(stretches);
     }
     Ok(found)
+}
+
+/// The same without where they attract along any number.
+///
+/// # Errors
+/// As [`orbits`].
+pub fn at_resonances(case: &ModalCase) -> Result<Vec<LoadOrbits>, ModalError> {
+    let all = case.loads.iter().enumerate();
+    let each = all.flat_map(|(load, of)| of.resonances(case).into_iter().map(move |at| (load, at)));
+    let found = each.map(|(load, at)| {
+        let orbits = antiperiodic_orbits(&case.system(&case.loads[load], at)?);
+        Ok(LoadOrbits { load, at, orbits, along: Vec::new() })
+    });
+    found.collect()
 }
 
 /// What is looked at, with what a unit of the physics is worth, and between which values.

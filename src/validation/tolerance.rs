@@ -27,7 +27,12 @@ pub fn has_resonance(system: &System) -> bool {
 /// `sigma` and `lambda`. Measured against simulation, the errors of `C`, `B` and `eta` fall in
 /// proportion to `eps` and stay below this sum (test `asymptotic_error`).
 pub fn asymptotic_error(system: &System) -> f64 {
-    system.mass_ratio() * (2.0 + system.detuning().abs() + system.damping())
+    neglected(system.mass_ratio(), system.detuning(), system.damping())
+}
+
+/// The same of a mode with absorbers whose mass ratios add up to `eps`.
+pub fn neglected(mass_ratio: f64, detuning: f64, damping: f64) -> f64 {
+    mass_ratio * (2.0 + detuning.abs() + damping)
 }
 
 /// Errors of the asymptotics that the averaged flow may have: the terms that any slow flow neglects; averages that take

@@ -38,6 +38,7 @@ mod modal_files;
 mod modal_orbits;
 mod modal_reduced;
 mod modal_sweep;
+mod modal_theory;
 mod optimize;
 mod proposal;
 mod readers;

@@ -1,12 +1,12 @@
-//! The exact orbits under each load and where they attract, and the amplitudes at which each absorber is in 1:1 resonance by
-//! theory.
+//! What theory says of the mode that each load drives, the exact orbits there and where they attract, and the amplitudes at which each
+//! absorber is in 1:1 resonance.
 
 use serde_json::{Value, json};
 
-use super::{frequency_unit, given, load_row, stretch_rows, units};
+use super::{frequency_unit, given, load_row, stretch_rows, theory, units};
 use crate::case::ModalCase;
 use crate::method::Method;
-use crate::modal::{LoadOrbits, Stretches, working_range};
+use crate::modal::{LoadOrbits, LoadTheory, Stretches, working_range};
 use crate::orbits::{ModalOrbit, ReachEnd};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
@@ -37,6 +37,7 @@ pub fn analysis(case: &ModalCase, found: &[LoadOrbits]) -> Value {
             "at": one.at,
             "unit": frequency_unit(case),
             "orbits": one.orbits.iter().map(orbit).collect::<Vec<_>>(),
+            "theory": LoadTheory::of(case, one).map(|found| theory::row(case, &found)),
             "stable": one.along.iter().map(|along| stretches(case, one.load, along)).collect::<Vec<_>>(),
         })
     });

@@ -7,6 +7,7 @@ mod figure;
 mod listing;
 mod live;
 mod optimum;
+mod theory;
 
 use serde_json::{Value, json};
 
@@ -21,8 +22,8 @@ use crate::criteria::{Outcome, Worst};
 use crate::executor::Executor;
 use crate::method::Method;
 use crate::modal::{
-    DamperChoice, ForceStep, ModalAnswer, ModalError, OffStructure, OverForce, Stretches, choices,
-    modes_alone, off_structures,
+    DamperChoice, ForceStep, LoadTheory, ModalAnswer, ModalError, OffStructure, OverForce,
+    Stretches, at_resonances, choices, modes_alone, off_structures,
 };
 use crate::motions::{ModalMotion, SensorExtent};
 use crate::orbits::ReachEnd;
@@ -50,6 +51,8 @@ pub struct Beside {
     forces: Vec<Option<OverForce>>,
     /// Where the natural frequencies are off.
     off: Vec<OffStructure>,
+    /// What theory says of the modes that the loads drive.
+    theory: Vec<LoadTheory>,
 }
 
 impl Beside {
@@ -68,7 +71,9 @@ impl Beside {
         let forces = forces.collect::<Result<_, _>>()?;
         let dampers = choices(case);
         let off = off_structures(case, &dampers, on)?;
-        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, off })
+        let orbits = at_resonances(case)?;
+        let theory = orbits.iter().filter_map(|one| LoadTheory::of(case, one)).collect();
+        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, off, theory })
     }
 }
 
@@ -303,6 +308,7 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
             }),
             "dampers": beside.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, one.worst[k])).collect::<Vec<_>>(),
             "forces": beside.forces.get(k).and_then(|one| one.as_ref()).map(|one| forces_row(case, &along.load, one)),
+            "theory": beside.theory.iter().filter(|one| one.load == k).map(|one| theory::row(case, one)).collect::<Vec<_>>(),
             "places": along.places.iter().map(|one| json!({
                 "at": one.at, "unit": frequency_unit(case), "motions": motion_rows(case, &one.motions),
             })).collect::<Vec<_>>(),

@@ -1,0 +1,104 @@
+//! What theory says of the mode that a load drives, beside the exact orbit of all modes there.
+//!
+//! Symmetric 1:1 resonance of one mode at leading order in its mass ratio; the other modes enter by the restitution that impacts seem
+//! to have ([`effective_restitutions`]). An absorber at a node of the mode has no part in it.
+
+use super::driven_mode;
+use super::orbits::LoadOrbits;
+use crate::analysis::{
+    AbsorberGroup, GroupFixedPoint, UnforcedMode, effective_restitutions, scattered,
+};
+use crate::case::{Load, ModalCase};
+use crate::orbits::ModalOrbit;
+use crate::system::Mode;
+use crate::validation::tolerance::neglected;
+
+/// The theory of a mode under a load, at one frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadTheory {
+    /// Which load.
+    pub load: usize,
+    /// Its frequency in Hz.
+    pub at: f64,
+    /// The mode, from 0.
+    pub mode: usize,
+    /// The place at which it moves farthest, and its shape there without sign: amplitudes are those of this place, in m.
+    pub place: usize,
+    /// For each absorber the restitution that its impacts seem to have.
+    pub restitutions: Vec<f64>,
+    /// For each other mode, from 0, the energy that impacts of a symmetric 1:1 motion give it over what they would at random.
+    pub scattered: Vec<(usize, f64)>,
+    /// The absorbers at leading order; none where one's restitution then is below 0, or all sit at nodes.
+    pub group: Option<GroupTheory>,
+    /// Amplitudes of the first harmonics of the exact orbits there, in m, ascending, and whether each attracts.
+    pub exact: Vec<(f64, bool)>,
+}
+
+/// Absorbers on a mode at leading order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GroupTheory {
+    /// Sum of the mass ratios.
+    pub mass_ratio: f64,
+    /// Expected relative error of amplitudes, by what leading order neglects.
+    pub error: f64,
+    /// Amplitudes between which every absorber is in symmetric 1:1 resonance, in m.
+    pub range: Option<[f64; 2]>,
+    /// Amplitudes of the fixed points of the slow flow in m, ascending, and whether each is stable.
+    pub points: Vec<(f64, bool)>,
+    /// Amplitudes of the load at which two fixed points collide, in its unit, ascending.
+    pub collisions: Vec<f64>,
+}
+
+impl LoadTheory {
+    /// That of a load and a frequency whose exact orbits are known.
+    pub fn of(case: &ModalCase, found: &LoadOrbits) -> Option<Self> {
+        let load = &case.loads[found.load];
+        let system = case.system(load, found.at).ok()?;
+        let mode = driven_mode(case, &Load { range_hz: [found.at; 2], ..*load });
+        let shape = &case.modes[mode].shape;
+        let place = (0..shape.len()).max_by(|a, b| shape[*a].abs().total_cmp(&shape[*b].abs()))?;
+        let farthest = shape[place].abs();
+        // What other modes move where impacts are, of the order of their mass ratios, with the same factor.
+        let ratios = |mode: &Mode| -> f64 {
+            let absorbers = system.absorbers().iter().zip(&mode.shape);
+            absorbers.map(|(one, phi)| one.mass * phi * phi / mode.mass).sum()
+        };
+        let all: f64 = system.modes().iter().map(ratios).sum();
+        let beside = neglected(all - ratios(&system.modes()[mode]), 0.0, 0.0);
+        let group = AbsorberGroup::beside_others(&system, mode).map(|(group, _)| {
+            let point = |one: &GroupFixedPoint| (farthest * one.amplitude, one.stable);
+            let times = load.amplitude / group.forcing;
+            let collisions = group.saddle_nodes();
+            GroupTheory {
+                mass_ratio: group.mass_ratio,
+                error: neglected(group.mass_ratio, group.detuning, group.damping) + beside,
+                range: group.range().map(|range| range.map(|end| farthest * end)),
+                points: group.fixed_points().iter().map(point).collect(),
+                collisions: collisions.iter().map(|[_, forcing]| forcing * times).collect(),
+            }
+        });
+        let admissible = found.orbits.iter().filter(|orbit| orbit.admissible);
+        let amplitude = |orbit: &ModalOrbit| (farthest * orbit.harmonics[mode], orbit.stable());
+        let mut exact: Vec<(f64, bool)> = admissible.map(amplitude).collect();
+        exact.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let others = system.modes().iter().enumerate().filter(|(k, _)| *k != mode);
+        let of_mode = |(k, other): (usize, &Mode)| {
+            let unforced = UnforcedMode {
+                frequency: other.frequency,
+                damping_ratio: other.damping_ratio,
+                excitation: system.frequency_ratio(),
+            };
+            (k, scattered(unforced))
+        };
+        Some(Self {
+            load: found.load,
+            at: found.at,
+            mode,
+            place,
+            restitutions: effective_restitutions(&system, mode)?,
+            scattered: others.map(of_mode).collect(),
+            group,
+            exact,
+        })
+    }
+}
