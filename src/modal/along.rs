@@ -6,8 +6,9 @@ use super::rest::farthest_at_rest;
 use super::sensors::{Look, sensors};
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
-use crate::motions::{ModalMotion, longest_flight, modal_motions, worst_between};
+use crate::motions::{ModalEffort, ModalMotion, longest_flight, modal_motions, worst_between};
 use crate::numerics::scan;
+use crate::system::ModalState;
 
 /// What is known along a load.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +38,12 @@ pub struct AtFrequency {
 /// place.
 const EVEN: u32 = 13;
 const ROUNDS: u32 = 3;
+/// How often frequencies are searched in full that set how bad something may be.
+const MOST_IN_FULL: usize = 2;
+/// How often motions are followed to the next frequency, by how much worse they are then at least, and how many at a time.
+const MOST_FOLLOWED: usize = 1;
+const FOLLOWED: f64 = 0.02;
+const MOST_STATES: usize = 2;
 /// How far beside the frequency of an undamped mode it is looked at, over it.
 const BESIDE: f64 = 1e-6;
 /// Least distance of a neighbour, over the range, and over the frequency where the range is wide: less than that of the closest round,
@@ -60,10 +67,10 @@ pub fn seconds(case: &ModalCase) -> f64 {
         let more = f64::from(2 * ROUNDS) * modes + close(case, load).count() as f64;
         let places = if from < to { f64::from(EVEN) + more } else { 1.0 };
         let Ok(system) = case.system(load, load.centre(case)) else { return 0.0 };
-        places * longest_flight(&system, case.periods)
+        f64::from(case.starts_of(load)) * places * longest_flight(&system, case.periods)
     };
     let periods: f64 = case.loads.iter().map(of_load).sum();
-    f64::from(case.starts) * periods * IMPACTS * IMPACT * size
+    periods * IMPACTS * IMPACT * size
 }
 
 impl AlongLoad {
@@ -86,9 +93,21 @@ impl AlongLoad {
         let steady = |at: f64| if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) };
         let (modes, mut places) = (within(case, load), Vec::<AtFrequency>::new());
         for round in 0..=ROUNDS {
-            let starts =
-                if round == 0 && from < to { case.starts.div_ceil(2) } else { case.starts };
-            let look = |k: usize| AtFrequency::of(case, load, steady(wanted[k]), starts);
+            let starts = if round == 0 && from < to {
+                case.starts.div_ceil(2)
+            } else {
+                case.starts_of(load)
+            };
+            let patience = if from < to { ModalEffort::OF_MANY } else { ModalEffort::IN_FULL };
+            // Between known frequencies the motions beside are the starts that matter.
+            let look = |k: usize| {
+                let at = steady(wanted[k]);
+                let right = places.partition_point(|one| one.at < at);
+                let beside = &places[right.saturating_sub(1)..places.len().min(right + 1)];
+                let further: Vec<ModalState> =
+                    beside.iter().flat_map(AtFrequency::states).collect();
+                AtFrequency::of(case, load, at, starts, patience, &further)
+            };
             let found = map(on, "motions along the loads", wanted.len(), look);
             places.extend(found.into_iter().collect::<Result<Vec<_>, _>>()?);
             places.sort_by(|a, b| a.at.total_cmp(&b.at));
@@ -97,9 +116,96 @@ impl AlongLoad {
                 wanted = beside_worst(&places, case, &modes);
             }
         }
+        if from < to {
+            Self::follow(case, load, &mut places, on)?;
+            Self::search_in_full(case, load, &mut places, on)?;
+        }
         let bare = (0..case.places.len())
             .map(|p| largest(load.range_hz, case, |at| amplitudes(case, load, at, &[]).places[p]));
         Ok(Self { load: *load, bare: bare.collect(), places, modes })
+    }
+
+    /// Follows motions that are worse to the frequencies beside them, where they may be as well.
+    fn follow(
+        case: &ModalCase,
+        load: &Load,
+        places: &mut [AtFrequency],
+        on: &dyn Executor,
+    ) -> Result<(), ModalError> {
+        let looks = Look::all(case);
+        for _ in 0..MOST_FOLLOWED {
+            let all: &[AtFrequency] = places;
+            let worse = |k: usize| -> Vec<ModalState> {
+                let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
+                let beside = beside.filter_map(|beside| all.get(beside));
+                let motions = beside.flat_map(|one| one.counting());
+                let is_worse = |one: &&ModalMotion| {
+                    looks.iter().any(|look| {
+                        // What a longer run may come to there is no other motion.
+                        let known = all[k].reach(case, look).map(|reach| reach.0);
+                        let beyond = |known: f64| known + FOLLOWED * known.abs();
+                        let value = look.signed(case, one);
+                        value.is_some_and(|value| known.is_none_or(|known| value > beyond(known)))
+                    })
+                };
+                motions.filter(is_worse).filter_map(|one| one.state).take(MOST_STATES).collect()
+            };
+            let followed: Vec<(usize, Vec<ModalState>)> = (0..all.len())
+                .map(|k| (k, worse(k)))
+                .filter(|(_, states)| !states.is_empty())
+                .collect();
+            let look = |n: usize| {
+                let (k, states) = &followed[n];
+                AtFrequency::of(case, load, all[*k].at, 0, ModalEffort::OF_MANY, states)
+            };
+            let found = map(on, "motions that are followed", followed.len(), look);
+            let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
+            let mut any = false;
+            for ((k, _), found) in followed.iter().zip(found) {
+                any |= places[*k].join(found);
+            }
+            if !any {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Searches frequencies again, with all patience, while what wanders there, and was not searched so, sets how bad something may be
+    /// along the load: it may be a transient, or hardly be known.
+    fn search_in_full(
+        case: &ModalCase,
+        load: &Load,
+        places: &mut [AtFrequency],
+        on: &dyn Executor,
+    ) -> Result<(), ModalError> {
+        let looks = Look::all(case);
+        let mut known: Vec<f64> = Vec::new();
+        for _ in 0..MOST_IN_FULL {
+            let mut chosen: Vec<usize> = Vec::new();
+            for look in &looks {
+                let reach = |k: usize| places[k].reach(case, look);
+                let all = (0..places.len()).filter_map(|k| Some((k, reach(k)?)));
+                let worst = all.max_by(|a, b| a.1.0.total_cmp(&b.1.0));
+                let open =
+                    worst.filter(|(k, (_, wanders))| *wanders && !known.contains(&places[*k].at));
+                chosen.extend(open.map(|one| one.0).filter(|k| !chosen.contains(k)));
+            }
+            if chosen.is_empty() {
+                break;
+            }
+            known.extend(chosen.iter().map(|k| places[*k].at));
+            let look = |n: usize| {
+                let at = places[chosen[n]].at;
+                let further: Vec<ModalState> = places[chosen[n]].states().collect();
+                AtFrequency::of(case, load, at, case.starts, ModalEffort::IN_FULL, &further)
+            };
+            let found = map(on, "motions that decide", chosen.len(), look);
+            for (k, found) in chosen.iter().zip(found) {
+                places[*k] = found?;
+            }
+        }
+        Ok(())
     }
 
     /// By how much what is looked at may be worse between the frequencies, where absorbers move, than at any of them, near every
@@ -137,15 +243,46 @@ impl AtFrequency {
         load: &Load,
         at: f64,
         starts: u32,
+        patience: f64,
+        further: &[ModalState],
     ) -> Result<Self, ModalError> {
         let system = case.system(load, at)?;
-        let motions = modal_motions(&system, &sensors(case), starts, case.periods)?;
+        let effort = ModalEffort { starts, periods: case.periods, patience };
+        let motions = modal_motions(&system, &sensors(case), effort, further)?;
         Ok(Self { at, motions, count_rest: case.count_inactive })
     }
 
     /// The motions that count.
     pub fn counting(&self) -> impl Iterator<Item = &ModalMotion> {
         self.motions.iter().filter(|one| one.counts(self.count_rest))
+    }
+
+    /// States on its motions, from which they may be followed.
+    fn states(&self) -> impl Iterator<Item = ModalState> {
+        self.counting().filter_map(|one| one.state).take(MOST_STATES)
+    }
+
+    /// Takes over motions that are not known; whether there were any.
+    fn join(&mut self, found: Self) -> bool {
+        let count = self.motions.len();
+        for motion in found.motions {
+            if !self.motions.iter().any(|known| known.is_same(&motion)) {
+                // Those in which absorbers rest stay last.
+                let end =
+                    self.motions.iter().position(ModalMotion::rests).unwrap_or(self.motions.len());
+                self.motions.insert(end, motion);
+            }
+        }
+        self.motions.len() > count
+    }
+
+    /// How bad what is looked at may be with its error, its sign turned where the smallest is, and whether the motion wanders.
+    fn reach(&self, case: &ModalCase, look: &Look) -> Option<(f64, bool)> {
+        let each = self.counting().filter_map(|one| {
+            let [value, error] = look.measured(case, one)?;
+            Some((value + error, one.repeats_after.is_none()))
+        });
+        each.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The worst of what is looked at, its sign turned where the smallest is, also with every absorber at rest or not.

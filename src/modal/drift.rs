@@ -50,8 +50,9 @@ impl OffStructure {
             ..mode.clone()
         };
         let modes = case.modes.iter().map(mode).collect();
-        let starts = case.starts.div_ceil(2);
-        let case = &ModalCase { modes, starts, periods: 0, ..case.clone() };
+        let [starts, starts_at_one] =
+            [case.starts, case.starts_at_one].map(|starts| starts.div_ceil(2));
+        let case = &ModalCase { modes, starts, starts_at_one, periods: 0, ..case.clone() };
         let answer = ModalAnswer::of(case, on)?;
         let linear = |dampers: &[ModalDamper]| {
             case.loads.iter().map(|load| largest_peak(case, load, dampers)).fold(0.0, f64::max)

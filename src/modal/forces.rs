@@ -7,7 +7,7 @@ use crate::analysis::Grading;
 use crate::case::{Load, ModalCase, PlacedAbsorber};
 use crate::criteria::{Judged, Outcome};
 use crate::executor::{Executor, map};
-use crate::motions::ModalMotion;
+use crate::motions::{ModalEffort, ModalMotion};
 
 /// Steps of the root of two to either side of the load's own amplitude, from a quarter to four times it, and one close to it.
 const STEPS: i32 = 4;
@@ -86,13 +86,13 @@ impl OverForce {
         let [from, to] = load.range_hz;
         let (usual, starts) = match from < to {
             true => (&ModalCase { periods: 0, ..case.clone() }, case.starts.div_ceil(2)),
-            false => (case, case.starts),
+            false => (case, case.starts_at_one),
         };
         let look = |k: usize| {
             let (step, at) = (k / at.len(), at[k % at.len()]);
             let known = along.places.iter().find(|one| times[step] == 1.0 && one.at == at);
             known.map_or_else(
-                || AtFrequency::of(usual, &with(step), at, starts),
+                || AtFrequency::of(usual, &with(step), at, starts, ModalEffort::OF_MANY, &[]),
                 |one| Ok(one.clone()),
             )
         };
@@ -109,7 +109,9 @@ impl OverForce {
                 ModalAnswer::judged(case, vec![along])
             };
             let judged = answer(&here, found.to_vec()).in_contact(&here, |shifted| {
-                let places = at.iter().map(|at| AtFrequency::of(shifted, &load, *at, starts));
+                let places = at.iter().map(|at| {
+                    AtFrequency::of(shifted, &load, *at, starts, ModalEffort::OF_MANY, &[])
+                });
                 Ok(answer(shifted, places.collect::<Result<_, _>>()?))
             })?;
             let outcomes = judged.judged.iter().map(Judged::outcome).collect();

@@ -15,7 +15,7 @@ use crate::case::{Bounds, Criterion, Load, ModalCase, PlacedAbsorber, Relation, 
 use crate::criteria::{Judged, Outcome};
 use crate::executor::Executor;
 use crate::measure::{Measure, Part};
-use crate::motions::{ModalMotion, modal_motions};
+use crate::motions::{ModalEffort, ModalMotion, modal_motions};
 use crate::optimize::search::{shortlist, spread_out};
 
 /// Candidates of the first round for each number that is chosen, and most of them.
@@ -110,6 +110,7 @@ impl ModalOptimum {
         let most = |n: usize| looked_at.iter().map(|one| one.over[n]).fold(0.0, f64::max);
         let own_cost = cost(&(0..limits.len()).map(most).collect::<Vec<_>>());
         let (count, sensors) = (numbers(case), sensors(case));
+        let few = ModalEffort { starts: FEW_STARTS, periods: 0, patience: 0.0 };
         let score = |parts: &[f64], best: f64| {
             let candidate = candidate(case, parts);
             let at_rest = case.loads.iter().flat_map(|load| farthest_at_rest(&candidate, load));
@@ -120,7 +121,7 @@ impl ModalOptimum {
             for LookedAt { load, at, .. } in &looked_at {
                 let found = candidate.system(load, *at).ok();
                 let found =
-                    found.and_then(|system| modal_motions(&system, &sensors, FEW_STARTS, 0).ok());
+                    found.and_then(|system| modal_motions(&system, &sensors, few, &[]).ok());
                 let Some(motions) = found else { return f64::NEG_INFINITY };
                 for (over, limit) in over.iter_mut().zip(&limits) {
                     *over = over.max(over_limit(case, &motions, limit));

@@ -46,10 +46,15 @@ impl Look {
         sides.filter(asked).map(move |least| Self { of, measure, least })
     }
 
-    /// The number in a motion, with its error, its sign turned where the smallest is the worst.
+    /// The number in a motion, its sign turned where the smallest is the worst, and its error.
+    pub fn measured(&self, case: &ModalCase, motion: &ModalMotion) -> Option<[f64; 2]> {
+        let [value, error] = measured(case, motion, self.of, self.measure)?;
+        Some([if self.least { -value } else { value }, error])
+    }
+
+    /// The same without its error.
     pub fn signed(&self, case: &ModalCase, motion: &ModalMotion) -> Option<f64> {
-        let value = measured(case, motion, self.of, self.measure)?[0];
-        Some(if self.least { -value } else { value })
+        Some(self.measured(case, motion)?[0])
     }
 }
 

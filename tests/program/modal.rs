@@ -12,7 +12,7 @@ use vinesink::modal::{
     ForceStep, ModalAnswer, OverForce, choices, linear_most, linear_peak, off_structures, seconds,
     sensors,
 };
-use vinesink::motions::{longest_flight, modal_motions};
+use vinesink::motions::{ModalEffort, longest_flight, modal_motions};
 use vinesink::report::modal::simulation;
 use vinesink::store::Reach;
 
@@ -746,7 +746,13 @@ fn a_window_of_the_case_counts() {
     assert!(seconds(&asked) > 2.0 * seconds(&usual));
     // The average of a longer time is another one, and known better.
     let measured = |periods: u64| {
-        let motions = modal_motions(&system, &sensors(&usual), 1, periods).expect("they fly");
+        let motions = modal_motions(
+            &system,
+            &sensors(&usual),
+            ModalEffort { starts: 1, periods, patience: ModalEffort::OF_MANY },
+            &[],
+        )
+        .expect("they fly");
         motions.iter().find(|one| !one.rests()).expect("one that wanders").sensors[0].rms
     };
     let [[short, off], [long, less]] = [0, 40_000].map(measured);

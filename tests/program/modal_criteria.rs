@@ -91,6 +91,69 @@ fn a_mode_that_takes_no_part_changes_no_criterion() {
     assert!(verdicts.iter().all(|count| *count > 8), "{verdicts:?} says little");
 }
 
+/// Numbers that nobody chose.
+struct Drawn(u64);
+
+impl Drawn {
+    fn between(&mut self, from: f64, to: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        from + (to - from) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn log(&mut self, from: f64, to: f64) -> f64 {
+        self.between(from.ln(), to.ln()).exp()
+    }
+}
+
+/// The searches of motions share neither engine nor starts: on structures that nobody chose, at one frequency, what the one finds of a
+/// mode the other finds of it beside a mode that takes no part, motions in one in ten starts among them, and none takes a chaotic
+/// transient for a motion; or it says that it has not decided.
+#[test]
+#[ignore = "deep"]
+fn both_searches_find_the_worst_motion() {
+    let (mut drawn, mut open, mut off) = (Drawn(5), 0, Vec::new());
+    let asked = "[criteria]\npeak_displacement = '<= 1 km'\nrms_displacement = '<= 1 km'\n";
+    for number in 0..40 {
+        let (hz, zeta, mass) =
+            (drawn.log(1.0, 30.0), drawn.log(0.003, 0.02), drawn.log(10.0, 1000.0));
+        let (ratio, restitution) = (drawn.log(0.004, 0.05), drawn.between(0.15, 0.85));
+        let deflection = drawn.log(1e-5, 1e-3);
+        let omega = std::f64::consts::TAU * hz;
+        let force = deflection * mass * omega * omega;
+        let clearance = deflection * drawn.log(1.5, 60.0);
+        let frequency = hz * drawn.between(0.96, 1.04);
+        let absorber = format!(
+            "mass = '{} kg'\nclearance = '{clearance} m'\nrestitution = {restitution}\n",
+            ratio * mass
+        );
+        let load =
+            format!("kind = 'force'\namplitude = '{force} N'\nfrequency = '{frequency} Hz'\n");
+        let one = told(&format!(
+            "{HEAD}[oscillator]\nmass = '{mass} kg'\nfrequency = '{hz} Hz'\ndamping_ratio = {zeta}\n[absorber]\n{absorber}\
+             [excitation]\n{load}{asked}"
+        ));
+        let several = told(&format!(
+            "{HEAD}[[mode]]\nfrequency = '{hz} Hz'\ndamping_ratio = {zeta}\nmass = '{mass} kg'\nshape = {{ a = 1.0, b = 0.0 }}\n\
+             [[mode]]\nfrequency = '{} Hz'\ndamping_ratio = 0.02\nmass = '{mass} kg'\nshape = {{ a = 0.0, b = 1.0 }}\n\
+             [[absorber]]\nplace = 'a'\n{absorber}[[excitation]]\nplace = 'a'\n{load}{asked}",
+            4.3 * hz
+        ));
+        for (a, b) in one.iter().zip(&several) {
+            if b["decided"] == false || a["decided"] == false {
+                open += 1;
+                continue;
+            }
+            let number_of = |key: &str| [a, b].map(|one| one[key].as_f64().expect("a number"));
+            let ([x, y], errors) = (number_of("found"), number_of("error"));
+            // Below a thousandth motions that wander are one, as nobody measures it: one of 20 largest values exceeds its error.
+            if (x - y).abs() > errors[0] + errors[1] + 1e-3 * x {
+                off.push((number, x, y, errors));
+            }
+        }
+    }
+    assert!(off.len() <= 1 && open <= 4, "{off:?} {open}");
+}
+
 /// The largest speed and the number of impacts of each absorber over some periods.
 #[derive(Default)]
 struct Impacts([f64; 2], [u64; 2]);

@@ -25,6 +25,7 @@ mod follow;
 mod identity;
 mod measured;
 mod modal;
+mod patience;
 mod repetition;
 mod rest;
 mod sampler;
@@ -46,7 +47,9 @@ pub use facts::{Facts, Value};
 pub use follow::{DiagramError, DiagramPoint, SweepDirection, carried_over, follow, sweep};
 pub use identity::orbit_of;
 pub use measured::{Measured, Window, measured};
-pub use modal::{ModalMotion, SensorExtent, longest_flight, modal_at_rest, modal_motions};
+pub use modal::{
+    ModalEffort, ModalMotion, SensorExtent, longest_flight, modal_at_rest, modal_motions,
+};
 pub use repetition::Repetition;
 pub use rest::{Rest, RestKind};
 pub use sampler::BandEffort;

@@ -61,7 +61,7 @@ const WAITED: f64 = 0.25;
 /// Relative error of a largest value from which on it is hardly known at a place that may not decide.
 const VAGUE: f64 = 1.0;
 /// The same where it may.
-const VAGUE_IN_FULL: f64 = 0.5;
+pub(super) const VAGUE_IN_FULL: f64 = 0.5;
 /// Places that are added before the next gaps are chosen.
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.

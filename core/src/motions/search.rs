@@ -8,6 +8,7 @@
 use super::cluster::Cluster;
 use super::flight::{StartFlight, StartOutcome, flown};
 use super::identity::{KnownMotion, Proof};
+use super::patience::{Missing, Patience, Thoroughness, busy};
 use super::rest::Rest;
 use super::settling::SettlingTime;
 use super::watch::WindowSample;
@@ -18,30 +19,8 @@ use crate::orbits::Orbit;
 use crate::simulation::{Simulation, StartError, Stop};
 use crate::system::{State, System};
 
-/// Windows that the starts of a place fly together without one of them settling before what they do counts as a motion,
-/// where another motion is known to attract: of a transient that lasts for all of these on average one in three is still
-/// taken for a motion, of one that lasts a seventh of them one in a thousand.
-const BESIDE_ANOTHER: f64 = 20.0;
-/// The same for each start that has not settled, over the number of all starts, whatever else is known: a search with more
-/// starts is a thorougher one.
-const ALONE: f64 = 0.1;
-/// The same over the windows that a start of the place has wandered for on average until it settled, where that decides: one
-/// transient in twenty is then still taken for a motion.
-const LIVES: f64 = 3.0;
 /// Share of its steady amplitude within which a structure vibrates as if alone.
 const STEADY: f64 = 1e-6;
-/// Starts above which a search is no thorougher.
-const MOST: usize = 32;
-/// Quarters of a window that a start flies on at a time, at most: doubled each time, up to the last.
-const FURTHER: [u64; 7] = [1, 2, 4, 8, 16, 32, 64];
-/// How often starts fly on at most: one on a transient that lasts for 40 windows on average has then left it, but for one in
-/// a thousand.
-const ROUNDS: usize = 24;
-/// So many times as many where a place is searched in full: of some on a transient the last outlast the usual ones.
-const TO_THE_END: usize = 2;
-/// Impacts per period above which starts fly on for fewer periods and less often: a bounce that hardly loses anything comes
-/// to rest with ever more of them.
-const BUSY: f64 = 16.0;
 /// How often the window is doubled of starts that still settle, that together are not one motion yet, or whose largest value
 /// is hardly known.
 const LONGEST: usize = 4;
@@ -196,22 +175,10 @@ struct Ground {
     late: Vec<usize>,
     /// What the others were like when they were measured, if they still are.
     open: Vec<Option<WindowSample>>,
-    /// Periods of a window, windows that each start flies on, whatever else is known, the patience with all of them, and how
-    /// often starts are flown on at most.
+    /// Periods of a window, and the patience with all of them.
     periods: u64,
-    alone: f64,
-    patience: f64,
-    most_rounds: usize,
-    /// Of this round: whether a start has settled that wandered before, and periods that the others have flown.
-    settled: bool,
-    flown: u64,
-    /// Windows without a start that settled, and all that starts have wandered for.
-    quiet: f64,
-    wandered: f64,
-    /// Whether a start is flown as long as where a case has one place, and longer where others of its place have settled late.
-    in_full: bool,
-    /// How often starts were flown on, and measured, and over how many periods they were the last time.
-    rounds: usize,
+    patience: Patience,
+    /// How often starts were measured, and over how many periods they were the last time.
     measured: usize,
     window: u64,
     accuracy: Option<[f64; 2]>,
@@ -243,8 +210,14 @@ impl Ground {
         let orbits: Vec<Orbit> =
             known.iter().filter_map(|one| one.motion.orbit().cloned()).collect();
         let count = place.starts.len() + place.further.len();
-        let rounds = if place.in_full { TO_THE_END * ROUNDS } else { ROUNDS };
-        let thorough = if place.in_full { effort.starts as usize } else { place.starts.len() };
+        let periods = effort.periods.max(1);
+        let patience = Patience::with(Thoroughness {
+            periods,
+            starts: if place.in_full { effort.starts as usize } else { place.starts.len() },
+            effort: effort.patience,
+            place: place.patience,
+            in_full: place.in_full,
+        });
         Self {
             left_out: effort
                 .discard
@@ -256,16 +229,8 @@ impl Ground {
             led: vec![None; count],
             late: Vec::new(),
             open: vec![None; count],
-            periods: effort.periods.max(1),
-            patience: effort.patience * place.patience,
-            most_rounds: (effort.patience * rounds as f64) as usize,
-            alone: ALONE * thorough.min(MOST) as f64,
-            settled: false,
-            flown: 0,
-            quiet: 0.0,
-            wandered: 0.0,
-            in_full: place.in_full,
-            rounds: 0,
+            periods,
+            patience,
             measured: 0,
             window: 0,
             accuracy: effort.accuracy,
@@ -286,19 +251,19 @@ impl Ground {
         self.impacts[start] += impacts;
         self.busy[start] = impacts as f64 / flown.max(1) as f64;
         self.open[start] = None;
-        let first = self.rounds + self.measured == 0;
+        let first = self.patience.is_new() && self.measured == 0;
         let motion = match end {
             StartOutcome::Lost => None,
             StartOutcome::Rests(_) => self.at_rest(None),
             StartOutcome::On(known) => Some(known),
             StartOutcome::Open => {
-                self.flown += if first { 0 } else { flown };
+                self.patience.flown(if first { 0 } else { flown });
                 return Some(flight);
             }
             StartOutcome::Seen(sample) => match self.identified(&sample) {
                 Identified::Known(known) => Some(known),
                 Identified::Open => {
-                    self.flown += flown;
+                    self.patience.flown(flown);
                     let goes_on = sample.stop == Stop::EndTime;
                     self.open[start] = Some(*sample);
                     return goes_on.then_some(flight);
@@ -319,7 +284,7 @@ impl Ground {
         self.led[start] = motion;
         if !first {
             self.late.push(start);
-            self.settled = true;
+            self.patience.settles();
         }
         None
     }
@@ -379,25 +344,15 @@ impl Ground {
 
     /// Those that have not settled, with how far they go; none once they have shown what they are.
     fn further(&mut self, mut open: Vec<StartFlight>) -> Vec<StartFlight> {
-        let periods = self.periods as f64;
-        self.wandered += self.flown as f64 / periods;
-        self.quiet = if self.settled { 0.0 } else { self.quiet + self.flown as f64 / periods };
-        (self.settled, self.flown) = (false, 0);
+        let beside = self.known.iter().any(|one| one.motion.rest().is_none());
+        let Missing { windows, usual } = self.patience.missing(open.len(), beside);
         if open.is_empty() {
             self.impatient = false;
             return open;
         }
-        let beside = self.known.iter().any(|one| one.motion.rest().is_none());
-        let alone = self.alone * open.len() as f64;
-        let windows = if beside { alone.max(BESIDE_ANOTHER) } else { alone };
-        // What starts have left is a transient, whose life is known.
-        let life = self.wandered / self.late.len() as f64;
-        let lives = if self.in_full && !self.late.is_empty() { LIVES * life } else { 0.0 };
-        let missing =
-            |windows: f64| if self.creeps { 0.0 } else { self.patience * windows - self.quiet };
+        let missing = if self.creeps { 0.0 } else { windows };
         // Where the rounds end before that it is what it is elsewhere.
-        self.impatient = missing(windows) > 0.0 || self.creeps;
-        let missing = missing(windows.max(lives));
+        self.impatient = usual || self.creeps;
         let of = |flight: &StartFlight| {
             Some((flight.index, self.open[flight.index - self.first].clone()?))
         };
@@ -413,13 +368,10 @@ impl Ground {
         let again = self.accuracy.is_some_and(loose) && self.window * count < MOST_PERIODS;
         let vague = self.measured <= LONGEST && clusters.iter().any(|one| one.is_vague(self.vague));
         let busiest = open.iter().map(|flight| self.busy[flight.index - self.first]);
-        let busy = busiest.fold(BUSY, f64::max) / BUSY;
-        let (left_out, window) = if self.rounds < self.most_rounds && (missing > 0.0 || restless) {
-            let most = FURTHER[self.rounds.min(FURTHER.len() - 1)] * self.periods / 4;
-            let most = (most as f64 / busy) as u64;
-            let each = (missing * periods / open.len() as f64).ceil() as u64;
-            self.rounds += busy as usize;
-            (if restless { most } else { each.min(most) }, 0)
+        let busiest = busiest.fold(0.0, f64::max);
+        let (left_out, window) = if self.patience.goes_on() && (missing > 0.0 || restless) {
+            let [each, most] = self.patience.next(missing, open.len(), busiest);
+            (if restless { most } else { each }, 0)
         } else if measured && !again && !vague {
             return Vec::new();
         } else {
@@ -427,7 +379,7 @@ impl Ground {
             let wanted = if self.window == 0 { shared } else { 2 * self.window };
             // What a case asks for takes what it takes.
             self.window = if again { wanted } else { settling::window(&self.system, wanted) };
-            self.measured += busy as usize;
+            self.measured += busy(busiest) as usize;
             (0, self.window)
         };
         for flight in &mut open {

@@ -2,7 +2,7 @@
 
 use vinesink_core::executor::Serial;
 use vinesink_core::linear::{ModalAmplitudes, ModalDamper, TunedMassDamper, bare_amplitude};
-use vinesink_core::motions::{Effort, Motion, Place, modal_motions, motions};
+use vinesink_core::motions::{Effort, ModalEffort, Motion, Place, modal_motions, motions};
 use vinesink_core::orbits::FullSystem;
 use vinesink_core::simulation::{
     Detail, ModalImpact, ModalMeter, ModalObserver, ModalSimulation, Sensor,
@@ -18,6 +18,11 @@ use super::cases::Draw;
 const EPS: f64 = 0.032 / 4.168;
 const ZETA: f64 = 0.006_906;
 const FORCE: f64 = 0.25 / 20.0;
+
+/// A search with so many starts.
+fn effort(starts: u32, periods: u64) -> ModalEffort {
+    ModalEffort { starts, periods, patience: ModalEffort::IN_FULL }
+}
 
 /// One mode with one absorber, lengths over the clearance.
 fn one(omega: f64) -> (System, ModalSystem) {
@@ -77,8 +82,8 @@ fn the_motion_of_one_mode_and_one_absorber_is_its_exact_orbit() {
     for omega in [1.0, 8.5 / 8.349, 1.025] {
         let (system, modal) = one(omega);
         let Some(peak) = FullSystem::of(&system).attracting_peak() else { continue };
-        let motions =
-            modal_motions(&modal, &[Sensor::displacement(vec![1.0])], 4, 0).expect("they fly");
+        let motions = modal_motions(&modal, &[Sensor::displacement(vec![1.0])], effort(4, 0), &[])
+            .expect("they fly");
         let orbit = motions.iter().find(|one| one.repeats_after == Some(1) && !one.rests());
         let orbit = orbit.expect("the orbit attracts");
         assert!((orbit.sensors[0].peak / peak - 1.0).abs() < 1e-9, "{omega}: {orbit:?} {peak}");
@@ -101,7 +106,7 @@ fn what_repeats_is_proven_as_with_one_mode() {
         let (system, modal) = forced(omega, force, draw.within(0.3, 0.8));
         let known = motions(&[Place::new(&system, 32)], &Effort::default(), &Serial);
         let known = known.expect("they fly").remove(0);
-        let found = modal_motions(&modal, &[Sensor::displacement(vec![1.0])], 3, 300);
+        let found = modal_motions(&modal, &[Sensor::displacement(vec![1.0])], effort(3, 300), &[]);
         for one in found.expect("they fly").iter().filter(|one| !one.rests()) {
             let Some(multiplier) = one.largest_multiplier else {
                 others += usize::from(one.repeats_after.is_some());
@@ -156,8 +161,9 @@ fn some_absorbers_rest_while_others_impact() {
         ..ModalParameters::default()
     })
     .expect("valid");
-    let motions = modal_motions(&system, &[Sensor::displacement(vec![0.507, -0.196])], 6, 1000)
-        .expect("they fly");
+    let motions =
+        modal_motions(&system, &[Sensor::displacement(vec![0.507, -0.196])], effort(6, 1000), &[])
+            .expect("they fly");
     let worst =
         motions.iter().max_by(|a, b| a.sensors[0].peak.total_cmp(&b.sensors[0].peak)).expect("one");
     assert!((worst.sensors[0].peak / 0.362e-3 - 1.0).abs() < 0.01, "{motions:#?}");
@@ -178,7 +184,7 @@ fn absorbers_that_may_rest_do() {
         let count = system.absorbers().len();
         let shape = vec![1.0; system.modes().len()];
         let sensors = [Sensor::displacement(shape)];
-        let motions = modal_motions(&system, &sensors, 2, 500).expect("they fly");
+        let motions = modal_motions(&system, &sensors, effort(2, 500), &[]).expect("they fly");
         for motion in motions.iter().filter(|one| !one.rests() && one.rest_share().is_some()) {
             let rest: Vec<usize> = (0..count).filter(|j| motion.resting[*j].is_some()).collect();
             let others: Vec<usize> = (0..count).filter(|j| !rest.contains(j)).collect();

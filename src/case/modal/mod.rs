@@ -68,8 +68,10 @@ pub struct ModalCase {
     pub count_inactive: bool,
     /// Limits of what it does.
     pub criteria: Vec<Criterion>,
-    /// Starts at each frequency, that from rest among them.
+    /// Starts at each frequency of a range, that from rest among them.
     pub starts: u32,
+    /// The same under a load of one frequency.
+    pub starts_at_one: u32,
     /// Excitation periods that a motion which does not repeat is measured for at least.
     pub periods: u64,
     /// The file of its modes, where they are in one.
@@ -321,6 +323,12 @@ impl ModalCase {
     pub fn shapes(&self) -> Vec<Vec<f64>> {
         let places = 0..self.places.len();
         places.map(|p| self.modes.iter().map(|mode| mode.shape[p]).collect()).collect()
+    }
+
+    /// Starts at a frequency of a load.
+    pub fn starts_of(&self, load: &Load) -> u32 {
+        let [from, to] = load.range_hz;
+        if from < to { self.starts } else { self.starts_at_one }
     }
 
     /// Dimensionless times in the case's own unit of time: the first mode's natural frequency in rad/s; of a reduced case over

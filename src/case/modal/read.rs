@@ -101,8 +101,10 @@ fn forms() -> Value {
     json!([physical("mode"), physical("modes"), { "required": ["reduced"] }])
 }
 
-/// Starts at each frequency unless given.
+/// Starts at each frequency of a range unless given, and under a load of one frequency, as with one mode: no neighbour then finds what
+/// one start in ten leads to.
 const STARTS: u32 = 6;
+const STARTS_AT_ONE: u32 = 32;
 
 /// Reads the whole file; `None` when something was reported.
 ///
@@ -260,7 +262,8 @@ pub(super) fn read(
     let bounds = read_bounds(reader, &root, &places);
     let Some(heading) = heading.filter(|_| reader.problems.is_empty()) else { return Ok(None) };
     let asked = simulation.as_ref();
-    let starts = asked.and_then(|one| u32::try_from(one.starts?).ok()).unwrap_or(STARTS);
+    let given = asked.and_then(|one| u32::try_from(one.starts?).ok());
+    let [starts, starts_at_one] = [STARTS, STARTS_AT_ONE].map(|usual| given.unwrap_or(usual));
     let periods = asked.and_then(|one| one.periods).unwrap_or(0);
     let mut case = ModalCase {
         title: heading.title,
@@ -274,6 +277,7 @@ pub(super) fn read(
         count_inactive,
         criteria,
         starts,
+        starts_at_one,
         periods,
         modes_file: None,
         modes_from,

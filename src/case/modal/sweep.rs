@@ -157,7 +157,8 @@ impl ModalCase {
     pub fn at_point(&self, coordinates: &[f64]) -> Self {
         let Some(sweep) = &self.sweep else { return self.clone() };
         let SweepSettings { axes, starts, periods, .. } = &sweep.settings;
-        let mut case = Self { starts: *starts, periods: *periods, ..self.clone() };
+        let mut case =
+            Self { starts: *starts, starts_at_one: *starts, periods: *periods, ..self.clone() };
         if let Some(load) = sweep.load {
             case.loads = vec![self.loads[load]];
         }

@@ -336,6 +336,11 @@ fn absorbers(case: &ModalCase) -> Vec<Value> {
     each.collect()
 }
 
+/// Starts at each frequency: of the ranges, or where there are none of the loads of one frequency.
+fn starts(case: &ModalCase) -> u32 {
+    case.loads.iter().map(|load| case.starts_of(load)).min().unwrap_or_default()
+}
+
 /// The report: `vinesink/answer@1` with the fields that an index and a comparison read, and those of several modes.
 pub fn document(
     name: &str,
@@ -411,7 +416,8 @@ pub fn document(
         "dampers": dampers.collect::<Vec<_>>(),
         "off": beside.off.iter().map(|one| off_row(case, one)).collect::<Vec<_>>(),
         "worst_off": worst_off(&beside.off),
-        "starts": case.starts,
+        "starts": starts(case),
+        "ranges": case.loads.iter().any(|load| load.range_hz[0] < load.range_hz[1]),
         "figures": [],
     });
     let heading = [&case.title, &case.source, &case.text_hash].map(String::as_str);

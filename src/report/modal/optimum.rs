@@ -69,7 +69,7 @@ pub fn optimum(case: &ModalCase, found: &ModalOptimum) -> Value {
         "asked": !case.criteria.is_empty(),
         "bounds": bounds(case),
         "candidates": found.candidates,
-        "starts": case.starts,
+        "starts": super::starts(case),
         "nearest": absorbers(&found.nearest().case),
         "at_bound": at_bound(case, &found.nearest().case),
         "own": candidate(&found.own),

@@ -1,8 +1,8 @@
 //! A start, flown until it is on an exact orbit, repeats, or has been measured.
 
 use super::motion::ModalMotion;
-use super::proven::Attracting;
-use super::stretch::{Repeats, Seen, Stretch, distance};
+use super::proven::{Attracting, Near};
+use super::stretch::{Repeats, SAME_STATE, Seen, Stretch, distance};
 use crate::numerics::scatter::drifts;
 use crate::simulation::{ModalSimulation, ModalStartError, Reading, Sensor, Stop};
 use crate::system::{ModalState, ModalSystem};
@@ -20,6 +20,10 @@ const STRETCHES: u64 = 16;
 const AGAIN: usize = 2;
 const OF_DECAY: f64 = 0.25;
 const SHORTEST: f64 = 128.0;
+/// Push off an orbit that does not attract, over the size of the motion: far above what a repetition leaves open.
+const PUSH: f64 = 1e-3;
+/// Excitation periods over which a start is measured at least, several times the slowest modulation.
+const RECOGNITION: u64 = 200;
 /// Most impacts of a start until its slowest mode has died out: one that chatters on is given up, and measured for so many
 /// periods.
 const MOST_OF_START: u64 = 400_000;
@@ -32,83 +36,188 @@ fn decay_periods(system: &ModalSystem) -> f64 {
     system.frequency_ratio() / (std::f64::consts::TAU * slowest)
 }
 
-/// Excitation periods of a time in which the slowest mode decays, and of a stretch of at least so many `periods` in all.
-fn lengths(system: &ModalSystem, periods: u64) -> [u64; 2] {
-    let decay = decay_periods(system).min(LONGEST);
-    let block = (OF_DECAY * decay).max(SHORTEST).ceil() as u64;
-    let block = block.max(periods.div_ceil(BLOCKS as u64));
-    [decay.max(QUICKEST).ceil() as u64, block.div_ceil(STRETCHES)]
+/// Excitation periods of a time in which the slowest mode decays.
+fn decay(system: &ModalSystem) -> u64 {
+    decay_periods(system).min(LONGEST).max(QUICKEST).ceil() as u64
 }
 
-/// Excitation periods that a start is flown for at most, where at least so many are measured.
+/// Excitation periods of a stretch, where so many starts of a place are measured together for at least so many `periods`: as long that
+/// a block knows whether its numbers drift, and one start is recognised.
+fn stretch(system: &ModalSystem, periods: u64, starts: u64) -> u64 {
+    let block = (SHORTEST as u64).max(periods.div_ceil(BLOCKS as u64));
+    let shared = block.div_ceil(starts.max(1)).max(RECOGNITION.div_ceil(BLOCKS as u64));
+    let of_decay = (OF_DECAY * decay_periods(system).min(LONGEST)).ceil() as u64;
+    shared.max(of_decay).div_ceil(STRETCHES)
+}
+
+/// Excitation periods over which a motion that does not repeat is measured at first.
+pub(super) fn window(system: &ModalSystem, periods: u64) -> u64 {
+    BLOCKS as u64 * STRETCHES * stretch(system, periods, 1)
+}
+
+/// Excitation periods that a start is flown for at most, where at least so many are measured and no other of its place settles.
 pub fn longest_flight(system: &ModalSystem, periods: u64) -> f64 {
-    let [decay, stretch] = lengths(system, periods);
-    let block = (STRETCHES * stretch) as f64;
-    f64::from(DECAYS) * decay as f64 + (BLOCKS * (1 + AGAIN)) as f64 * block
+    f64::from(DECAYS) * decay(system) as f64 + (1 + AGAIN) as f64 * window(system, periods) as f64
 }
 
-/// The motion that a start leads to.
-pub(super) fn from_start(
-    system: &ModalSystem,
-    sensors: &[Sensor],
-    start: &ModalState,
-    periods: u64,
-    orbits: &mut Vec<Attracting>,
-) -> Result<ModalMotion, ModalStartError> {
-    let mut simulation = ModalSimulation::new(system, start, 0.0)?;
-    let [decay, stretch] = lengths(system, periods);
-    // What a known orbit attracts, what is solved for, or what repeats.
-    let mut known = |simulation: &mut ModalSimulation, repeats: &Repeats| {
+/// A trajectory beside a state on an orbit that does not attract, in no direction that a symmetry has; absorbers are pushed inwards, as
+/// one may be at a wall.
+fn pushed(system: &ModalSystem, state: &ModalState) -> Option<ModalSimulation> {
+    let numbers = state.modes.iter().chain(&state.absorbers).flatten();
+    let push = PUSH * numbers.fold(0.0, |most: f64, one| most.max(one.abs()));
+    let mut beside = *state;
+    beside.modes[0][1] += push;
+    for (j, own) in beside.absorbers.iter_mut().take(system.absorbers().len()).enumerate() {
+        let each = system.modes().iter().zip(&state.modes);
+        let x: f64 = each.map(|(mode, [q, _])| mode.shape[j] * q).sum();
+        own[0] +=
+            push.min(0.1 * system.absorbers()[j].clearance) * if x > own[0] { 1.0 } else { -1.0 };
+    }
+    ModalSimulation::new(system, &beside, 0.0).ok()
+}
+
+/// What became of a start.
+pub(super) enum End {
+    /// A motion that it is on.
+    On(ModalMotion),
+    /// It has not settled.
+    Open(Flight),
+}
+
+/// A start on its way.
+pub(super) struct Flight {
+    simulation: ModalSimulation,
+    decay: u64,
+    /// Impacts per excitation period, of all absorbers, where it was flown last.
+    pub busy: f64,
+    /// 1, or 0 of a start that is not counted.
+    starts: u32,
+}
+
+impl Flight {
+    /// The same as a start that is not counted.
+    pub fn uncounted(self) -> Self {
+        Self { starts: 0, ..self }
+    }
+}
+
+/// A search that it belongs to.
+pub(super) struct Of<'a> {
+    pub system: &'a ModalSystem,
+    pub sensors: &'a [Sensor],
+    /// Excitation periods that are measured at least.
+    pub periods: u64,
+    /// The exact orbits that attract, as far as they are known.
+    pub orbits: Vec<Attracting>,
+}
+
+impl Of<'_> {
+    /// What a known orbit attracts, what is solved for, or what repeats.
+    fn known(
+        &mut self,
+        simulation: &mut ModalSimulation,
+        repeats: &Repeats,
+    ) -> Option<ModalMotion> {
         let state = simulation.state();
-        if let Some(near) = orbits.iter().find(|one| distance(&one.state, &state) < one.reach) {
+        let near = |one: &&Attracting| distance(&one.state, &state) < one.reach;
+        if let Some(near) = self.orbits.iter().find(near) {
             return Some(ModalMotion { starts: 1, ..near.motion.clone() });
         }
-        let solve = |after: &u32| Attracting::near(system, sensors, &state, *after);
-        if let Some(solved) = repeats.nearly.iter().find_map(solve) {
-            let motion = solved[0].motion.clone();
-            orbits.extend(solved);
-            return Some(motion);
+        let solve = |after: &u32| Attracting::near(self.system, self.sensors, &state, *after);
+        match repeats.nearly.iter().find_map(solve) {
+            Some(Near::Attracts(solved)) => {
+                let motion = solved[0].motion.clone();
+                self.orbits.extend(solved);
+                return Some(motion);
+            }
+            Some(Near::Leaves) => {
+                if let Some(beside) = pushed(self.system, &state) {
+                    *simulation = beside;
+                }
+                return None;
+            }
+            None => {}
         }
         let after = repeats.exactly?;
-        let period = Stretch::fly(simulation, system, sensors, after.into());
-        Some(ModalMotion::of(sensors, &[period], Some(after), true, periods))
-    };
-    for _ in 0..DECAYS {
-        let mut seen = Seen::default();
-        let left = MOST_OF_START.saturating_sub(simulation.impacts());
-        if simulation.run(decay, left, &mut seen) != Stop::EndTime {
-            let seen = Stretch::fly(&mut simulation, system, sensors, GIVEN_UP);
-            return Ok(ModalMotion::of(sensors, &[seen], None, false, periods));
-        }
-        if let Some(known) = known(&mut simulation, &seen.repeats_after()) {
-            return Ok(known);
-        }
+        let period = Stretch::fly(simulation, self.system, self.sensors, after.into());
+        let motion = ModalMotion::of(self.sensors, &[period], Some(after), true, self.periods);
+        // What still changes in a period adds up until the slowest mode has died out.
+        let left = SAME_STATE * decay(self.system) as f64;
+        Some(ModalMotion { state: Some(state), ..motion.within(left) })
     }
-    let (mut stretches, mut drifting) = (Vec::new(), true);
-    // Of many motions one in a thousand seems to drift by chance; what drifts is left out as a transient.
-    for _ in 0..=AGAIN {
-        if !drifting {
-            break;
-        }
-        stretches.clear();
-        for _ in 0..BLOCKS {
-            for _ in 0..STRETCHES {
-                stretches.push(Stretch::fly(&mut simulation, system, sensors, stretch));
-            }
-            let last = stretches.last().map(|one| &one.repeats_after);
-            if let Some(known) = last.and_then(|last| known(&mut simulation, last)) {
-                return Ok(known);
-            }
-        }
-        let rms = |block: &[Stretch], n: usize| {
-            let squares = block.iter().map(|one| one.sensors[n].mean_square);
-            (squares.sum::<f64>() / block.len() as f64).sqrt()
-        };
-        let blocks = || stretches.chunks(STRETCHES as usize);
-        drifting = (0..sensors.len())
-            .filter(|n| sensors[*n].reads == Reading::Displacement)
-            .any(|n| drifts(&blocks().map(|one| rms(one, n)).collect::<Vec<_>>()));
+
+    /// Flies a start until the slowest mode has died out.
+    pub fn begin(&mut self, start: &ModalState) -> Result<End, ModalStartError> {
+        let simulation = ModalSimulation::new(self.system, start, 0.0)?;
+        let decay = decay(self.system);
+        let flight = Flight { simulation, decay, busy: 0.0, starts: 1 };
+        Ok(self.fly_on(flight, u64::from(DECAYS) * decay, MOST_OF_START))
     }
-    let settled = !drifting && decay_periods(system) <= LONGEST;
-    Ok(ModalMotion::of(sensors, &stretches, None, settled, periods))
+
+    /// Flies a start on for so many periods, with at most so many impacts since it began: one that has more is given up.
+    pub fn fly_on(&mut self, mut flight: Flight, periods: u64, most: u64) -> End {
+        let (before, mut left) = (flight.simulation.impacts(), periods);
+        while left > 0 {
+            let mut seen = Seen::default();
+            let far = left.min(flight.decay);
+            let impacts = most.saturating_sub(flight.simulation.impacts());
+            if flight.simulation.run(far, impacts, &mut seen) != Stop::EndTime {
+                let seen =
+                    Stretch::fly(&mut flight.simulation, self.system, self.sensors, GIVEN_UP);
+                let motion = ModalMotion::of(self.sensors, &[seen], None, false, self.periods);
+                return End::On(ModalMotion { starts: flight.starts, ..motion });
+            }
+            if let Some(known) = self.known(&mut flight.simulation, &seen.repeats_after()) {
+                return End::On(ModalMotion { starts: flight.starts, ..known });
+            }
+            left -= far;
+        }
+        flight.busy =
+            flight.simulation.impacts().saturating_sub(before) as f64 / periods.max(1) as f64;
+        End::Open(flight)
+    }
+
+    /// Most impacts of a start that flies on for so many periods.
+    pub fn most_impacts(flight: &Flight, periods: u64) -> u64 {
+        /// In each of them.
+        const MOST: u64 = 2000;
+        flight.simulation.impacts() + MOST * periods
+    }
+
+    /// Measures what has not settled, beside so many other starts, over so many times the usual window: in blocks, once more where they
+    /// drift. Of many motions one in a thousand seems to drift by chance;
+    /// what drifts is left out as a transient.
+    pub fn measured(&mut self, flight: &mut Flight, starts: usize, times: u64) -> ModalMotion {
+        let (mut stretches, mut drifting) = (Vec::new(), true);
+        let stretch = times * stretch(self.system, self.periods, starts as u64);
+        for _ in 0..=AGAIN {
+            if !drifting {
+                break;
+            }
+            stretches.clear();
+            for _ in 0..BLOCKS {
+                for _ in 0..STRETCHES {
+                    let (system, sensors) = (self.system, self.sensors);
+                    stretches.push(Stretch::fly(&mut flight.simulation, system, sensors, stretch));
+                }
+                let last = stretches.last().map(|one| &one.repeats_after);
+                let known = last.and_then(|last| self.known(&mut flight.simulation, last));
+                if let Some(known) = known {
+                    return ModalMotion { starts: flight.starts, ..known };
+                }
+            }
+            let rms = |block: &[Stretch], n: usize| {
+                let squares = block.iter().map(|one| one.sensors[n].mean_square);
+                (squares.sum::<f64>() / block.len() as f64).sqrt()
+            };
+            let blocks = || stretches.chunks(STRETCHES as usize);
+            drifting = (0..self.sensors.len())
+                .filter(|n| self.sensors[*n].reads == Reading::Displacement)
+                .any(|n| drifts(&blocks().map(|one| rms(one, n)).collect::<Vec<_>>()));
+        }
+        let settled = !drifting && decay_periods(self.system) <= LONGEST;
+        let motion = ModalMotion::of(self.sensors, &stretches, None, settled, self.periods);
+        let state = Some(flight.simulation.state());
+        ModalMotion { state, starts: flight.starts, ..motion }
+    }
 }

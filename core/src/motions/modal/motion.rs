@@ -6,6 +6,7 @@ use super::stretch::Stretch;
 use crate::motions::NEGLIGIBLE;
 use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
 use crate::simulation::{Reading, Sensor, SensorRecord};
+use crate::system::ModalState;
 
 /// What a sensor reads in a long-term motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -40,6 +41,9 @@ pub struct ModalMotion {
     pub starts: u32,
     /// Of each absorber that rests in it the share of its cavity within which it may; none of one that impacts.
     pub resting: Vec<Option<f64>>,
+    /// A state on it at excitation phase 0; none at rest, and where an absorber rests.
+    #[serde(skip)]
+    pub state: Option<ModalState>,
     /// Excitation periods of a case's window: largest values are spoken of for ten times as long.
     #[serde(skip)]
     pub(super) periods: u64,
@@ -63,7 +67,9 @@ pub(super) struct FlightCourse {
 /// Relative difference up to which root mean squares and impacts of two motions that do not repeat are the same, beside their
 /// errors.
 const SAME: f64 = 0.02;
-/// The same of those that do.
+/// Relative difference of largest displacements of stretches up to which they are nearly the same.
+const NEARLY_LEVEL: f64 = 0.02;
+/// The same as [`SAME`] of those that do.
 const SAME_REPEATING: f64 = 1e-6;
 
 impl ModalMotion {
@@ -102,11 +108,22 @@ impl ModalMotion {
             largest_multiplier: None,
             starts: 1,
             resting: vec![None; absorbers],
+            state: None,
             periods,
             flights: vec![flight],
         };
         found.measure();
         found
+    }
+
+    /// The same where so much of each number is left open.
+    pub(super) fn within(mut self, part: f64) -> Self {
+        for sensor in &mut self.sensors {
+            sensor.error = part * sensor.peak;
+            sensor.rms[1] = part * sensor.rms[0];
+        }
+        self.impact_speed.iter_mut().for_each(|speed| speed[1] = part * speed[0]);
+        self
     }
 
     /// Forgets what all but so many sensors read.
@@ -182,7 +199,7 @@ impl ModalMotion {
     }
 
     /// Whether it is another flight of the same motion, by its displacements, whatever else is read.
-    pub(super) fn is_same(&self, other: &Self) -> bool {
+    pub fn is_same(&self, other: &Self) -> bool {
         let repeats = self.repeats_after.is_some();
         let share = if repeats { SAME_REPEATING } else { SAME };
         let near = |[a, of_a]: [f64; 2], [b, of_b]: [f64; 2]| {
@@ -197,6 +214,19 @@ impl ModalMotion {
         repeats == other.repeats_after.is_some()
             && own.iter().zip(&of).all(|(a, b)| peaks(a, b) && near(a.rms, b.rms))
             && impacts.into_iter().all(|(a, b)| near(*a, *b))
+    }
+
+    /// Whether what wanders has the same impacts and nearly the same peaks all the time, as if it repeated.
+    pub(super) fn looks_repeating(&self) -> bool {
+        let level = |of: &Vec<f64>, within: f64| {
+            let [least, most] = [f64::min, f64::max].map(|end| of.iter().copied().fold(of[0], end));
+            most - least <= within * most
+        };
+        let displaced = |n: &usize| self.sensors[*n].reads == Reading::Displacement;
+        self.flights.iter().all(|one| {
+            let mut peaks = (0..one.peaks.len()).filter(displaced).map(|n| &one.peaks[n]);
+            one.impacts.iter().all(|of| level(of, 0.0)) && peaks.all(|of| level(of, NEARLY_LEVEL))
+        })
     }
 
     /// Adds another flight of it; what repeats is known from one.

@@ -2,9 +2,7 @@
 
 use super::motion::ModalMotion;
 use super::stretch::{MOST_IMPACTS, SAME_STATE, Stretch, distance};
-use crate::orbits::{
-    CycleImpact, ModalCycle, ModalPeriodicOrbit, antiperiodic_orbits, orbit_state,
-};
+use crate::orbits::{CycleImpact, ModalCycle, antiperiodic_orbits, orbit_state};
 use crate::simulation::{
     Detail, ModalImpact, ModalObserver, ModalSimulation, ModalStartError, Sensor, Side,
 };
@@ -24,14 +22,13 @@ pub(super) struct Attracting {
 }
 
 impl Attracting {
-    /// The periodic motion that a state nearly is on, if it attracts, by each of its states; none where there is none, or an
-    /// absorber rests on a wall in it.
+    /// The periodic motion that a state nearly is on; none where there is none, or an absorber rests on a wall in it.
     pub fn near(
         system: &ModalSystem,
         sensors: &[Sensor],
         state: &ModalState,
         periods: u32,
-    ) -> Option<Vec<Self>> {
+    ) -> Option<Near> {
         let mut simulation = ModalSimulation::new(system, state, 0.0).ok()?;
         let mut seen = Sequence::default();
         simulation.run(periods.into(), u64::from(periods) * MOST_IMPACTS, &mut seen);
@@ -44,10 +41,13 @@ impl Attracting {
             return None;
         }
         let cycle = ModalCycle { state: *state, periods, impacts: seen.impacts };
-        let orbit = cycle.solve(system).ok().filter(ModalPeriodicOrbit::attracts)?;
+        let orbit = cycle.solve(system).ok()?;
         let begin = orbit.cycle.state;
         if distance(&begin, state) > NEAR_ORBIT {
             return None;
+        }
+        if !orbit.attracts() {
+            return Some(Near::Leaves);
         }
         // Its states, until it is there again: that may be so earlier.
         let mut on = ModalSimulation::new(system, &begin, 0.0).ok()?;
@@ -64,11 +64,20 @@ impl Attracting {
         let whole = Stretch::fly(&mut simulation, system, sensors, periods.into());
         let motion = ModalMotion {
             largest_multiplier: Some(orbit.radius_per_period()),
+            state: Some(begin),
             ..ModalMotion::of(sensors, &[whole], Some(periods), true, 1)
         };
         let on = |state| Self { state, reach: NEAR_PROVEN, motion: motion.clone() };
-        Some(states.into_iter().map(on).collect())
+        Some(Near::Attracts(states.into_iter().map(on).collect()))
     }
+}
+
+/// An exact orbit that a state nearly is on.
+pub(super) enum Near {
+    /// It attracts; by each of its states at the ends of periods.
+    Attracts(Vec<Attracting>),
+    /// It does not: a start on it is about to leave.
+    Leaves,
 }
 
 /// Impacts in their order, and whether an absorber came to rest on a wall.
@@ -106,6 +115,7 @@ pub(super) fn attracting(
         let multiplier = Some(radius * radius);
         let motion = ModalMotion {
             largest_multiplier: multiplier,
+            state: Some(state),
             starts: 0,
             ..ModalMotion::of(sensors, &[block], Some(1), true, 1)
         };
