@@ -6,12 +6,12 @@
 use super::driven_mode;
 use super::orbits::LoadOrbits;
 use crate::analysis::{
-    AbsorberGroup, GroupFixedPoint, UnforcedMode, effective_restitutions, scattered,
+    AbsorberGroup, GroupFixedPoint, UnforcedMode, effective_restitutions,
+    neglected_at_leading_order, scattered,
 };
 use crate::case::{Load, ModalCase};
 use crate::orbits::ModalOrbit;
 use crate::system::Mode;
-use crate::validation::tolerance::neglected;
 
 /// The theory of a mode under a load, at one frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,14 +64,15 @@ impl LoadTheory {
             absorbers.map(|(one, phi)| one.mass * phi * phi / mode.mass).sum()
         };
         let all: f64 = system.modes().iter().map(ratios).sum();
-        let beside = neglected(all - ratios(&system.modes()[mode]), 0.0, 0.0);
+        let beside = neglected_at_leading_order(all - ratios(&system.modes()[mode]), 0.0, 0.0);
         let group = AbsorberGroup::beside_others(&system, mode).map(|(group, _)| {
             let point = |one: &GroupFixedPoint| (farthest * one.amplitude, one.stable);
             let times = load.amplitude / group.forcing;
             let collisions = group.saddle_nodes();
             GroupTheory {
                 mass_ratio: group.mass_ratio,
-                error: neglected(group.mass_ratio, group.detuning, group.damping) + beside,
+                error: neglected_at_leading_order(group.mass_ratio, group.detuning, group.damping)
+                    + beside,
                 range: group.range().map(|range| range.map(|end| farthest * end)),
                 points: group.fixed_points().iter().map(point).collect(),
                 collisions: collisions.iter().map(|[_, forcing]| forcing * times).collect(),

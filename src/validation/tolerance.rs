@@ -1,5 +1,6 @@
 //! How wrong the leading-order theory may be.
 
+use crate::analysis::neglected_at_leading_order;
 use crate::regimes::Regime;
 use crate::system::System;
 
@@ -27,12 +28,7 @@ pub fn has_resonance(system: &System) -> bool {
 /// `sigma` and `lambda`. Measured against simulation, the errors of `C`, `B` and `eta` fall in
 /// proportion to `eps` and stay below this sum (test `asymptotic_error`).
 pub fn asymptotic_error(system: &System) -> f64 {
-    neglected(system.mass_ratio(), system.detuning(), system.damping())
-}
-
-/// The same of a mode with absorbers whose mass ratios add up to `eps`.
-pub fn neglected(mass_ratio: f64, detuning: f64, damping: f64) -> f64 {
-    mass_ratio * (2.0 + detuning.abs() + damping)
+    neglected_at_leading_order(system.mass_ratio(), system.detuning(), system.damping())
 }
 
 /// Errors of the asymptotics that the averaged flow may have: the terms that any slow flow neglects; averages that take

@@ -31,7 +31,7 @@ pub use fixed_points::{FixedPoint, FixedPointKind, solve as fixed_points};
 pub use manifold::{Manifold, ManifoldBranch};
 pub use several::{
     AbsorberGroup, Grading, GroupFixedPoint, GroupForces, GroupMember, UnforcedMode,
-    apparent_restitution, effective_restitutions, scattered,
+    apparent_restitution, effective_restitutions, neglected_at_leading_order, scattered,
 };
 
 /// The quadratic of the fixed points has a coefficient that is not finite.

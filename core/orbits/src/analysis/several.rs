@@ -264,6 +264,12 @@ impl AbsorberGroup {
     }
 }
 
+/// Relative size of what the expansion to leading order neglects, `eps (2 + abs(sigma) + lambda)`: terms that are `eps` times the kept
+/// ones, with coefficients made of 1, `sigma` and `lambda`.
+pub fn neglected_at_leading_order(mass_ratio: f64, detuning: f64, damping: f64) -> f64 {
+    mass_ratio * (2.0 + detuning.abs() + damping)
+}
+
 /// Restitution that a model of one mode needs where impacts also set other modes in motion that are well damped:
 /// `r_app = (1 + r)(1 + eps_n)/(1 + e) - 1`, from a drop test's `r`, the mass ratio `eps_n` of the mode that is kept and the
 /// sum `e` of all. A restitution fitted on the structure is already this one.
