@@ -101,7 +101,7 @@ impl Drawn {
     }
 
     fn log(&mut self, from: f64, to: f64) -> f64 {
-        self.between(from.ln(), to.ln()).exp()
+        libm::exp(self.between(libm::log(from), libm::log(to)))
     }
 }
 

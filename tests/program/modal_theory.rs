@@ -14,7 +14,7 @@ impl Drawn {
     }
 
     fn log(&mut self, from: f64, to: f64) -> f64 {
-        self.between(from.ln(), to.ln()).exp()
+        libm::exp(self.between(libm::log(from), libm::log(to)))
     }
 
     /// A structure of two to four modes under a force in the first at its frequency, with one or two absorbers at a place.

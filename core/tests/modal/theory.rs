@@ -212,7 +212,7 @@ fn an_orbit_of_all_modes_is_one_of_one_mode_with_the_effective_restitution() {
         let half = std::f64::consts::PI / all.frequency_ratio();
         let damped = w * (1.0_f64 - zeta * zeta).sqrt();
         let (a, b) = (zeta * w * half, damped * half);
-        let displaced = -b.sin() / (2.0 * damped * (a.cosh() + b.cos()));
+        let displaced = -libm::sin(b) / (2.0 * damped * (libm::cosh(a) + libm::cos(b)));
         for orbit in antiperiodic_orbits(&all) {
             let mut parameters = one.parameters().clone();
             let absorber = &mut parameters.absorbers[0];

@@ -2,7 +2,7 @@
 
 use super::motion::ModalMotion;
 use super::proven::{Attracting, Near};
-use super::stretch::{Repeats, SAME_STATE, Seen, Stretch, distance};
+use super::stretch::{MOST_IMPACTS, Repeats, SAME_STATE, Seen, Stretch, distance};
 use crate::numerics::scatter::drifts;
 use crate::simulation::{ModalSimulation, ModalStartError, Reading, Sensor, Stop};
 use crate::system::{ModalState, ModalSystem};
@@ -38,7 +38,7 @@ fn decay_periods(system: &ModalSystem) -> f64 {
 
 /// Excitation periods of a time in which the slowest mode decays.
 fn decay(system: &ModalSystem) -> u64 {
-    decay_periods(system).min(LONGEST).max(QUICKEST).ceil() as u64
+    decay_periods(system).clamp(QUICKEST, LONGEST).ceil() as u64
 }
 
 /// Excitation periods of a stretch, where so many starts of a place are measured together for at least so many `periods`: as long that
@@ -79,9 +79,9 @@ fn pushed(system: &ModalSystem, state: &ModalState) -> Option<ModalSimulation> {
 /// What became of a start.
 pub(super) enum End {
     /// A motion that it is on.
-    On(ModalMotion),
+    On(Box<ModalMotion>),
     /// It has not settled.
-    Open(Flight),
+    Open(Box<Flight>),
 }
 
 /// A start on its way.
@@ -95,6 +95,11 @@ pub(super) struct Flight {
 }
 
 impl Flight {
+    /// Most impacts until it has flown on for so many periods.
+    pub fn most_impacts(&self, periods: u64) -> u64 {
+        self.simulation.impacts() + MOST_IMPACTS * periods
+    }
+
     /// The same as a start that is not counted.
     pub fn uncounted(self) -> Self {
         Self { starts: 0, ..self }
@@ -165,23 +170,16 @@ impl Of<'_> {
                 let seen =
                     Stretch::fly(&mut flight.simulation, self.system, self.sensors, GIVEN_UP);
                 let motion = ModalMotion::of(self.sensors, &[seen], None, false, self.periods);
-                return End::On(ModalMotion { starts: flight.starts, ..motion });
+                return End::On(Box::new(ModalMotion { starts: flight.starts, ..motion }));
             }
             if let Some(known) = self.known(&mut flight.simulation, &seen.repeats_after()) {
-                return End::On(ModalMotion { starts: flight.starts, ..known });
+                return End::On(Box::new(ModalMotion { starts: flight.starts, ..known }));
             }
             left -= far;
         }
         flight.busy =
             flight.simulation.impacts().saturating_sub(before) as f64 / periods.max(1) as f64;
-        End::Open(flight)
-    }
-
-    /// Most impacts of a start that flies on for so many periods.
-    pub fn most_impacts(flight: &Flight, periods: u64) -> u64 {
-        /// In each of them.
-        const MOST: u64 = 2000;
-        flight.simulation.impacts() + MOST * periods
+        End::Open(Box::new(flight))
     }
 
     /// Measures what has not settled, beside so many other starts, over so many times the usual window: in blocks, once more where they

@@ -78,7 +78,7 @@ const FEWEST: usize = 3;
 
 /// Starts of a place that have not settled.
 struct Wandering {
-    open: Vec<Flight>,
+    open: Vec<Box<Flight>>,
     patience: Patience,
     /// Impacts that they have flown for since.
     impacts: f64,
@@ -153,13 +153,13 @@ impl Wandering {
         let mut settled = Vec::new();
         for flight in std::mem::take(&mut self.open) {
             self.impacts += flight.busy * periods as f64;
-            let most = Of::most_impacts(&flight, periods);
-            match of.fly_on(flight, periods, most) {
+            let most = flight.most_impacts(periods);
+            match of.fly_on(*flight, periods, most) {
                 End::On(motion) => {
                     if motion.settled {
                         self.patience.settles();
                     }
-                    settled.push(motion);
+                    settled.push(*motion);
                 }
                 End::Open(flight) => {
                     self.patience.flown(periods);
@@ -223,15 +223,15 @@ impl Search<'_> {
         let mut open = Vec::new();
         for k in 0..starts {
             match of.begin(&start(&system, k))? {
-                End::On(motion) => take(motion, &mut found),
+                End::On(motion) => take(*motion, &mut found),
                 End::Open(flight) => open.push(flight),
             }
         }
         for state in further {
             // Its place may be just outside of a cavity here.
             match of.begin(state) {
-                Ok(End::On(motion)) => take(ModalMotion { starts: 0, ..motion }, &mut found),
-                Ok(End::Open(flight)) => open.push(flight.uncounted()),
+                Ok(End::On(motion)) => take(ModalMotion { starts: 0, ..*motion }, &mut found),
+                Ok(End::Open(flight)) => open.push(Box::new(flight.uncounted())),
                 Err(_) => {}
             }
         }
