@@ -391,6 +391,8 @@ pub fn document(
             "worst": closed(&of::DAMPER_PEAK, one.worst.iter().copied().fold(0.0, f64::max)),
             "stroke": closed(&of::DAMPER_STROKE, one.strokes.iter().copied().fold(0.0, f64::max)),
             "holds": holds(case, &one.criteria),
+            // Whether there is no limit that a damper does not have.
+            "holds_all": one.criteria.iter().all(Option::is_some),
             "each": each.collect::<Vec<_>>(),
         })
     });
