@@ -343,14 +343,15 @@ pub(super) fn sensor_sees(
 /// expected instead.
 pub(crate) const AREAS_ARE_IDEAL: &str =
     "area Z3 is of a level cavity without friction whose walls are alike";
-const AREAS_ARE_OF_ONE: &str = "area Z3 is of one mode with one absorber";
 pub(super) const EXACT_INSTEAD: &str = "expected what exact orbits of this cavity decide";
 
 /// The limits of a table.
 pub(super) fn read_limits(reader: &mut Reader, table: &Table, asked: &Asked) -> Vec<Criterion> {
     let mut found = Vec::new();
     for subject in Subject::ALL {
-        let Some(value) = table.value(subject.key()) else { continue };
+        // Keys that are not of several are unknown there.
+        let is_known = asked.absorbers == 0 || subject.is_of_several();
+        let Some(value) = table.value(subject.key()).filter(|_| is_known) else { continue };
         if !makes_sense(reader, table, subject, asked) {
             continue;
         }
@@ -391,8 +392,7 @@ fn makes_sense(reader: &mut Reader, table: &Table, subject: Subject, asked: &Ask
         return false;
     }
     if subject == Subject::Z3Share && !asked.has_areas {
-        let message = if asked.absorbers > 0 { AREAS_ARE_OF_ONE } else { AREAS_ARE_IDEAL };
-        reader.report(table.span_of(key), message, EXACT_INSTEAD, "ask for `stable_share`");
+        reader.report(table.span_of(key), AREAS_ARE_IDEAL, EXACT_INSTEAD, "ask for `stable_share`");
         return false;
     }
     true
