@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use vinesink::case::ModalCase as Inner;
 use vinesink::case_input;
-use vinesink::modal::{ModalAnswer, ModalOptimum, orbits};
-use vinesink::report::modal::{Beside, analysis, checked, files, optimum, simulation};
+use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, orbits};
+use vinesink::report::modal::{analysis, checked, files, optimum, simulation};
 
 use crate::case::{not_read, reach, warned};
 use crate::decide;

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::case::ModalCase;
-use vinesink::modal::{ModalAnswer, ModalOptimum, checks, orbits, seconds};
+use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, checks, orbits, seconds};
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
 use vinesink::report::modal::{
-    Beside, analysis, analysis_text, files, optimum, optimum_text, simulation, text,
+    analysis, analysis_text, files, optimum, optimum_text, simulation, text,
 };
 use vinesink::report::render::Files;
 

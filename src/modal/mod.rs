@@ -4,6 +4,7 @@
 //! For the program itself: this module may change at any time.
 
 mod along;
+mod beside;
 mod cost;
 mod dampers;
 mod drift;
@@ -25,6 +26,7 @@ use crate::simulation::ModalStartError;
 use crate::system::{InvalidModalSystem, ModalSystem};
 
 pub use along::{AlongLoad, AtFrequency, seconds};
+pub use beside::Beside;
 pub use dampers::{DamperChoice, choices};
 pub use drift::{OffStructure, off_structures};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};

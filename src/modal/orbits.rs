@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::ModalError;
+use super::theory::LoadTheory;
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
 use crate::orbits::{ModalOrbit, ReachEnd, antiperiodic_orbits, stable_stretches};
@@ -22,6 +23,8 @@ pub struct LoadOrbits {
     pub at: f64,
     /// All orbits that are found.
     pub orbits: Vec<ModalOrbit>,
+    /// What theory says of the mode that is driven there.
+    pub theory: Option<LoadTheory>,
     /// Where one attracts, along each number that is looked at.
     pub along: Vec<Stretches>,
 }
@@ -71,7 +74,8 @@ pub fn at_resonances(case: &ModalCase) -> Result<Vec<LoadOrbits>, ModalError> {
     let each = all.flat_map(|(load, of)| of.resonances(case).into_iter().map(move |at| (load, at)));
     let found = each.map(|(load, at)| {
         let orbits = antiperiodic_orbits(&case.system(&case.loads[load], at)?);
-        Ok(LoadOrbits { load, at, orbits, along: Vec::new() })
+        let theory = LoadTheory::of(case, (load, at), &orbits);
+        Ok(LoadOrbits { load, at, orbits, theory, along: Vec::new() })
     });
     found.collect()
 }

@@ -4,7 +4,6 @@
 //! to have ([`effective_restitutions`]). An absorber at a node of the mode has no part in it.
 
 use super::driven_mode;
-use super::orbits::LoadOrbits;
 use crate::analysis::{
     AbsorberGroup, GroupFixedPoint, UnforcedMode, effective_restitutions,
     neglected_at_leading_order, scattered,
@@ -50,11 +49,15 @@ pub struct GroupTheory {
 }
 
 impl LoadTheory {
-    /// That of a load and a frequency whose exact orbits are known.
-    pub fn of(case: &ModalCase, found: &LoadOrbits) -> Option<Self> {
-        let load = &case.loads[found.load];
-        let system = case.system(load, found.at).ok()?;
-        let mode = driven_mode(case, &Load { range_hz: [found.at; 2], ..*load });
+    /// That of a load and a frequency in Hz whose exact orbits are known.
+    pub(super) fn of(
+        case: &ModalCase,
+        (number, at): (usize, f64),
+        orbits: &[ModalOrbit],
+    ) -> Option<Self> {
+        let load = &case.loads[number];
+        let system = case.system(load, at).ok()?;
+        let mode = driven_mode(case, &Load { range_hz: [at; 2], ..*load });
         let shape = &case.modes[mode].shape;
         let place = (0..shape.len()).max_by(|a, b| shape[*a].abs().total_cmp(&shape[*b].abs()))?;
         let farthest = shape[place].abs();
@@ -78,7 +81,7 @@ impl LoadTheory {
                 collisions: collisions.iter().map(|[_, forcing]| forcing * times).collect(),
             }
         });
-        let admissible = found.orbits.iter().filter(|orbit| orbit.admissible);
+        let admissible = orbits.iter().filter(|orbit| orbit.admissible);
         let amplitude = |orbit: &ModalOrbit| (farthest * orbit.harmonics[mode], orbit.stable());
         let mut exact: Vec<(f64, bool)> = admissible.map(amplitude).collect();
         exact.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -92,8 +95,8 @@ impl LoadTheory {
             (k, scattered(unforced))
         };
         Some(Self {
-            load: found.load,
-            at: found.at,
+            load: number,
+            at,
             mode,
             place,
             restitutions: effective_restitutions(&system, mode)?,

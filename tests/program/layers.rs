@@ -676,7 +676,9 @@ const READERS: [&str; 8] =
 /// A second way to fly a start would be a second answer.
 #[test]
 fn nobody_else_flies() {
-    let flies = Regex::new(r"\b(?:Simulation::new|batch::run|Measured::of)").expect("a pattern");
+    let flies =
+        Regex::new(r"\b(?:Modal)?(?:Simulation::new|batch::run|Measured::of)|\bmodal_motions\(")
+            .expect("a pattern");
     let mut rooms: Vec<String> = Vec::new();
     for (path, source) in sources() {
         let room = path.split('/').next().expect("a room");
@@ -688,13 +690,14 @@ fn nobody_else_flies() {
     rooms.dedup();
     assert_eq!(rooms.len(), READERS.len(), "{rooms:?}");
     assert!(flies.is_match("let mut flight = Simulation::new(&system, start, 0.0)?;"));
+    assert!(flies.is_match("let mut flight = ModalSimulation::new(&system, start, 0.0)?;"));
 }
 
 /// A page tells what was found: what it solves itself no command has seen.
 #[test]
 fn pages_solve_nothing() {
     let solves = Regex::new(
-        r"\b(?:Analysis|CavityAnalysis|CavityTheory|FullSystem|ImpactMap|SteadyOrbit|Survey|CaseStudy|(?:Decay|Sweep|Record)?Study)::(?:of|brief|over)\b|\b(?:steady_orbit|symmetric_orbits|two_impact_orbits)\(",
+        r"\b(?:Analysis|CavityAnalysis|CavityTheory|FullSystem|ImpactMap|SteadyOrbit|Survey|CaseStudy|(?:Decay|Sweep|Record)?Study|AbsorberGroup|AlongLoad|AtFrequency|Beside|LoadTheory|ModalAnswer|ModalOptimum|OffStructure|OverForce)::(?:of|brief|over)\b|\b(?:steady_orbit|symmetric_orbits|two_impact_orbits|antiperiodic_orbits|at_resonances|choices|modal_motions|modes_alone|off_structures)\(",
     );
     let solves = solves.expect("a pattern");
     let pages = sources().into_iter().filter(|(path, _)| path.starts_with("report/"));
@@ -702,6 +705,20 @@ fn pages_solve_nothing() {
         pages.filter(|(_, source)| solves.is_match(&code(source))).map(|(path, _)| path).collect();
     assert_eq!(solving, [""; 0]);
     assert!(solves.is_match("let theory = CavityTheory::of(system);"));
+    assert!(solves.is_match("let beside = Beside::of(case, &answer, on)?;"));
+    assert!(solves.is_match("let dampers = choices(case);"));
+}
+
+/// A criterion is judged by one rule, of whatever structure: nobody else makes a verdict.
+#[test]
+fn one_room_judges() {
+    let judges = Regex::new(r"[^>]\s+Judged\s*\{").expect("a pattern");
+    let others = sources().into_iter().filter(|(path, _)| !path.starts_with("criteria/"));
+    let judging: Vec<String> =
+        others.filter(|(_, source)| judges.is_match(&code(source))).map(|(path, _)| path).collect();
+    assert_eq!(judging, [""; 0]);
+    assert!(judges.is_match("let one = Judged { holds: Some(true), ..one };"));
+    assert!(!judges.is_match("fn judge(&self) -> Judged {"));
 }
 
 /// The judge sees the program's real imports: a pattern that matches nothing would forbid nothing.

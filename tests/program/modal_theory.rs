@@ -2,7 +2,7 @@
 
 use vinesink::analysis::AbsorberGroup;
 use vinesink::case::ModalCase;
-use vinesink::modal::{LoadTheory, at_resonances};
+use vinesink::modal::at_resonances;
 
 /// Numbers that nobody chose.
 struct Drawn(u64);
@@ -56,8 +56,10 @@ fn amplitudes_are_those_of_exact_orbits_within_their_error() {
     for number in 0..700 {
         let case = drawn.case();
         let found = at_resonances(&case).expect("a steady motion");
-        let Some(theory) = LoadTheory::of(&case, &found[0]) else { continue };
-        let Some(group) = theory.group.filter(|one| !one.points.is_empty()) else { continue };
+        let Some(theory) = &found[0].theory else { continue };
+        let Some(group) = theory.group.as_ref().filter(|one| !one.points.is_empty()) else {
+            continue;
+        };
         let Some(system) = case.system(&case.loads[0], 2.0).ok() else { continue };
         let alone = AbsorberGroup::of(&system, 0).expect("no node").fixed_points();
         let off = |exact: f64, amplitudes: &mut dyn Iterator<Item = f64>| {

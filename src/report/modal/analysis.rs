@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::{frequency_unit, given, load_row, stretch_rows, theory, units};
 use crate::case::ModalCase;
 use crate::method::Method;
-use crate::modal::{LoadOrbits, LoadTheory, Stretches, working_range};
+use crate::modal::{LoadOrbits, Stretches, working_range};
 use crate::orbits::{ModalOrbit, ReachEnd};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
@@ -37,7 +37,7 @@ pub fn analysis(case: &ModalCase, found: &[LoadOrbits]) -> Value {
             "at": one.at,
             "unit": frequency_unit(case),
             "orbits": one.orbits.iter().map(orbit).collect::<Vec<_>>(),
-            "theory": LoadTheory::of(case, one).map(|found| theory::row(case, &found)),
+            "theory": one.theory.as_ref().map(|found| theory::row(case, found)),
             "stable": one.along.iter().map(|along| stretches(case, one.load, along)).collect::<Vec<_>>(),
         })
     });

@@ -19,12 +19,8 @@ use super::render::{Files, in_lines, page_files};
 use super::template::{render, worded};
 use crate::case::{ActsOn, Criterion, Load, ModalCase, Of, StructuralMode};
 use crate::criteria::{Outcome, Worst};
-use crate::executor::Executor;
 use crate::method::Method;
-use crate::modal::{
-    DamperChoice, ForceStep, LoadTheory, ModalAnswer, ModalError, OffStructure, OverForce,
-    Stretches, at_resonances, choices, modes_alone, off_structures,
-};
+use crate::modal::{Beside, ForceStep, ModalAnswer, OffStructure, OverForce, Stretches};
 use crate::motions::{ModalMotion, SensorExtent};
 use crate::orbits::ReachEnd;
 use crate::quantity::catalogue as of;
@@ -39,43 +35,6 @@ pub use live::{at_frequency, over_frequency};
 pub use optimum::{optimum, optimum_text};
 
 use criteria::{compared, criteria, holds};
-
-/// What else is known of its loads.
-#[derive(Debug, Clone, Default)]
-pub struct Beside {
-    /// Tuned mass dampers.
-    dampers: Vec<DamperChoice>,
-    /// For each load what a model of the driven mode alone would say; none where there is none.
-    alone: Vec<Option<[f64; 2]>>,
-    /// For each load what it does with other amplitudes; none where there is no steady motion.
-    forces: Vec<Option<OverForce>>,
-    /// Where the natural frequencies are off.
-    off: Vec<OffStructure>,
-    /// What theory says of the modes that the loads drive.
-    theory: Vec<LoadTheory>,
-}
-
-impl Beside {
-    /// All that a report has.
-    ///
-    /// # Errors
-    /// [`ModalError`] where a motion cannot be flown.
-    pub fn of(
-        case: &ModalCase,
-        answer: &ModalAnswer,
-        on: &dyn Executor,
-    ) -> Result<Self, ModalError> {
-        let worst = |k: usize| answer.worst(case, Some(k)).and_then(|worst| worst.found.at);
-        let each = answer.along.iter().enumerate();
-        let forces = each.map(|(k, along)| OverForce::of(case, along, worst(k), on));
-        let forces = forces.collect::<Result<_, _>>()?;
-        let dampers = choices(case);
-        let off = off_structures(case, &dampers, on)?;
-        let orbits = at_resonances(case)?;
-        let theory = orbits.iter().filter_map(|one| LoadTheory::of(case, one)).collect();
-        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, off, theory })
-    }
-}
 
 /// Units of the pages of a case: lengths in that of the smallest clearance.
 pub fn units(case: &ModalCase) -> Units {

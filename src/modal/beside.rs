@@ -1,0 +1,47 @@
+//! What a report has beside the motions along the loads.
+
+use super::dampers::{DamperChoice, choices};
+use super::drift::{OffStructure, off_structures};
+use super::forces::OverForce;
+use super::orbits::at_resonances;
+use super::theory::LoadTheory;
+use super::{ModalAnswer, ModalError, modes_alone};
+use crate::case::ModalCase;
+use crate::executor::Executor;
+
+/// What else is known of its loads.
+#[derive(Debug, Clone, Default)]
+pub struct Beside {
+    /// Tuned mass dampers.
+    pub dampers: Vec<DamperChoice>,
+    /// For each load what a model of the driven mode alone would say; none where there is none.
+    pub alone: Vec<Option<[f64; 2]>>,
+    /// For each load what it does with other amplitudes; none where there is no steady motion.
+    pub forces: Vec<Option<OverForce>>,
+    /// Where the natural frequencies are off.
+    pub off: Vec<OffStructure>,
+    /// What theory says of the modes that the loads drive.
+    pub theory: Vec<LoadTheory>,
+}
+
+impl Beside {
+    /// All that a report has.
+    ///
+    /// # Errors
+    /// [`ModalError`] where a motion cannot be flown.
+    pub fn of(
+        case: &ModalCase,
+        answer: &ModalAnswer,
+        on: &dyn Executor,
+    ) -> Result<Self, ModalError> {
+        let worst = |k: usize| answer.worst(case, Some(k)).and_then(|worst| worst.found.at);
+        let each = answer.along.iter().enumerate();
+        let forces = each.map(|(k, along)| OverForce::of(case, along, worst(k), on));
+        let forces = forces.collect::<Result<_, _>>()?;
+        let dampers = choices(case);
+        let off = off_structures(case, &dampers, on)?;
+        let orbits = at_resonances(case)?;
+        let theory = orbits.into_iter().filter_map(|one| one.theory).collect();
+        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, off, theory })
+    }
+}
