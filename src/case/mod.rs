@@ -17,6 +17,7 @@ mod document;
 mod error;
 mod excitation;
 mod inputs;
+mod limits;
 mod modal;
 mod number;
 mod number_table;

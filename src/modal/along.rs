@@ -40,8 +40,7 @@ const EVEN: u32 = 13;
 const ROUNDS: u32 = 3;
 /// How often frequencies are searched in full that set how bad something may be.
 const MOST_IN_FULL: usize = 2;
-/// How often motions are followed to the next frequency, by how much worse they are then at least, and how many at a time.
-const MOST_FOLLOWED: usize = 1;
+/// By how much a motion is worse at least that is followed to the next frequency, and most of them from there.
 const FOLLOWED: f64 = 0.02;
 const MOST_STATES: usize = 2;
 /// How far beside the frequency of an undamped mode it is looked at, over it.
@@ -73,10 +72,143 @@ pub fn seconds(case: &ModalCase) -> f64 {
     periods * IMPACTS * IMPACT * size
 }
 
+/// A search along a load.
+struct Search<'a> {
+    case: &'a ModalCase,
+    load: &'a Load,
+    looks: Vec<Look>,
+    on: &'a dyn Executor,
+}
+
+impl Search<'_> {
+    /// The motions at a frequency in Hz, from so many starts with this part of the patience, and from `further` states.
+    fn at(&self, at: f64, starts: u32, patience: f64, further: &[ModalState]) -> Place {
+        let effort = ModalEffort { starts, periods: self.case.periods, patience };
+        AtFrequency::of(self.case, self.load, at, effort, further)
+    }
+
+    /// Closer and closer frequencies, from the first that are wanted.
+    fn round_by_round(&self, mut wanted: Vec<f64>) -> Result<Vec<AtFrequency>, ModalError> {
+        let [from, to] = self.load.range_hz;
+        let Self { case, load, .. } = *self;
+        // An undamped mode has no steady motion where an even step falls on it: a little beside.
+        let steady = |at: f64| if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) };
+        let patience = if from < to { ModalEffort::OF_MANY } else { ModalEffort::IN_FULL };
+        let (modes, mut places) = (within(case, load), Vec::<AtFrequency>::new());
+        for round in 0..=ROUNDS {
+            let part = if round == 0 && from < to { 2 } else { 1 };
+            let starts = case.starts_of(load).div_ceil(part);
+            // Between known frequencies the motions beside are the starts that matter.
+            let look = |k: usize| {
+                let at = steady(wanted[k]);
+                let right = places.partition_point(|one| one.at < at);
+                let beside = &places[right.saturating_sub(1)..places.len().min(right + 1)];
+                let states = |one: &AtFrequency| one.states().take(MOST_STATES).collect::<Vec<_>>();
+                let further: Vec<ModalState> = beside.iter().flat_map(states).collect();
+                self.at(at, starts, patience, &further)
+            };
+            let found = map(self.on, "motions along the loads", wanted.len(), look);
+            places.extend(found.into_iter().collect::<Result<Vec<_>, _>>()?);
+            places.sort_by(|a, b| a.at.total_cmp(&b.at));
+            places.dedup_by(|a, b| a.at == b.at);
+            if round < ROUNDS {
+                wanted = self.beside_worst(&places, &modes);
+            }
+        }
+        Ok(places)
+    }
+
+    /// Follows motions that are worse to the frequencies beside them, where they may be as well.
+    fn follow(&self, places: &mut [AtFrequency]) -> Result<(), ModalError> {
+        let all: &[AtFrequency] = places;
+        let worse = |k: usize| -> Vec<ModalState> {
+            let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
+            let motions = beside.filter_map(|k| all.get(k)).flat_map(AtFrequency::counting);
+            let is_worse = |one: &&ModalMotion| {
+                self.looks.iter().any(|look| {
+                    // What a longer run may come to there is no other motion.
+                    let known = all[k].reach(self.case, look).map(|reach| reach.0);
+                    let beyond = |known: f64| known + FOLLOWED * known.abs();
+                    let value = look.signed(self.case, one);
+                    value.is_some_and(|value| known.is_none_or(|known| value > beyond(known)))
+                })
+            };
+            motions.filter(is_worse).filter_map(|one| one.state).take(MOST_STATES).collect()
+        };
+        let followed = (0..all.len()).map(|k| (k, worse(k)));
+        let followed: Vec<(usize, Vec<ModalState>)> =
+            followed.filter(|(_, states)| !states.is_empty()).collect();
+        let look = |n: usize| {
+            let (k, states) = &followed[n];
+            self.at(all[*k].at, 0, ModalEffort::OF_MANY, states)
+        };
+        let found = map(self.on, "motions that are followed", followed.len(), look);
+        for ((k, _), found) in followed.iter().zip(found) {
+            places[*k].join(found?);
+        }
+        Ok(())
+    }
+
+    /// Searches frequencies again, with all patience, while what wanders there, and was not searched so, sets how bad something may be
+    /// along the load: it may be a transient, or hardly be known.
+    fn in_full(&self, places: &mut [AtFrequency]) -> Result<(), ModalError> {
+        let mut known: Vec<usize> = Vec::new();
+        for _ in 0..MOST_IN_FULL {
+            let worst = |look: &Look| {
+                let reach = |k: usize| Some((k, places[k].reach(self.case, look)?));
+                let all = (0..places.len()).filter_map(reach);
+                let (k, (_, wanders)) = all.max_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
+                (wanders && !known.contains(&k)).then_some(k)
+            };
+            let mut chosen: Vec<usize> = self.looks.iter().filter_map(worst).collect();
+            chosen.sort_unstable();
+            chosen.dedup();
+            let look = |n: usize| {
+                let here = &places[chosen[n]];
+                let further: Vec<ModalState> = here.states().collect();
+                self.at(here.at, self.case.starts, ModalEffort::IN_FULL, &further)
+            };
+            let found = map(self.on, "motions that decide", chosen.len(), look);
+            for (k, found) in chosen.iter().zip(found) {
+                places[*k] = found?;
+            }
+            known.extend(chosen);
+        }
+        Ok(())
+    }
+
+    /// Frequencies half way to the neighbours of the worst of all that is looked at: of all motions, and of those in which an absorber
+    /// moves; near each of these modes where that is not small.
+    fn beside_worst(&self, places: &[AtFrequency], modes: &[f64]) -> Vec<f64> {
+        let mut wanted: Vec<f64> = Vec::new();
+        for (look, rests) in self.looks.iter().flat_map(|one| [(one, true), (one, false)]) {
+            let worst =
+                |k: usize| places[k].worst(self.case, look, rests).unwrap_or(f64::NEG_INFINITY);
+            let most = (0..places.len()).map(worst).fold(f64::NEG_INFINITY, f64::max);
+            let not_small = if most > 0.0 { NOT_SMALL * most } else { most / NOT_SMALL };
+            for mode in 0..modes.len().max(1) {
+                let near = (0..places.len()).filter(|k| nearest(modes, places[*k].at) == mode);
+                let top = near.max_by(|a, b| worst(*a).total_cmp(&worst(*b)));
+                let Some(k) = top.filter(|k| worst(*k) >= not_small) else { continue };
+                for there in neighbours(places, k).into_iter().flatten() {
+                    let middle = 0.5 * (places[k].at + there.at);
+                    if !wanted.contains(&middle) {
+                        wanted.push(middle);
+                    }
+                }
+            }
+        }
+        wanted
+    }
+}
+
+/// What is found at a frequency.
+type Place = Result<AtFrequency, ModalError>;
+
 impl AlongLoad {
     pub(super) fn of(case: &ModalCase, load: &Load, on: &dyn Executor) -> Result<Self, ModalError> {
         let [from, to] = load.range_hz;
-        let mut wanted: Vec<f64> = match from < to {
+        let wanted: Vec<f64> = match from < to {
             true => {
                 // An undamped mode has no steady motion at its own frequency.
                 let damped = case.modes.iter().filter(|mode| mode.damping_ratio > 0.0);
@@ -89,123 +221,21 @@ impl AlongLoad {
             }
             false => vec![from],
         };
-        // Nor is there one where an even step falls on it: a little beside.
-        let steady = |at: f64| if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) };
-        let (modes, mut places) = (within(case, load), Vec::<AtFrequency>::new());
-        for round in 0..=ROUNDS {
-            let starts = if round == 0 && from < to {
-                case.starts.div_ceil(2)
-            } else {
-                case.starts_of(load)
-            };
-            let patience = if from < to { ModalEffort::OF_MANY } else { ModalEffort::IN_FULL };
-            // Between known frequencies the motions beside are the starts that matter.
-            let look = |k: usize| {
-                let at = steady(wanted[k]);
-                let right = places.partition_point(|one| one.at < at);
-                let beside = &places[right.saturating_sub(1)..places.len().min(right + 1)];
-                let further: Vec<ModalState> =
-                    beside.iter().flat_map(AtFrequency::states).collect();
-                AtFrequency::of(case, load, at, starts, patience, &further)
-            };
-            let found = map(on, "motions along the loads", wanted.len(), look);
-            places.extend(found.into_iter().collect::<Result<Vec<_>, _>>()?);
-            places.sort_by(|a, b| a.at.total_cmp(&b.at));
-            places.dedup_by(|a, b| a.at == b.at);
-            if round < ROUNDS {
-                wanted = beside_worst(&places, case, &modes);
-            }
-        }
+        let search = Search { case, load, looks: Look::all(case), on };
+        let mut places = search.round_by_round(wanted)?;
         if from < to {
-            Self::follow(case, load, &mut places, on)?;
-            Self::search_in_full(case, load, &mut places, on)?;
+            search.follow(&mut places)?;
+            search.in_full(&mut places)?;
         }
         let bare = (0..case.places.len())
             .map(|p| largest(load.range_hz, case, |at| amplitudes(case, load, at, &[]).places[p]));
+        let modes = within(case, load);
         Ok(Self { load: *load, bare: bare.collect(), places, modes })
     }
 
-    /// Follows motions that are worse to the frequencies beside them, where they may be as well.
-    fn follow(
-        case: &ModalCase,
-        load: &Load,
-        places: &mut [AtFrequency],
-        on: &dyn Executor,
-    ) -> Result<(), ModalError> {
-        let looks = Look::all(case);
-        for _ in 0..MOST_FOLLOWED {
-            let all: &[AtFrequency] = places;
-            let worse = |k: usize| -> Vec<ModalState> {
-                let beside = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
-                let beside = beside.filter_map(|beside| all.get(beside));
-                let motions = beside.flat_map(|one| one.counting());
-                let is_worse = |one: &&ModalMotion| {
-                    looks.iter().any(|look| {
-                        // What a longer run may come to there is no other motion.
-                        let known = all[k].reach(case, look).map(|reach| reach.0);
-                        let beyond = |known: f64| known + FOLLOWED * known.abs();
-                        let value = look.signed(case, one);
-                        value.is_some_and(|value| known.is_none_or(|known| value > beyond(known)))
-                    })
-                };
-                motions.filter(is_worse).filter_map(|one| one.state).take(MOST_STATES).collect()
-            };
-            let followed: Vec<(usize, Vec<ModalState>)> = (0..all.len())
-                .map(|k| (k, worse(k)))
-                .filter(|(_, states)| !states.is_empty())
-                .collect();
-            let look = |n: usize| {
-                let (k, states) = &followed[n];
-                AtFrequency::of(case, load, all[*k].at, 0, ModalEffort::OF_MANY, states)
-            };
-            let found = map(on, "motions that are followed", followed.len(), look);
-            let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-            let mut any = false;
-            for ((k, _), found) in followed.iter().zip(found) {
-                any |= places[*k].join(found);
-            }
-            if !any {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    /// Searches frequencies again, with all patience, while what wanders there, and was not searched so, sets how bad something may be
-    /// along the load: it may be a transient, or hardly be known.
-    fn search_in_full(
-        case: &ModalCase,
-        load: &Load,
-        places: &mut [AtFrequency],
-        on: &dyn Executor,
-    ) -> Result<(), ModalError> {
-        let looks = Look::all(case);
-        let mut known: Vec<f64> = Vec::new();
-        for _ in 0..MOST_IN_FULL {
-            let mut chosen: Vec<usize> = Vec::new();
-            for look in &looks {
-                let reach = |k: usize| places[k].reach(case, look);
-                let all = (0..places.len()).filter_map(|k| Some((k, reach(k)?)));
-                let worst = all.max_by(|a, b| a.1.0.total_cmp(&b.1.0));
-                let open =
-                    worst.filter(|(k, (_, wanders))| *wanders && !known.contains(&places[*k].at));
-                chosen.extend(open.map(|one| one.0).filter(|k| !chosen.contains(k)));
-            }
-            if chosen.is_empty() {
-                break;
-            }
-            known.extend(chosen.iter().map(|k| places[*k].at));
-            let look = |n: usize| {
-                let at = places[chosen[n]].at;
-                let further: Vec<ModalState> = places[chosen[n]].states().collect();
-                AtFrequency::of(case, load, at, case.starts, ModalEffort::IN_FULL, &further)
-            };
-            let found = map(on, "motions that decide", chosen.len(), look);
-            for (k, found) in chosen.iter().zip(found) {
-                places[*k] = found?;
-            }
-        }
-        Ok(())
+    /// What is known at one of its frequencies.
+    pub fn at(&self, at: f64) -> Option<&AtFrequency> {
+        self.places.iter().find(|one| one.at == at)
     }
 
     /// By how much what is looked at may be worse between the frequencies, where absorbers move, than at any of them, near every
@@ -230,24 +260,15 @@ impl AlongLoad {
     }
 }
 
-impl AlongLoad {
-    /// What is known at one of its frequencies.
-    pub fn at(&self, at: f64) -> Option<&AtFrequency> {
-        self.places.iter().find(|one| one.at == at)
-    }
-}
-
 impl AtFrequency {
     pub(super) fn of(
         case: &ModalCase,
         load: &Load,
         at: f64,
-        starts: u32,
-        patience: f64,
+        effort: ModalEffort,
         further: &[ModalState],
     ) -> Result<Self, ModalError> {
         let system = case.system(load, at)?;
-        let effort = ModalEffort { starts, periods: case.periods, patience };
         let motions = modal_motions(&system, &sensors(case), effort, further)?;
         Ok(Self { at, motions, count_rest: case.count_inactive })
     }
@@ -259,12 +280,11 @@ impl AtFrequency {
 
     /// States on its motions, from which they may be followed.
     fn states(&self) -> impl Iterator<Item = ModalState> {
-        self.counting().filter_map(|one| one.state).take(MOST_STATES)
+        self.counting().filter_map(|one| one.state)
     }
 
-    /// Takes over motions that are not known; whether there were any.
-    fn join(&mut self, found: Self) -> bool {
-        let count = self.motions.len();
+    /// Takes over motions that are not known.
+    fn join(&mut self, found: Self) {
         for motion in found.motions {
             if !self.motions.iter().any(|known| known.is_same(&motion)) {
                 // Those in which absorbers rest stay last.
@@ -273,7 +293,6 @@ impl AtFrequency {
                 self.motions.insert(end, motion);
             }
         }
-        self.motions.len() > count
     }
 
     /// How bad what is looked at may be with its error, its sign turned where the smallest is, and whether the motion wanders.
@@ -321,28 +340,4 @@ fn close(case: &ModalCase, load: &Load) -> impl Iterator<Item = f64> {
     let coarse = within(case, load).into_iter().filter(move |at| step > COARSE * at);
     let all = coarse.flat_map(|at| CLOSE.map(|off| at * (1.0 + off)));
     all.filter(move |at| (from..=to).contains(at))
-}
-
-/// Frequencies half way to the neighbours of the worst of all that is looked at: of all motions, and of those in which an absorber
-/// moves; near each of these modes where that is not small.
-fn beside_worst(places: &[AtFrequency], case: &ModalCase, modes: &[f64]) -> Vec<f64> {
-    let mut wanted: Vec<f64> = Vec::new();
-    let looks = Look::all(case);
-    for (look, rests) in looks.iter().flat_map(|one| [(one, true), (one, false)]) {
-        let worst = |k: usize| places[k].worst(case, look, rests).unwrap_or(f64::NEG_INFINITY);
-        let most = (0..places.len()).map(worst).fold(f64::NEG_INFINITY, f64::max);
-        let not_small = if most > 0.0 { NOT_SMALL * most } else { most / NOT_SMALL };
-        for mode in 0..modes.len().max(1) {
-            let near = (0..places.len()).filter(|k| nearest(modes, places[*k].at) == mode);
-            let top = near.max_by(|a, b| worst(*a).total_cmp(&worst(*b)));
-            let Some(k) = top.filter(|k| worst(*k) >= not_small) else { continue };
-            for there in neighbours(places, k).into_iter().flatten() {
-                let middle = 0.5 * (places[k].at + there.at);
-                if !wanted.contains(&middle) {
-                    wanted.push(middle);
-                }
-            }
-        }
-    }
-    wanted
 }

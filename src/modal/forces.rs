@@ -88,11 +88,13 @@ impl OverForce {
             true => (&ModalCase { periods: 0, ..case.clone() }, case.starts.div_ceil(2)),
             false => (case, case.starts_at_one),
         };
+        let (periods, patience) = (usual.periods, ModalEffort::OF_MANY);
+        let effort = ModalEffort { starts, periods, patience };
         let look = |k: usize| {
             let (step, at) = (k / at.len(), at[k % at.len()]);
             let known = along.places.iter().find(|one| times[step] == 1.0 && one.at == at);
             known.map_or_else(
-                || AtFrequency::of(usual, &with(step), at, starts, ModalEffort::OF_MANY, &[]),
+                || AtFrequency::of(usual, &with(step), at, effort, &[]),
                 |one| Ok(one.clone()),
             )
         };
@@ -109,9 +111,7 @@ impl OverForce {
                 ModalAnswer::judged(case, vec![along])
             };
             let judged = answer(&here, found.to_vec()).in_contact(&here, |shifted| {
-                let places = at.iter().map(|at| {
-                    AtFrequency::of(shifted, &load, *at, starts, ModalEffort::OF_MANY, &[])
-                });
+                let places = at.iter().map(|at| AtFrequency::of(shifted, &load, *at, effort, &[]));
                 Ok(answer(shifted, places.collect::<Result<_, _>>()?))
             })?;
             let outcomes = judged.judged.iter().map(Judged::outcome).collect();

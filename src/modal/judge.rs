@@ -33,12 +33,6 @@ impl ModalAnswer {
         Worst::of(&scope.each(&peak), &peak)
     }
 
-    /// The motion that something was found in.
-    pub fn motion(&self, found: &Found) -> Option<&ModalMotion> {
-        let here = self.along.get(found.load)?.at(found.at?)?;
-        here.motions.get(found.motion)
-    }
-
     /// A criterion by what is known.
     pub(super) fn judge(&self, case: &ModalCase, asked: &Criterion) -> Judged {
         let scope = Scope { case, along: &self.along, load: None };
@@ -66,7 +60,7 @@ impl Scope<'_> {
         asked: &Criterion,
         chosen: impl Fn(&AtFrequency, &ModalMotion) -> bool,
     ) -> Vec<Found> {
-        let against = self.against(asked);
+        let against = against(self.case, asked);
         let mut all = Vec::new();
         let loads = self.along.iter().enumerate();
         for (load, along) in loads.filter(|(k, _)| self.load.is_none_or(|one| one == *k)) {
@@ -74,6 +68,7 @@ impl Scope<'_> {
                 let looks = Look::of(asked, of);
                 let between = looks.map(|one| along.between(self.case, &one)).fold(0.0, f64::max);
                 for here in &along.places {
+                    let followed = self.followed(along, here);
                     let motions = here.motions.iter().enumerate();
                     for (number, motion) in motions.filter(|(_, one)| chosen(here, one)) {
                         let number_of =
@@ -94,7 +89,7 @@ impl Scope<'_> {
                             motion: number,
                             known_by: method(motion),
                             settled: motion.settled,
-                            followed: self.followed(along, here),
+                            followed,
                             resting: std::array::from_fn(|j| {
                                 motion.resting.get(j).is_some_and(Option::is_some)
                             }),
@@ -131,26 +126,6 @@ impl Scope<'_> {
         }
     }
 
-    /// The largest displacement that a criterion compares with: that of its place, or of any, under all loads.
-    fn against(&self, asked: &Criterion) -> f64 {
-        let without = |dampers: &[ModalDamper]| {
-            let peak = Criterion::at_most(Measure::Peak, 0.0);
-            let most = peak.and_then(|peak| {
-                linear_most(self.case, &Criterion { of: asked.of, ..peak }, dampers)
-            });
-            most.unwrap_or(f64::NAN)
-        };
-        match asked.measure.against() {
-            Some(Device::Without) => without(&[]),
-            Some(Device::Damper) => {
-                // The best of what moves, whatever else is asked.
-                let case = ModalCase { criteria: Vec::new(), ..self.case.clone() };
-                choices(&case).iter().map(|one| without(&one.dampers)).fold(f64::NAN, f64::min)
-            }
-            _ => f64::NAN,
-        }
-    }
-
     /// The share of the range of a load in which an exact orbit attracts that impacts on every absorber twice a period, of the load
     /// where it is least.
     fn stable_share(&self, asked: &Criterion) -> Judged {
@@ -182,6 +157,26 @@ impl Findings for Scope<'_> {
 
     fn too_few(&self, asked: &Criterion) -> Vec<Found> {
         self.found(asked, |here, motion| here.count_rest && !motion.counts(true))
+    }
+}
+
+/// The largest displacement that a criterion compares with, in m: that of its place, or of any, under all loads; not a number where it
+/// compares nothing.
+pub(super) fn against(case: &ModalCase, asked: &Criterion) -> f64 {
+    let peak = Criterion::at_most(Measure::Peak, 0.0);
+    let peak = peak.map(|peak| Criterion { of: asked.of, ..peak });
+    let with = |dampers: &[ModalDamper]| {
+        let most = peak.as_ref().and_then(|peak| linear_most(case, peak, dampers));
+        most.unwrap_or(f64::NAN)
+    };
+    match asked.measure.against() {
+        Some(Device::Without) => with(&[]),
+        Some(Device::Damper) => {
+            // The best of what moves, whatever else is asked.
+            let case = ModalCase { criteria: Vec::new(), ..case.clone() };
+            choices(&case).iter().map(|one| with(&one.dampers)).fold(f64::NAN, f64::min)
+        }
+        _ => f64::NAN,
     }
 }
 

@@ -8,6 +8,7 @@
 use std::cmp::Ordering;
 
 use super::cost::cost;
+use super::judge::against;
 use super::rest::farthest_at_rest;
 use super::sensors::{measured, parts, sensors};
 use super::{ModalAnswer, ModalError};
@@ -155,15 +156,15 @@ pub fn checks(case: &ModalCase) -> f64 {
 /// What criteria allow of single motions; of a case without such ones the displacement that it has without absorbers.
 fn limits(case: &ModalCase, answer: &ModalAnswer) -> Vec<Criterion> {
     let of_motions = case.criteria.iter().filter(|one| one.measure.part() != Part::Whole);
-    let limits: Vec<Criterion> = of_motions.map(|one| in_amplitudes(one, answer)).collect();
+    let limits: Vec<Criterion> = of_motions.map(|one| in_amplitudes(case, one)).collect();
     match limits.is_empty() {
         true => Criterion::at_most(Measure::Peak, answer.bare()).into_iter().collect(),
         false => limits,
     }
 }
 
-/// A limit of a reduction as one of the amplitude, which candidates are compared by: that of the structure alone for either.
-fn in_amplitudes(asked: &Criterion, answer: &ModalAnswer) -> Criterion {
+/// A limit of a reduction as one of the amplitude.
+fn in_amplitudes(case: &ModalCase, asked: &Criterion) -> Criterion {
     let turned = match asked.relation {
         Relation::AtLeast => Relation::AtMost,
         Relation::AtMost => Relation::AtLeast,
@@ -174,7 +175,7 @@ fn in_amplitudes(asked: &Criterion, answer: &ModalAnswer) -> Criterion {
         Some(_) => Criterion {
             measure: Measure::Peak,
             relation: turned,
-            limit: answer.bare() * libm::pow(10.0, -asked.limit / 20.0),
+            limit: against(case, asked) * libm::pow(10.0, -asked.limit / 20.0),
             ..asked.clone()
         },
     }

@@ -10,7 +10,6 @@ use crate::analysis::{
 };
 use crate::case::{Load, ModalCase};
 use crate::orbits::ModalOrbit;
-use crate::system::Mode;
 
 /// The theory of a mode under a load, at one frequency.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,13 +61,12 @@ impl LoadTheory {
         let place = (0..shape.len()).max_by(|a, b| shape[*a].abs().total_cmp(&shape[*b].abs()))?;
         let farthest = shape[place].abs();
         // What other modes move where impacts are, of the order of their mass ratios, with the same factor.
-        let ratios = |mode: &Mode| -> f64 {
-            let absorbers = system.absorbers().iter().zip(&mode.shape);
-            absorbers.map(|(one, phi)| one.mass * phi * phi / mode.mass).sum()
-        };
-        let all: f64 = system.modes().iter().map(ratios).sum();
-        let beside = neglected_at_leading_order(all - ratios(&system.modes()[mode]), 0.0, 0.0);
-        let group = AbsorberGroup::beside_others(&system, mode).map(|(group, _)| {
+        let own = &system.modes()[mode];
+        let of_others = |j: usize| system.mass_ratio(j) - system.modal_mass_ratio(own, j);
+        let of_others: f64 = (0..system.absorbers().len()).map(of_others).sum();
+        let beside = neglected_at_leading_order(of_others, 0.0, 0.0);
+        let others = (0..system.modes().len()).filter(|k| *k != mode);
+        let group = AbsorberGroup::beside_others(&system, mode).map(|group| {
             let point = |one: &GroupFixedPoint| (farthest * one.amplitude, one.stable);
             let times = load.amplitude / group.forcing;
             let collisions = group.saddle_nodes();
@@ -85,15 +83,7 @@ impl LoadTheory {
         let amplitude = |orbit: &ModalOrbit| (farthest * orbit.harmonics[mode], orbit.stable());
         let mut exact: Vec<(f64, bool)> = admissible.map(amplitude).collect();
         exact.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let others = system.modes().iter().enumerate().filter(|(k, _)| *k != mode);
-        let of_mode = |(k, other): (usize, &Mode)| {
-            let unforced = UnforcedMode {
-                frequency: other.frequency,
-                damping_ratio: other.damping_ratio,
-                excitation: system.frequency_ratio(),
-            };
-            (k, scattered(unforced))
-        };
+        let of_mode = |k: usize| (k, scattered(UnforcedMode::of(&system, k)));
         Some(Self {
             load: number,
             at,

@@ -7,7 +7,7 @@ use crate::regimes::Regime;
 use crate::simulation::Stop;
 
 /// What two averages that scatter may differ by, over the sum of their errors.
-const ERRORS: f64 = 2.0;
+pub(super) const ERRORS: f64 = 2.0;
 /// Windows from which on their scatter says more than each of them.
 const MANY: usize = 4;
 /// A change from the first half of all windows to the second, over twice its standard error, that is no chance.
@@ -17,7 +17,7 @@ const DRIFT: f64 = 1.5;
 const STAYS: std::ops::Range<f64> = 0.9..1.1;
 const MANY_STAY: std::ops::Range<f64> = 0.5..2.0;
 /// Relative difference below which averages are the same whatever their errors: what nobody measures.
-const NO_DIFFERENCE: f64 = 1e-3;
+pub(super) const NO_DIFFERENCE: f64 = 1e-3;
 
 /// Starts that wander together: windows of one motion, as far as averages tell.
 pub(super) struct Cluster {

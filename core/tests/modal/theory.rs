@@ -249,7 +249,7 @@ fn theory_knows_what_another_mode_changes() {
             let both = with_another(eps, [w, zeta], -1.0);
             let [one, all] = &both;
             let exact = [one, all].map(|system| attracting(system).harmonics[0]);
-            let (group, _) = AbsorberGroup::beside_others(all, 0).expect("seen");
+            let group = AbsorberGroup::beside_others(all, 0).expect("seen");
             let point = group.fixed_points().into_iter().find(|point| point.stable);
             let theory = [stable(one).amplitude, point.expect("one is stable").amplitude];
             let [exact, theory] = [exact, theory].map(|[without, with]| with / without - 1.0);

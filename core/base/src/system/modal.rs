@@ -237,8 +237,8 @@ impl ModalSystem {
         self.modes().iter().map(|mode| self.modal_mass_ratio(mode, absorber)).sum()
     }
 
-    /// `eps_kj = m_j phi_kj^2/M_k`.
-    fn modal_mass_ratio(&self, mode: &Mode, absorber: usize) -> f64 {
+    /// `eps_kj = m_j phi_kj^2/M_k`, an absorber's mass over that which a mode has at its place.
+    pub fn modal_mass_ratio(&self, mode: &Mode, absorber: usize) -> f64 {
         self.absorbers()[absorber].mass * mode.shape[absorber] * mode.shape[absorber] / mode.mass
     }
 

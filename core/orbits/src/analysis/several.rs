@@ -115,7 +115,7 @@ impl AbsorberGroup {
     /// [`scattered`]. An absorber that sits in a node of the mode is left out. `None` where all do, or there is no such mode.
     pub fn of(system: &ModalSystem, mode: usize) -> Option<Self> {
         let own = system.modes().get(mode)?;
-        let ratio = |j: usize| system.absorbers()[j].mass * own.shape[j] * own.shape[j] / own.mass;
+        let ratio = |j: usize| system.modal_mass_ratio(own, j);
         let indices = 0..system.absorbers().len();
         let mass_ratio: f64 = indices.clone().map(ratio).sum();
         let members = indices.filter(|j| own.shape[*j] != 0.0).map(|j| GroupMember {
@@ -133,19 +133,18 @@ impl AbsorberGroup {
         })
     }
 
-    /// The same with the restitutions that impacts seem to have as they set the other modes in motion too ([`effective_restitutions`]), in
-    /// the order of the absorbers of the system. `None` also where one is below 0: impacts then shake the others more than the mode.
-    pub fn beside_others(system: &ModalSystem, mode: usize) -> Option<(Self, Vec<f64>)> {
+    /// The same with the [`effective_restitutions`] that impacts seem to have as they set the other modes in motion too. `None` also where
+    /// one is below 0: impacts then shake the others more than the mode.
+    pub fn beside_others(system: &ModalSystem, mode: usize) -> Option<Self> {
         let restitutions = effective_restitutions(system, mode)?;
         if restitutions.iter().any(|one| *one < 0.0) {
             return None;
         }
         let mut parameters = system.parameters().clone();
-        for (one, apparent) in parameters.absorbers.iter_mut().zip(&restitutions) {
-            one.restitution = *apparent;
+        for (one, effective) in parameters.absorbers.iter_mut().zip(restitutions) {
+            one.restitution = effective;
         }
-        let group = Self::of(&ModalSystem::new(parameters).ok()?, mode)?;
-        Some((group, restitutions))
+        Self::of(&ModalSystem::new(parameters).ok()?, mode)
     }
 
     /// The amplitudes at which every absorber is in symmetric 1:1 resonance, if there are any.
@@ -289,21 +288,16 @@ pub fn apparent_restitution(restitution: f64, kept: f64, all: f64) -> f64 {
 /// that is [`apparent_restitution`].
 pub fn effective_restitutions(system: &ModalSystem, mode: usize) -> Option<Vec<f64>> {
     let own = system.modes().get(mode)?;
+    let others = (0..system.modes().len()).filter(|k| *k != mode);
     let each = system.absorbers().iter().enumerate().map(|(j, one)| {
-        let ratio = |mode: &Mode| one.mass * mode.shape[j] * mode.shape[j] / mode.mass;
-        let (mut all, mut kept) = (ratio(own), 0.0);
-        for (_, other) in system.modes().iter().enumerate().filter(|(k, _)| *k != mode) {
-            let unforced = UnforcedMode {
-                frequency: other.frequency,
-                damping_ratio: other.damping_ratio,
-                excitation: system.frequency_ratio(),
-            };
-            all += ratio(other);
-            kept += ratio(other) * (1.0 - scattered(unforced));
-        }
         let r = one.restitution;
-        let a = (1.0 - r + 2.0 * all) / (1.0 + r) - kept;
-        (1.0 + 2.0 * ratio(own) - a) / (1.0 + a)
+        let kept = |k: usize| {
+            let back = 1.0 - scattered(UnforcedMode::of(system, k));
+            system.modal_mass_ratio(&system.modes()[k], j) * back
+        };
+        let all = (1.0 - r + 2.0 * system.mass_ratio(j)) / (1.0 + r);
+        let a = all - others.clone().map(kept).sum::<f64>();
+        (1.0 + 2.0 * system.modal_mass_ratio(own, j) - a) / (1.0 + a)
     });
     Some(each.collect())
 }
@@ -317,6 +311,14 @@ pub struct UnforcedMode {
     pub damping_ratio: f64,
     /// `Omega`.
     pub excitation: f64,
+}
+
+impl UnforcedMode {
+    /// A mode of a system, from 0, as if nothing forced it.
+    pub fn of(system: &ModalSystem, mode: usize) -> Self {
+        let Mode { frequency, damping_ratio, .. } = system.modes()[mode];
+        Self { frequency, damping_ratio, excitation: system.frequency_ratio() }
+    }
 }
 
 /// The energy that each impact of a symmetric 1:1 motion scatters into a mode that is not forced, over that which it would on

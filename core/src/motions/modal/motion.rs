@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::stretch::Stretch;
 use crate::motions::NEGLIGIBLE;
+use crate::motions::cluster::{ERRORS, NO_DIFFERENCE};
 use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
 use crate::simulation::{Reading, Sensor, SensorRecord};
 use crate::system::ModalState;
@@ -64,12 +65,9 @@ pub(super) struct FlightCourse {
     speeds: Vec<Vec<f64>>,
 }
 
-/// Relative difference up to which root mean squares and impacts of two motions that do not repeat are the same, beside their
-/// errors.
-const SAME: f64 = 0.02;
 /// Relative difference of largest displacements of stretches up to which they are nearly the same.
 const NEARLY_LEVEL: f64 = 0.02;
-/// The same as [`SAME`] of those that do.
+/// Relative difference up to which peaks, root mean squares and impacts of two motions that repeat are the same.
 const SAME_REPEATING: f64 = 1e-6;
 
 impl ModalMotion {
@@ -198,12 +196,15 @@ impl ModalMotion {
         self.sensors.iter().filter(move |one| one.reads == reads)
     }
 
-    /// Whether it is another flight of the same motion, by its displacements, whatever else is read.
+    /// Whether it is another flight of the same motion, by its displacements, whatever else is read: what wanders as with one mode.
     pub fn is_same(&self, other: &Self) -> bool {
         let repeats = self.repeats_after.is_some();
-        let share = if repeats { SAME_REPEATING } else { SAME };
         let near = |[a, of_a]: [f64; 2], [b, of_b]: [f64; 2]| {
-            (a - b).abs() <= share * a.max(b) + of_a + of_b
+            (a - b).abs()
+                <= match repeats {
+                    true => SAME_REPEATING * a.max(b) + of_a + of_b,
+                    false => (ERRORS * (of_a + of_b)).max(NO_DIFFERENCE * a.max(b)),
+                }
         };
         let peaks =
             |a: &SensorExtent, b: &SensorExtent| !repeats || near([a.peak, 0.0], [b.peak, 0.0]);

@@ -1,11 +1,10 @@
 //! The search: starts, with every set of absorbers at rest that no wall reaches.
 
-use super::flight::{End, Flight, Of, window};
+use super::flight::{End, Of};
 use super::motion::{ModalMotion, SensorExtent};
 use super::proven::attracting;
+use super::wandering::Wandering;
 use crate::linear::ModalAmplitudes;
-use crate::motions::patience::{Missing, Patience, Thoroughness};
-use crate::motions::sampler::VAGUE_IN_FULL;
 use crate::motions::starts::position;
 use crate::simulation::{ModalStartError, Reading, Sensor};
 use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
@@ -29,6 +28,9 @@ impl ModalEffort {
     pub const OF_MANY: f64 = 0.1;
 }
 
+/// Most starts for each set of absorbers that are held at rest: of eight there are 254 such sets.
+const MOST_HELD: u32 = 6;
+
 /// The long-term motions that these sensors read; the most common first, then those in which some absorbers rest, and where every one
 /// can rest that. `further` are states of motions elsewhere, where starts begin that are not counted.
 ///
@@ -45,14 +47,15 @@ pub fn modal_motions(
     let search = Search { system, sensors: with_absorbers(system, sensors), effort };
     let (mut found, at_rest) = search.moving(&[], starts, further)?;
     let mut tried: Vec<Vec<usize>> = Vec::new();
+    let held = starts.div_ceil(2).min(MOST_HELD);
     let mut next = 0;
-    while let Some(motion) = found.get(next) {
+    while let Some(motion) = found.get(next).filter(|_| held > 0) {
         next += 1;
         for rest in search.may_rest(motion) {
             if tried.contains(&rest) {
                 continue;
             }
-            let (further, _) = search.moving(&rest, starts.div_ceil(2), &[])?;
+            let (further, _) = search.moving(&rest, held, &[])?;
             let known = |one: &ModalMotion| found.iter().any(|known| known.is_same(one));
             let further = further.into_iter().filter(|one| !known(one));
             let further: Vec<ModalMotion> = further.collect();
@@ -66,116 +69,6 @@ pub fn modal_motions(
         motion.read_by_first(sensors.len());
     }
     Ok(found)
-}
-
-/// Impacts of starts that wander after which a place is given up that is searched in full, some seconds; what still wanders may then be
-/// a transient.
-const MOST_IMPACTS: f64 = 3e6;
-/// How often what wanders is measured again where it is not one motion, each time for twice as long; and where it looks like one that
-/// repeats.
-const LONGEST: usize = 4;
-const FEWEST: usize = 3;
-
-/// Starts of a place that have not settled.
-struct Wandering {
-    open: Vec<Box<Flight>>,
-    patience: Patience,
-    /// Impacts that they have flown for since.
-    impacts: f64,
-}
-
-impl Wandering {
-    /// What they come to, beside motions that are found: flown on while others still settle, and measured; again where they then are not
-    /// one motion, as with one mode.
-    fn ends(mut self, of: &mut Of, patience: f64, found: &[ModalMotion]) -> Vec<ModalMotion> {
-        let (most, in_full) = (MOST_IMPACTS * patience, patience >= ModalEffort::IN_FULL);
-        let mut ends: Vec<ModalMotion> = Vec::new();
-        let (mut impatient, mut longer) = (false, 0);
-        for round in 0..=LONGEST {
-            while !self.open.is_empty() {
-                let beside = found.iter().chain(&ends).any(|one| one.settled && !one.rests());
-                let Missing { windows, usual } = self.patience.missing(self.open.len(), beside);
-                let gives_up = !self.patience.goes_on() || self.impacts > most;
-                if windows <= 0.0 || gives_up {
-                    impatient = usual;
-                    break;
-                }
-                let [each, _] = self.next(windows);
-                ends.extend(self.fly_on(of, each));
-            }
-            let (count, times) = (self.open.len(), 1 << longer);
-            let measured: Vec<ModalMotion> =
-                self.open.iter_mut().map(|flight| of.measured(flight, count, times)).collect();
-            let wander = || measured.iter().filter(|one| one.repeats_after.is_none());
-            let is_one = wander().all(|one| wander().all(|other| one.is_same(other)));
-            // What looks like a motion that repeats may leave, or settle, slowly; of few captures a larger value than was seen is likely.
-            let restless = !is_one || round < FEWEST && wander().any(ModalMotion::looks_repeating);
-            let gives_up = !self.patience.goes_on() || self.impacts > most;
-            let again = in_full && !gives_up && round < LONGEST;
-            longer += 1;
-            if again && !restless && is_vague(wander()) {
-                continue;
-            }
-            if !(again && restless) {
-                // They may be transients where there was no time to tell; of many places those are searched again that decide.
-                let open = in_full && (impatient || gives_up && restless);
-                let settled = |one: ModalMotion| {
-                    let settled = one.settled && !(open && one.repeats_after.is_none());
-                    ModalMotion { settled, ..one }
-                };
-                ends.extend(measured.into_iter().map(settled));
-                break;
-            }
-            let mut open = Vec::new();
-            for (flight, motion) in self.open.drain(..).zip(measured) {
-                if motion.repeats_after.is_some() {
-                    self.patience.settles();
-                    ends.push(motion);
-                } else {
-                    open.push(flight);
-                }
-            }
-            self.open = open;
-            let [_, most] = self.next(0.0);
-            ends.extend(self.fly_on(of, most));
-        }
-        ends
-    }
-
-    /// A round of the patience.
-    fn next(&mut self, windows: f64) -> [u64; 2] {
-        let busiest = self.open.iter().map(|one| one.busy).fold(0.0, f64::max);
-        self.patience.next(windows, self.open.len().max(1), busiest)
-    }
-
-    /// Flies all of them on for so many periods; those that have settled by then.
-    fn fly_on(&mut self, of: &mut Of, periods: u64) -> Vec<ModalMotion> {
-        let mut settled = Vec::new();
-        for flight in std::mem::take(&mut self.open) {
-            self.impacts += flight.busy * periods as f64;
-            let most = flight.most_impacts(periods);
-            match of.fly_on(*flight, periods, most) {
-                End::On(motion) => {
-                    if motion.settled {
-                        self.patience.settles();
-                    }
-                    settled.push(*motion);
-                }
-                End::Open(flight) => {
-                    self.patience.flown(periods);
-                    self.open.push(flight);
-                }
-            }
-        }
-        settled
-    }
-}
-
-/// Whether a longer run of a motion may have a displacement that is larger by a good part of what was seen from some starts.
-fn is_vague<'a>(mut starts: impl Iterator<Item = &'a ModalMotion>) -> bool {
-    let Some(mut motion) = starts.next().cloned() else { return false };
-    starts.for_each(|one| motion.join(one));
-    motion.read(Reading::Displacement).any(|one| one.error > VAGUE_IN_FULL * one.peak)
 }
 
 /// Sensors, and the displacement of the structure at each absorber behind them.
@@ -238,25 +131,11 @@ impl Search<'_> {
         // Of motions in which absorbers rest there are many.
         let most = if rest.is_empty() { ModalEffort::IN_FULL } else { ModalEffort::OF_MANY };
         let part = self.effort.patience.min(most);
-        let patience = self.patience(&system, starts, part);
-        let wandering = Wandering { open, patience, impacts: 0.0 };
-        for motion in wandering.ends(&mut of, part, &found) {
+        for motion in Wandering::of(open, &of, starts, part).ends(&mut of, &found) {
             take(motion, &mut found);
         }
         let found = found.into_iter().filter_map(|one| self.with_resting(one, rest)).collect();
         Ok((found, at_rest))
-    }
-
-    /// The patience with starts that wander.
-    fn patience(&self, system: &ModalSystem, starts: u32, patience: f64) -> Patience {
-        let periods = self.effort.periods;
-        Patience::with(Thoroughness {
-            periods: window(system, periods),
-            starts: starts as usize,
-            effort: if patience > 0.0 { 1.0 } else { 0.0 },
-            place: patience,
-            in_full: false,
-        })
     }
 
     /// The sensors for a structure without these absorbers.
