@@ -118,7 +118,7 @@ int main(void)
     double fastest = omega, out = number(), measured = number(), rest;
     if (scanf("%lf", &rest) != 1) rest = 0;
     for (int j = 0; j < absorbers; j++) absent[j] = ((int)rest >> j) & 1;
-    double share = 1.2 * rand() / RAND_MAX, moving = base * omega;
+    double share = 4.0 * rand() / RAND_MAX, moving = base * omega;
     long impacts[MOST] = {0};
     double last[MOST][2] = {{0}};
     for (int k = 0; k < modes; k++) {

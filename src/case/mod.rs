@@ -68,7 +68,7 @@ pub use record::{ReadRecord, RecordSource, Recording};
 pub use record_file::RecordFormat;
 pub use reduced::Reduced;
 pub use rewrite::{RewriteError, Rewritten, Rounding};
-pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema, schema_of_several};
+pub use schema::{FILE_NAME as SCHEMA_FILE_NAME, schema};
 pub use settings::{
     AccuracySettings, AlternativesSettings, ExtraFigure, PageUnits, ReportSettings,
     SimulationSettings,

@@ -43,14 +43,29 @@ pub(super) fn schema_of<T: JsonSchema>() -> Value {
     settings.into_generator().into_root_schema_for::<T>().to_value()
 }
 
-/// The JSON Schema of a case file.
+/// The JSON Schema of a case file: `$defs` has that of a structure of one mode and one absorber, `one`, and that of lists of them,
+/// `several`; the keys of a case choose which of them it has to fit.
 pub fn schema() -> Value {
-    printed(&SCHEMA)
-}
-
-/// The JSON Schema of a case of several modes or absorbers.
-pub fn schema_of_several() -> Value {
-    printed(&schema_of::<super::modal::ModalFile>())
+    let [mut one, mut several] = [&*SCHEMA, &schema_of::<super::modal::ModalFile>()].map(printed);
+    let drafts = [&mut one, &mut several].map(|part| part.as_object_mut()?.remove("$schema"));
+    let [of_one, of_several] =
+        ["one", "several"].map(|part| json!({ "$ref": format!("#/$defs/{part}") }));
+    let has = |key: &str| json!({ "required": [key] });
+    let reduced = json!({ "properties": { "reduced": { "anyOf": [has("mode"), has("absorber")] } }, "required": ["reduced"] });
+    let listed =
+        json!({ "properties": { "absorber": { "type": "array" } }, "required": ["absorber"] });
+    json!({
+        "$schema": drafts[0],
+        "title": "vinesink case",
+        "description": "A design of a vibro-impact nonlinear energy sink.",
+        "type": "object",
+        "if": { "anyOf": [has("mode"), has("modes"), listed, reduced] },
+        "then": of_several,
+        "else": of_one,
+        // Editors complete by what they find here, and do not look behind `if`; anything fits.
+        "anyOf": [of_one, of_several, true],
+        "$defs": { "one": one, "several": several },
+    })
 }
 
 fn printed(schema: &Value) -> Value {

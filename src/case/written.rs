@@ -70,7 +70,7 @@ fn value(of: &DeValue) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{schema, schema_of_several};
+    use crate::case::schema;
 
     /// The keys of a schema with an example each, by the tables that they stand in; one of a list of tables is a table.
     fn keys(of: &Value, at: &mut Vec<String>, found: &mut Vec<(Vec<String>, Value)>) {
@@ -97,9 +97,10 @@ mod tests {
     /// Whatever a case may say is kept, be it a number, a word, a flag, a list or a table.
     #[test]
     fn every_key_of_the_schemas_is_kept() {
-        for schema in [schema(), schema_of_several()] {
+        let schema = schema();
+        for name in ["one", "several"] {
             let mut all = Vec::new();
-            keys(&schema, &mut Vec::new(), &mut all);
+            keys(&schema["$defs"][name], &mut Vec::new(), &mut all);
             assert!(all.len() > 60, "{}", all.len());
             for (path, example) in all {
                 let (key, tables) = path.split_last().expect("a key");

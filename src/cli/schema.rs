@@ -11,19 +11,13 @@ use vinesink::program::output;
 /// whose first line is `#:schema vinesink.schema.json`.
 #[derive(Debug, Args)]
 #[command(after_long_help = EXAMPLES)]
-pub struct Arguments {
-    /// Of a case of several modes or absorbers.
-    #[arg(long)]
-    several: bool,
-}
+pub struct Arguments {}
 
 const EXAMPLES: &str = "\
-Examples:
-  vinesink schema > vinesink.schema.json        beside the cases that refer to it
-  vinesink schema --several > vinesink-several.schema.json";
+Example:
+  vinesink schema > vinesink.schema.json        beside the cases that refer to it";
 
-pub fn run(arguments: Arguments) -> Result<bool> {
-    let schema = if arguments.several { case::schema_of_several() } else { case::schema() };
-    output::print_json(&schema)?;
+pub fn run(_: Arguments) -> Result<bool> {
+    output::print_json(&case::schema())?;
     Ok(true)
 }

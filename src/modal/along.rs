@@ -6,6 +6,7 @@ use super::rest::farthest_at_rest;
 use super::sensors::{Look, sensors};
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
+use crate::linear::carried_frequencies;
 use crate::motions::{ModalEffort, ModalMotion, longest_flight, modal_motions, worst_between};
 use crate::numerics::scan;
 use crate::system::ModalState;
@@ -215,7 +216,7 @@ impl AlongLoad {
                 let resonances = damped.map(|mode| mode.frequency_hz);
                 let resonances = resonances.filter(|at| from < *at && *at < to);
                 let even = scan::places([from, to], EVEN - 1).chain(resonances);
-                let even = even.chain(close(case, load));
+                let even = even.chain(close(case, load)).chain(carried(case, load));
                 let at_rest = farthest_at_rest(case, load).into_iter().map(|one| one.0);
                 even.chain(at_rest).collect()
             }
@@ -325,6 +326,14 @@ fn within(case: &ModalCase, load: &Load) -> Vec<f64> {
     let [from, to] = load.range_hz;
     let all = case.modes.iter().map(|mode| mode.frequency_hz);
     all.filter(|at| (from..=to).contains(at)).collect()
+}
+
+/// Natural frequencies in the range of a load of the structure that carries its absorbers, in Hz.
+fn carried(case: &ModalCase, load: &Load) -> Vec<f64> {
+    let [from, to] = load.range_hz;
+    let Ok(system) = case.system(load, load.centre(case)) else { return Vec::new() };
+    let all = carried_frequencies(&system).into_iter();
+    all.map(|over| over * case.modes[0].frequency_hz).filter(|at| from < *at && *at < to).collect()
 }
 
 /// Which of some natural frequencies is nearest; the first where there is none.

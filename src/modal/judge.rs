@@ -46,10 +46,10 @@ impl ModalAnswer {
 
 /// The layer that a motion is known by.
 fn method(motion: &ModalMotion) -> Method {
-    match (motion.rests(), motion.largest_multiplier) {
+    match (motion.rests(), motion.is_orbit) {
         (true, _) => Method::ClosedForm,
-        (false, Some(_)) => Method::ExactOrbit,
-        (false, None) => Method::Simulation,
+        (false, true) => Method::ExactOrbit,
+        (false, false) => Method::Simulation,
     }
 }
 

@@ -311,11 +311,11 @@ fn every_key_of_a_case_has_its_line() {
             told.entry(table.clone()).or_default().insert(key);
         }
     }
-    let schema = vinesink::case::schema();
+    let schema = &vinesink::case::schema()["$defs"]["one"];
     let mut wanted: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     let mut values = BTreeSet::new();
-    names(&schema, &mut values);
-    for key in keys(&schema) {
+    names(schema, &mut values);
+    for key in keys(schema) {
         let inside = keys(&schema["properties"][&key]);
         wanted.entry(String::new()).or_default().insert(key.clone());
         if !inside.is_empty() {

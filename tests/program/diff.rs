@@ -820,8 +820,9 @@ fn keys_of(schema: &Value, at: &[String], found: &mut Vec<Vec<String>>) {
 #[test]
 fn every_key_of_a_case_is_an_input() {
     let mut all = Vec::new();
-    for schema in [vinesink::case::schema(), vinesink::case::schema_of_several()] {
-        keys_of(&schema, &[], &mut all);
+    let schema = vinesink::case::schema();
+    for name in ["one", "several"] {
+        keys_of(&schema["$defs"][name], &[], &mut all);
     }
     all.retain(|path| !["title", "source"].contains(&path[0].as_str()));
     assert!(all.len() > 150, "{} keys", all.len());

@@ -6,6 +6,7 @@
 //! ([`Passage`], [`Response`]).
 
 mod along;
+mod carried;
 mod damper;
 mod modal;
 mod motion;
@@ -15,6 +16,7 @@ mod settling;
 
 pub use along::BandSystems;
 pub use along::{Damped, bare_along};
+pub use carried::{carried_frequencies, carried_state};
 pub use damper::TunedMassDamper;
 pub use modal::{ModalAmplitudes, ModalDamper};
 pub use motion::{Linear, driven, released, released_between, swept};

@@ -1,7 +1,10 @@
 //! Long-term motions and linear devices: one mode and one absorber by the room that knows them, and closed forms.
 
 use vinesink_core::executor::Serial;
-use vinesink_core::linear::{ModalAmplitudes, ModalDamper, TunedMassDamper, bare_amplitude};
+use vinesink_core::linear::{
+    ModalAmplitudes, ModalDamper, TunedMassDamper, bare_amplitude, carried_frequencies,
+    carried_state,
+};
 use vinesink_core::motions::{Effort, ModalEffort, Motion, Place, modal_motions, motions};
 use vinesink_core::orbits::FullSystem;
 use vinesink_core::simulation::{
@@ -96,41 +99,65 @@ fn the_motion_of_one_mode_and_one_absorber_is_its_exact_orbit() {
     assert!(seen > 1 && led > 0, "{seen} orbits attract, {led} starts lead to one");
 }
 
-/// What repeats is an exact orbit: the one that the search for one mode and one absorber has, with its multiplier.
-#[test]
-fn what_repeats_is_proven_as_with_one_mode() {
-    let mut draw = Draw(20_261_130);
-    let (mut proven, mut further, mut others, mut long) = (0, 0, 0, 0);
+/// What repeats of drawn designs with such a restitution.
+#[derive(Debug, Default)]
+struct Repeating {
+    /// Solved for, those of more than a period, those in which the absorber rests on a wall, and those that the search for one mode
+    /// does not have with their multiplier.
+    solved: usize,
+    long: usize,
+    contact: usize,
+    further: usize,
+    /// Not solved for.
+    others: usize,
+}
+
+fn repeating(seed: u64, restitution: [f64; 2]) -> Repeating {
+    let (mut draw, mut seen) = (Draw(seed), Repeating::default());
     for _ in 0..60 {
         let (omega, force) = (draw.within(0.96, 1.04), FORCE * draw.within(0.3, 3.0));
-        let (system, modal) = forced(omega, force, draw.within(0.3, 0.8));
+        let (system, modal) = forced(omega, force, draw.within(restitution[0], restitution[1]));
         let known = motions(&[Place::new(&system, 32)], &Effort::default(), &Serial);
         let known = known.expect("they fly").remove(0);
         let found = modal_motions(&modal, &[Sensor::displacement(vec![1.0])], effort(3, 300), &[]);
         for one in found.expect("they fly").iter().filter(|one| !one.rests()) {
             let Some(multiplier) = one.largest_multiplier else {
-                others += usize::from(one.repeats_after.is_some());
+                seen.others += usize::from(one.repeats_after.is_some());
                 continue;
             };
             let peak = one.sensors[0].peak;
             let same = |other: &&Motion| {
-                let orbit = other.orbit();
-                let radius = orbit.map_or(f64::NAN, |orbit| orbit.radius_per_period());
+                let radius = other.largest_multiplier().unwrap_or(f64::NAN);
                 (other.facts().peak.value / peak - 1.0).abs() < 1e-8
                     && other.repeats_after() == one.repeats_after
+                    && other.orbit().is_some() == one.is_orbit
                     && (radius - multiplier).abs() < 1e-6
             };
-            further += usize::from(!known.iter().any(|other| same(&other)));
-            proven += 1;
-            long += usize::from(one.repeats_after.is_some_and(|after| after > 1));
+            seen.further += usize::from(!known.iter().any(|other| same(&other)));
+            seen.solved += 1;
+            seen.contact += usize::from(!one.is_orbit);
+            seen.long += usize::from(one.repeats_after.is_some_and(|after| after > 1));
         }
     }
-    println!(
-        "{proven} proven, {long} of more than a period, {further} further, {others} repeat otherwise"
-    );
+    println!("{seen:?}");
+    seen
+}
+
+/// What repeats is an exact orbit: the one that the search for one mode and one absorber has, with its multiplier.
+#[test]
+fn what_repeats_is_proven_as_with_one_mode() {
+    let seen = repeating(20_261_130, [0.3, 0.8]);
     // No start of the other search need lead to the smallest basins.
-    assert!(proven > 20 && long > 0, "{proven} {long}");
-    assert!(further * 20 <= proven && others * 5 < proven, "{proven} {further} {others}");
+    assert!(seen.solved > 20 && seen.long > 0, "{seen:?}");
+    assert!(seen.further * 20 <= seen.solved && seen.others * 5 < seen.solved, "{seen:?}");
+}
+
+/// Also where the absorber rests on a wall: by differences of the simulated map, there by its exact tangents.
+#[test]
+fn what_rests_on_a_wall_repeats_as_with_one_mode() {
+    let seen = repeating(20_261_201, [0.0, 0.25]);
+    assert!(seen.contact > 10, "{seen:?}");
+    assert!(seen.further * 20 <= seen.solved && seen.others * 20 < seen.solved, "{seen:?}");
 }
 
 /// The case of a claim that an absorber at rest refuted: from 31 starts 0.215 mm, with the first of two absorbers at rest 0.362 mm.
@@ -179,7 +206,7 @@ fn some_absorbers_rest_while_others_impact() {
 fn absorbers_that_may_rest_do() {
     let mut draw = Draw(1_129);
     let (mut found, mut both) = (0, 0);
-    for number in 0..60 {
+    for number in 0..120 {
         let system = draw.structure();
         let count = system.absorbers().len();
         let shape = vec![1.0; system.modes().len()];
@@ -233,6 +260,93 @@ fn absorbers_that_may_rest_do() {
     }
     println!("{found} motions, {both} with two at rest");
     assert!(found > 15, "{found} {both}");
+}
+
+/// A mast of three modes under a force in the second, with two balls: its frequency is where it resonates as it carries both.
+fn mast(hertz: f64) -> ModalSystem {
+    let omega = 2.0 * std::f64::consts::PI * 1.1;
+    let mode = |own: f64, force: f64| Mode {
+        frequency: own / 1.1,
+        damping_ratio: 0.005,
+        mass: 30.0,
+        forcing: force / (30.0 * omega * omega),
+        shape: vec![1.0; 2],
+        ..Mode::default()
+    };
+    let ball = |mass: f64, clearance: f64| ModalAbsorber { mass, clearance, restitution: 0.17 };
+    let parameters = ModalParameters {
+        modes: vec![mode(1.1, 0.0), mode(6.894, 14.07), mode(19.31, 0.0)],
+        absorbers: vec![ball(2.4, 2.47e-3), ball(2.1, 1.05e-3)],
+        frequency_ratio: hertz / 1.1,
+        ..ModalParameters::default()
+    };
+    ModalSystem::new(parameters).expect("valid")
+}
+
+/// The structure alone moves by 1.8 mm there, and no start near that finds what it does as it carries its balls.
+#[test]
+fn a_structure_that_carries_its_absorbers_resonates_elsewhere() {
+    let system = mast(6.398);
+    let sensor = Sensor::displacement(vec![1.0; 3]);
+    let found = modal_motions(&system, std::slice::from_ref(&sensor), effort(6, 300), &[]);
+    let found = found.expect("they fly");
+    let worst = |counted: bool| {
+        let peaks = found.iter().filter(|one| (one.starts > 0) == counted);
+        peaks.map(|one| one.sensors[0].peak).fold(0.0, f64::max)
+    };
+    assert!(worst(true) < 2.1e-3 && worst(false) > 7e-3, "{found:?}");
+    // By itself, from twice as far.
+    let state = carried_state(&system, &[0, 1]).expect("a steady motion");
+    let twice = ModalState {
+        modes: state.modes.map(|pair| pair.map(|one| 2.0 * one)),
+        absorbers: state.absorbers.map(|pair| pair.map(|one| 2.0 * one)),
+    };
+    let mut simulation = ModalSimulation::new(&system, &twice, 0.0).expect("inside");
+    simulation.run(2000, u64::MAX, &mut ());
+    let mut meter = ModalMeter::new(&system, &[sensor]);
+    simulation.run(60, u64::MAX, &mut meter);
+    let peak = meter.records()[0].peak;
+    assert!((peak / worst(false) - 1.0).abs() < 0.01, "{peak} {}", worst(false));
+}
+
+/// What one mode carries is a larger mass; and with clearances that are small against the motion every structure does so.
+#[test]
+fn what_is_carried_is_a_mass() {
+    let mut draw = Draw(20_261_202);
+    for _ in 0..20 {
+        let (system, modal) = forced(draw.within(0.7, 1.3), FORCE, 0.0);
+        let (omega, stiff) = (system.frequency_ratio(), 1.0);
+        let real = stiff - (1.0 + EPS) * omega * omega;
+        let amplitude = FORCE / libm::hypot(real, 2.0 * ZETA * omega);
+        let [q, v] = carried_state(&modal, &[0]).expect("a steady motion").modes[0];
+        assert!((libm::hypot(q, v / omega) / amplitude - 1.0).abs() < 1e-12);
+        let natural = carried_frequencies(&modal)[0];
+        assert!((natural - 1.0 / (1.0 + EPS).sqrt()).abs() < 1e-12);
+    }
+    for _ in 0..20 {
+        let drawn = draw.structure();
+        // Clearances of 1e-4 of the motion: what they leave free adds up over as many periods as a mode remembers, to 2 % at most.
+        let all: Vec<usize> = (0..drawn.absorbers().len()).collect();
+        let state = carried_state(&drawn, &all).expect("a steady motion");
+        let amplitude = |j: &usize| {
+            let [x, v] = drawn.displaced(*j, &state);
+            libm::hypot(x, v / drawn.frequency_ratio())
+        };
+        let least = all.iter().map(amplitude).fold(f64::INFINITY, f64::min);
+        let mut parameters = drawn.parameters().clone();
+        for one in &mut parameters.absorbers {
+            (one.clearance, one.restitution) = (1e-4 * least, 0.0);
+        }
+        let system = ModalSystem::new(parameters).expect("valid");
+        let mut simulation = ModalSimulation::new(&system, &state, 0.0).expect("inside");
+        let mut meter = ModalMeter::new(
+            &system,
+            &[Sensor::displacement(system.modes().iter().map(|mode| mode.shape[0]).collect())],
+        );
+        simulation.run(3, u64::MAX, &mut meter);
+        let peak = meter.records()[0].peak;
+        assert!((peak / amplitude(&0) - 1.0).abs() < 0.02, "{peak} {}", amplitude(&0));
+    }
 }
 
 /// Half way to a wall.

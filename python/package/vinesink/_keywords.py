@@ -105,7 +105,7 @@ EITHER = (
     {"frequency_ratio", "detuning"},
 )
 
-_SCHEMA = json.loads(_vinesink.schema())["properties"]
+_SCHEMA = json.loads(_vinesink.schema())["$defs"]["one"]["properties"]
 # Where one word is a key of two tables, or of Python: the keyword instead.
 _RENAMED = {
     ("oscillator", "frequency"): "natural_frequency",

@@ -162,10 +162,10 @@ fn load_row(case: &ModalCase, load: &Load) -> Value {
 }
 
 fn motion_rows(case: &ModalCase, motions: &[ModalMotion]) -> Vec<Value> {
-    motions.iter().map(|one| motion_row(one, case.count_inactive)).collect()
+    motions.iter().map(|one| motion_row(case, one)).collect()
 }
 
-fn motion_row(motion: &ModalMotion, count_rest: bool) -> Value {
+fn motion_row(case: &ModalCase, motion: &ModalMotion) -> Value {
     let row = |[peak, rms]: [&'static Kind; 2], one: &SensorExtent| {
         json!({
             "peak": simulated(peak, one.peak).with_error(one.error),
@@ -193,8 +193,12 @@ fn motion_row(motion: &ModalMotion, count_rest: bool) -> Value {
         // Absorbers that do, from 1, the share of their places in which they may, together, and whether that is enough.
         "resting": rests.map(|(_, j)| j).collect::<Vec<_>>(),
         "share": motion.rest_share(),
-        "counts": motion.counts(count_rest),
+        "counts": motion.counts(case.count_inactive),
         "impacts_per_period": motion.impacts_per_period.iter().map(|[count, _]| count).collect::<Vec<_>>(),
+        "impact_speed": motion.impact_speed.iter().map(|speed| {
+            let [most, error] = speed.map(|one| case.omega() * one);
+            simulated(&of::IMPACT_SPEED, most).with_error(error)
+        }).collect::<Vec<_>>(),
         "largest_multiplier": motion.largest_multiplier,
         "places": places,
     })

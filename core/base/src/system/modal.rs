@@ -258,6 +258,16 @@ impl ModalSystem {
         LinearResponse { sine: forcing * reactance / scale, cosine: -forcing * loss / scale }
     }
 
+    /// Displacement and velocity of the place of an absorber in a state at phase 0, the base's included.
+    pub fn displaced(&self, absorber: usize, state: &ModalState) -> [f64; 2] {
+        let base = [0.0, self.frequency_ratio() * self.base_amplitude()];
+        let modes = self.modes().iter().zip(&state.modes);
+        modes.fold(base, |[x, v], (mode, [q, rate])| {
+            let phi = mode.shape[absorber];
+            [x + phi * q, v + phi * rate]
+        })
+    }
+
     /// The steady motion `X_j` at the place of an absorber, without impacts.
     pub fn steady_motion_at(&self, absorber: usize) -> LinearResponse {
         let start = LinearResponse { sine: self.base_amplitude(), cosine: 0.0 };

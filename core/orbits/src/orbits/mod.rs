@@ -48,7 +48,7 @@ pub use modal::{
     ModalSpecialPoint, ReachEnd, antiperiodic_orbits, orbit_state, stable_reach, stable_stretches,
     values_looked_at,
 };
-pub use multipliers::{Leading, Multipliers};
+pub use multipliers::{Leading, Multipliers, spectral_radius};
 pub use orbit::{Orbit, Origin};
 pub use special_point::SpecialPoint;
 pub use symmetric::{SymmetricCurve, SymmetricOrbit, attracting_orbit, symmetric_orbits};

@@ -4,7 +4,7 @@
 use nalgebra::allocator::Allocator;
 use nalgebra::linalg::Schur;
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
-use nalgebra::{DefaultAllocator, Dim, DimDiff, DimSub, Matrix4, OMatrix, SMatrix, U1};
+use nalgebra::{DMatrix, DefaultAllocator, Dim, DimDiff, DimSub, Matrix4, OMatrix, SMatrix, U1};
 use serde::Serialize;
 
 use crate::operation_count;
@@ -80,6 +80,13 @@ pub enum Leading {
     Negative,
     /// A complex pair: towards a Neimark-Sacker bifurcation, the Hopf of the slow flow.
     ComplexPair,
+}
+
+/// Largest modulus of the eigenvalues of a square matrix, in its unit; `None` where it is not finite or the iteration does not
+/// converge.
+pub fn spectral_radius(matrix: &DMatrix<f64>) -> Option<f64> {
+    let [re, im] = *eigenvalues(matrix)?.first()?;
+    Some(libm::hypot(re, im))
 }
 
 /// Eigenvalues `[re, im]` of a matrix of any size, largest modulus first, conjugates next to one another; `None` where it is

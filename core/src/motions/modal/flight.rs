@@ -1,7 +1,7 @@
 //! A start, flown until it is on an exact orbit, repeats, or has been measured.
 
 use super::motion::ModalMotion;
-use super::proven::{Attracting, Near};
+use super::proven::{Attracting, NEAR_BY, Near};
 use super::stretch::{MOST_IMPACTS, Repeats, SAME_STATE, Seen, Stretch, distance};
 use crate::numerics::scatter::drifts;
 use crate::simulation::{ModalSimulation, ModalStartError, Reading, Sensor, Stop};
@@ -84,9 +84,15 @@ pub(super) enum End {
     Open(Box<Flight>),
 }
 
+/// Distance from an orbit that attracts, over that of the look before, up to which a start comes closer to it by no chance: a part of
+/// the slowest decay lies between them.
+const CLOSER: f64 = 0.75;
+
 /// A start on its way.
 pub(super) struct Flight {
     simulation: ModalSimulation,
+    /// The orbit that attracts to which it was nearest when it was looked at last, and how far away that was.
+    nearest: Option<(usize, f64)>,
     decay: u64,
     /// Impacts per excitation period, of all absorbers, where it was flown last.
     pub busy: f64,
@@ -117,34 +123,46 @@ pub(super) struct Of<'a> {
 }
 
 impl Of<'_> {
+    /// The orbit that attracts to which a state is nearest, and how far away that is.
+    fn nearest(&self, state: &ModalState) -> Option<(usize, f64)> {
+        let each = self.orbits.iter().map(|one| distance(&one.state, state)).enumerate();
+        each.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|one| one.1 <= NEAR_BY)
+    }
+
     /// What a known orbit attracts, what is solved for, or what repeats.
-    fn known(
-        &mut self,
-        simulation: &mut ModalSimulation,
-        repeats: &Repeats,
-    ) -> Option<ModalMotion> {
-        let state = simulation.state();
-        let near = |one: &&Attracting| distance(&one.state, &state) < one.reach;
-        if let Some(near) = self.orbits.iter().find(near) {
-            return Some(ModalMotion { starts: 1, ..near.motion.clone() });
+    fn known(&mut self, flight: &mut Flight, repeats: &Repeats) -> Option<ModalMotion> {
+        let state = flight.simulation.state();
+        let before = flight.nearest;
+        flight.nearest = self.nearest(&state);
+        if let Some((k, off)) = flight.nearest {
+            let near = &self.orbits[k];
+            let of_one = |k: usize| self.orbits[k].motion.state == near.motion.state;
+            let closer = before.is_some_and(|(k, before)| of_one(k) && off <= CLOSER * before);
+            if off < near.reach || closer {
+                return Some(ModalMotion { starts: 1, ..near.motion.clone() });
+            }
         }
+        // One that nearly repeats may be on its way to an orbit, if it is not known yet to which.
+        let roughly = repeats.roughly.filter(|_| flight.nearest.is_none());
         let solve = |after: &u32| Attracting::near(self.system, self.sensors, &state, *after);
-        match repeats.nearly.iter().find_map(solve) {
-            Some(Near::Attracts(solved)) => {
-                let motion = solved[0].motion.clone();
+        match repeats.nearly.iter().chain(&roughly).find_map(solve) {
+            Some(Near::Attracts { solved, is_on }) => {
+                let motion = is_on.then(|| solved[0].motion.clone());
                 self.orbits.extend(solved);
-                return Some(motion);
+                flight.nearest = self.nearest(&state);
+                return motion;
             }
             Some(Near::Leaves) => {
                 if let Some(beside) = pushed(self.system, &state) {
-                    *simulation = beside;
+                    flight.simulation = beside;
+                    flight.nearest = None;
                 }
                 return None;
             }
             None => {}
         }
         let after = repeats.exactly?;
-        let period = Stretch::fly(simulation, self.system, self.sensors, after.into());
+        let period = Stretch::fly(&mut flight.simulation, self.system, self.sensors, after.into());
         let motion = ModalMotion::of(self.sensors, &[period], Some(after), true, self.periods);
         // What still changes in a period adds up until the slowest mode has died out.
         let left = SAME_STATE * decay(self.system) as f64;
@@ -155,7 +173,7 @@ impl Of<'_> {
     pub fn begin(&mut self, start: &ModalState) -> Result<End, ModalStartError> {
         let simulation = ModalSimulation::new(self.system, start, 0.0)?;
         let decay = decay(self.system);
-        let flight = Flight { simulation, decay, busy: 0.0, starts: 1 };
+        let flight = Flight { simulation, nearest: None, decay, busy: 0.0, starts: 1 };
         Ok(self.fly_on(flight, u64::from(DECAYS) * decay, MOST_OF_START))
     }
 
@@ -172,7 +190,7 @@ impl Of<'_> {
                 let motion = ModalMotion::of(self.sensors, &[seen], None, false, self.periods);
                 return End::On(Box::new(ModalMotion { starts: flight.starts, ..motion }));
             }
-            if let Some(known) = self.known(&mut flight.simulation, &seen.repeats_after()) {
+            if let Some(known) = self.known(&mut flight, &seen.repeats_after()) {
                 return End::On(Box::new(ModalMotion { starts: flight.starts, ..known }));
             }
             left -= far;
@@ -199,7 +217,7 @@ impl Of<'_> {
                     stretches.push(Stretch::fly(&mut flight.simulation, system, sensors, stretch));
                 }
                 let last = stretches.last().map(|one| &one.repeats_after);
-                let known = last.and_then(|last| self.known(&mut flight.simulation, last));
+                let known = last.and_then(|last| self.known(flight, last));
                 if let Some(known) = known {
                     return ModalMotion { starts: flight.starts, ..known };
                 }

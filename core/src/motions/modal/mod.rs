@@ -12,6 +12,7 @@
 
 mod flight;
 mod motion;
+mod polished;
 mod proven;
 mod search;
 mod stretch;

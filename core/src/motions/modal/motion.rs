@@ -36,8 +36,11 @@ pub struct ModalMotion {
     pub repeats_after: Option<u32>,
     /// Whether it has settled: it repeats, or the slowest mode has died out and no mean square drifts.
     pub settled: bool,
-    /// Largest Floquet multiplier of an excitation period, where it was solved for: an exact orbit.
+    /// Largest Floquet multiplier of an excitation period, where it was solved for.
     pub largest_multiplier: Option<f64>,
+    /// Whether it is an exact orbit; one in which an absorber rests on a wall, or with more than 64 impacts, is solved for on the
+    /// simulated map.
+    pub is_orbit: bool,
     /// Starts that led to it; none of an orbit that attracts all the same, or in which absorbers rest.
     pub starts: u32,
     /// Of each absorber that rests in it the share of its cavity within which it may; none of one that impacts.
@@ -104,6 +107,7 @@ impl ModalMotion {
             repeats_after,
             settled,
             largest_multiplier: None,
+            is_orbit: false,
             starts: 1,
             resting: vec![None; absorbers],
             state: None,

@@ -1,6 +1,7 @@
 //! Exact orbits that attract: those that are solved for at first, and those that a start nearly is on.
 
 use super::motion::ModalMotion;
+use super::polished::{Polished, ROUGH};
 use super::stretch::{MOST_IMPACTS, SAME_STATE, Stretch, distance};
 use crate::orbits::{CycleImpact, ModalCycle, antiperiodic_orbits, orbit_state};
 use crate::simulation::{
@@ -12,6 +13,10 @@ use crate::system::{ModalState, ModalSystem};
 /// may lie that belong to it, as after a period doubling.
 const NEAR_ORBIT: f64 = 1e-3;
 const NEAR_PROVEN: f64 = 1e-6;
+/// The same up to which a start may be on its way to one that attracts: it is, if it comes closer and closer.
+pub(super) const NEAR_BY: f64 = 0.01;
+/// Most impacts of an exact orbit.
+const MOST_OF_CYCLE: usize = 64;
 
 /// An exact orbit that attracts, by a state at the end of one of its periods.
 pub(super) struct Attracting {
@@ -22,7 +27,7 @@ pub(super) struct Attracting {
 }
 
 impl Attracting {
-    /// The periodic motion that a state nearly is on; none where there is none, or an absorber rests on a wall in it.
+    /// The periodic motion that a state nearly is on; none where there is none.
     pub fn near(
         system: &ModalSystem,
         sensors: &[Sensor],
@@ -32,21 +37,27 @@ impl Attracting {
         let mut simulation = ModalSimulation::new(system, state, 0.0).ok()?;
         let mut seen = Sequence::default();
         simulation.run(periods.into(), u64::from(periods) * MOST_IMPACTS, &mut seen);
+        let moves = |j: &usize| seen.impacts.iter().any(|impact| impact.absorber == *j);
+        let all = 0..system.absorbers().len();
         // One that hits nothing and moves is on its way to a wall.
-        let drifts = |(j, one): (usize, &[f64; 2])| {
-            one[1] != 0.0 && seen.impacts.iter().all(|impact| impact.absorber != j)
+        if all.clone().any(|j| state.absorbers[j][1] != 0.0 && !moves(&j)) {
+            return None;
+        }
+        let is_orbit = !seen.sticks && seen.impacts.len() <= MOST_OF_CYCLE;
+        let (begin, multiplier, attracts) = if is_orbit {
+            let cycle = ModalCycle { state: *state, periods, impacts: seen.impacts };
+            let orbit = cycle.solve(system).ok()?;
+            (orbit.cycle.state, orbit.radius_per_period(), orbit.attracts())
+        } else {
+            let moves: Vec<usize> = all.filter(moves).collect();
+            let Polished { state, multiplier } = Polished::of(system, state, periods, &moves)?;
+            (state, multiplier, multiplier < 1.0)
         };
-        let carried = &state.absorbers[..system.absorbers().len()];
-        if seen.sticks || carried.iter().enumerate().any(drifts) {
+        let off = distance(&begin, state);
+        if off > if attracts { NEAR_BY } else { NEAR_ORBIT } {
             return None;
         }
-        let cycle = ModalCycle { state: *state, periods, impacts: seen.impacts };
-        let orbit = cycle.solve(system).ok()?;
-        let begin = orbit.cycle.state;
-        if distance(&begin, state) > NEAR_ORBIT {
-            return None;
-        }
-        if !orbit.attracts() {
+        if !attracts {
             return Some(Near::Leaves);
         }
         // Its states, until it is there again: that may be so earlier.
@@ -62,20 +73,23 @@ impl Attracting {
         let periods = states.len() as u32;
         let mut simulation = ModalSimulation::new(system, &begin, 0.0).ok()?;
         let whole = Stretch::fly(&mut simulation, system, sensors, periods.into());
+        let motion = ModalMotion::of(sensors, &[whole], Some(periods), true, 1);
         let motion = ModalMotion {
-            largest_multiplier: Some(orbit.radius_per_period()),
+            largest_multiplier: Some(multiplier),
+            is_orbit,
             state: Some(begin),
-            ..ModalMotion::of(sensors, &[whole], Some(periods), true, 1)
+            ..motion.within(if is_orbit { 0.0 } else { ROUGH })
         };
         let on = |state| Self { state, reach: NEAR_PROVEN, motion: motion.clone() };
-        Some(Near::Attracts(states.into_iter().map(on).collect()))
+        let solved = states.into_iter().map(on).collect();
+        Some(Near::Attracts { solved, is_on: off <= NEAR_ORBIT })
     }
 }
 
 /// An exact orbit that a state nearly is on.
 pub(super) enum Near {
-    /// It attracts; by each of its states at the ends of periods.
-    Attracts(Vec<Attracting>),
+    /// It attracts; by each of its states at the ends of periods, and whether that is so near that the start is on it.
+    Attracts { solved: Vec<Attracting>, is_on: bool },
     /// It does not: a start on it is about to leave.
     Leaves,
 }
@@ -115,6 +129,7 @@ pub(super) fn attracting(
         let multiplier = Some(radius * radius);
         let motion = ModalMotion {
             largest_multiplier: multiplier,
+            is_orbit: true,
             state: Some(state),
             starts: 0,
             ..ModalMotion::of(sensors, &[block], Some(1), true, 1)

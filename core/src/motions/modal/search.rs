@@ -4,7 +4,7 @@ use super::flight::{End, Of};
 use super::motion::{ModalMotion, SensorExtent};
 use super::proven::attracting;
 use super::wandering::Wandering;
-use crate::linear::ModalAmplitudes;
+use crate::linear::{ModalAmplitudes, carried_state};
 use crate::motions::starts::position;
 use crate::simulation::{ModalStartError, Reading, Sensor};
 use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
@@ -120,7 +120,8 @@ impl Search<'_> {
                 End::Open(flight) => open.push(flight),
             }
         }
-        for state in further {
+        let carried = if starts > 0 { carried(&system) } else { Vec::new() };
+        for state in further.iter().chain(&carried) {
             // Its place may be just outside of a cavity here.
             match of.begin(state) {
                 Ok(End::On(motion)) => take(ModalMotion { starts: 0, ..*motion }, &mut found),
@@ -217,6 +218,7 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
         repeats_after: Some(1),
         settled: true,
         largest_multiplier: None,
+        is_orbit: false,
         starts: 0,
         state: None,
         resting: shares.into_iter().map(Some).collect(),
@@ -225,6 +227,27 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
     })
 }
 
+/// States of the structure as it carries some of its absorbers: all, or each alone. Those that no start is near, which are of the
+/// structure without absorbers, and in which these hit both of their walls.
+fn carried(system: &ModalSystem) -> Vec<ModalState> {
+    let all: Vec<usize> = (0..system.absorbers().len()).collect();
+    let alone = all.iter().map(|j| vec![*j]).filter(|_| all.len() > 1);
+    let sets = std::iter::once(all.clone()).chain(alone);
+    let states = sets.filter_map(|set| {
+        let state = carried_state(system, &set)?;
+        let farther = |j: &usize| {
+            let [x, v] = system.displaced(*j, &state);
+            let amplitude = libm::hypot(x, v / system.frequency_ratio());
+            let near = BEYOND * system.steady_motion_at(*j).amplitude();
+            amplitude > near && amplitude > system.absorbers()[*j].clearance
+        };
+        set.iter().any(farther).then_some(state)
+    });
+    states.collect()
+}
+
+/// The largest start, over the structure's own steady motion.
+const BEYOND: f64 = 1.2;
 /// One prime for the share of the steady motion, and for the place of each absorber.
 const PRIMES: [f64; MOST_MODES + 1] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0];
 
@@ -233,7 +256,7 @@ const PRIMES: [f64; MOST_MODES + 1] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.
 fn start(system: &ModalSystem, k: u32) -> ModalState {
     let mut start = ModalState::AT_REST;
     let part = |axis: usize| position(PRIMES[axis], k.saturating_sub(1));
-    let share = if k == 0 { 0.0 } else { 1.2 * part(0) };
+    let share = if k == 0 { 0.0 } else { BEYOND * part(0) };
     for mode in 0..system.modes().len() {
         let steady = system.steady_motion(mode);
         let velocity = system.frequency_ratio() * steady.sine;

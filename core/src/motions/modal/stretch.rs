@@ -9,8 +9,9 @@ use crate::system::{MOST_MODES, ModalState, ModalSystem};
 /// are the same.
 const MOST_REPEATS: usize = 6;
 pub(super) const SAME_STATE: f64 = 1e-9;
-/// The same from which on it is worth to solve for the motion.
+/// The same from which on it is worth to solve for the motion, and to try it once.
 const NEARLY: f64 = 1e-4;
+const ROUGHLY: f64 = 0.01;
 /// Most impacts in a period, of all absorbers: more are of chatter that does not end.
 pub(super) const MOST_IMPACTS: u64 = 2000;
 
@@ -48,7 +49,9 @@ impl Seen {
             before.iter().rev().zip(1..).map(|(other, after)| (after, distance(last, other)));
         let each: Vec<(u32, f64)> = each.collect();
         let within = |most: f64| each.iter().filter(move |one| one.1 <= most).map(|one| one.0);
-        Repeats { exactly: within(SAME_STATE).next(), nearly: within(NEARLY).collect() }
+        let roughly = each.iter().filter(|one| (NEARLY..ROUGHLY).contains(&one.1));
+        let roughly = roughly.min_by(|a, b| a.1.total_cmp(&b.1)).map(|one| one.0);
+        Repeats { exactly: within(SAME_STATE).next(), nearly: within(NEARLY).collect(), roughly }
     }
 }
 
@@ -58,6 +61,8 @@ pub(super) struct Repeats {
     pub exactly: Option<u32>,
     /// Ascending.
     pub nearly: Vec<u32>,
+    /// After which it was so at best, where that is only roughly.
+    pub roughly: Option<u32>,
 }
 
 /// Largest difference of two states, over the largest number of the first.
