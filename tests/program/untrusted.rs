@@ -707,18 +707,17 @@ fn characters_that_nobody_sees_reach_no_page_and_no_terminal() {
     let mast = mast.lines().map(|line| match line.split_once(" = ") {
         Some(("title", _)) => format!("title = {}", toml(&title)),
         Some(("place", _)) => format!("place = {}", toml(&place)),
-        Some(("starts" | "periods", _)) => "starts = 2".to_owned(),
         _ => line.replace("place = \"tip\"", &format!("place = {}", toml(&place))),
     });
     let mast = mast.collect::<Vec<_>>().join("\n");
     // One load is enough.
     let (head, rest) = mast.split_once("[[excitation]]").expect("loads");
     let (load, rest) = rest.split_once("[[excitation]]").expect("loads");
-    let (_, tail) = rest.split_once("[simulation]").expect("a table");
+    let (_, tail) = rest.split_once("[criteria]").expect("a table");
     let load = load
         .replace("from = \"0.935 Hz\"", "frequency = \"1.1 Hz\"")
         .replace("to = \"1.21 Hz\"", "");
-    let mast = format!("{head}[[excitation]]{load}[simulation]{tail}");
+    let mast = format!("{head}[[excitation]]{load}[simulation]\nstarts = 2\n[criteria]{tail}");
     let folder = folder_with(&[
         ("one.toml", &case(&title)),
         ("mast.toml", &mast),
