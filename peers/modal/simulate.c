@@ -1,5 +1,6 @@
 /* A structure of several modes with several absorbers in closed form between contacts, 400 steps in a period of the fastest of
-   modes and excitation, and bisection of each contact: shares no code and no method with the engine, which proves its impacts.
+   modes and excitation, and bisection of each contact; an absorber that rests on a wall is held there by a plastic impact at the end
+   of each eighth of a step: shares no code and no method with the engine, which proves its impacts.
    Reads, in SI units: modes N, absorbers M; of each mode its frequency in Hz, damping ratio, mass, force, participation and its shape
    at the place that is watched and at each absorber; of each absorber mass, clearance and restitution; the excitation's frequency in
    Hz, the amplitude of the base, a seed, periods that are left out and periods that are measured; and, if there is one more number,
@@ -12,12 +13,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MOST = 8, STEPS = 400, CONTACTS = 12, HALVINGS = 36 };
+enum { MOST = 8, STEPS = 400, FINER = 8, CONTACTS = 12, HALVINGS = 36 };
 static int modes, absorbers;
 static double w[MOST], damping[MOST], mass[MOST], force[MOST], watched[MOST], shape[MOST][MOST], base;
 static double participation[MOST], ball[MOST], clearance[MOST], restitution[MOST], omega;
 static double q[MOST], v[MOST], y[MOST], u[MOST];
 static int absent[MOST];
+/* The wall that an absorber rests on, 1 or -1; 0 where it does not. */
+static int held[MOST];
 static double steady[MOST][2];
 /* What a whole step makes of a free motion. */
 static double whole[MOST][4];
@@ -68,18 +71,59 @@ static int beyond(double t)
     double most = 1, moved = base * sin(omega * t);
     for (int j = 0; j < absorbers; j++) {
         double gap = fabs(at(j, q, moved) - y[j]) / clearance[j];
-        if (!absent[j] && gap > most) worst = j, most = gap;
+        if (!absent[j] && !held[j] && gap > most) worst = j, most = gap;
     }
     return worst;
 }
 
-/* The acceleration of the place that is watched. */
+/* The acceleration of a mode, and of the place that is watched, without the force of what is held. */
+static double of_mode(int k, double s)
+{
+    return force[k] / mass[k] * s - 2 * damping[k] * w[k] * v[k] - w[k] * w[k] * q[k];
+}
+
 static double acceleration(double t)
 {
     double s = sin(omega * t), all = -base * omega * omega * s;
-    for (int k = 0; k < modes; k++)
-        all += watched[k] * (force[k] / mass[k] * s - 2 * damping[k] * w[k] * v[k] - w[k] * w[k] * q[k]);
+    for (int k = 0; k < modes; k++) all += watched[k] * of_mode(k, s);
     return all;
+}
+
+/* An impact of an absorber with a restitution, and the jump of the velocity at the place that is watched. */
+static double strike(int j, double t, double r)
+{
+    double relative = at(j, v, base * omega * cos(omega * t)) - u[j], yields = 1 / ball[j], jump = 0;
+    for (int k = 0; k < modes; k++) yields += shape[k][j] * shape[k][j] / mass[k];
+    double impulse = (1 + r) * relative / yields;
+    for (int k = 0; k < modes; k++) {
+        v[k] -= impulse * shape[k][j] / mass[k];
+        jump += watched[k] * impulse * shape[k][j] / mass[k];
+    }
+    u[j] += impulse / ball[j];
+    return jump;
+}
+
+/* Whether an absorber at a wall bounces no more: its next flight, after an impact that it leaves with such a speed, is a small part
+   of a step. */
+static int stays(int j, double t, double step, double speed, int side)
+{
+    double s = sin(omega * t), pressed = -base * omega * omega * s;
+    for (int k = 0; k < modes; k++) pressed += shape[k][j] * of_mode(k, s);
+    return 2 * speed < 0.1 * step * pressed * side;
+}
+
+/* What is held goes with its wall, or leaves it. */
+static void hold(double t)
+{
+    for (int sweep = 0; sweep < 3; sweep++)
+        for (int j = 0; j < absorbers; j++) {
+            if (!held[j]) continue;
+            double relative = at(j, v, base * omega * cos(omega * t)) - u[j];
+            if (sweep == 0 && relative * held[j] < 0) held[j] = 0;
+            else strike(j, t, 0);
+        }
+    for (int j = 0; j < absorbers; j++)
+        if (held[j]) y[j] = at(j, q, base * sin(omega * t)) - held[j] * clearance[j];
 }
 
 /* Displacement, velocity and acceleration of the place: the largest, and sums of squares at ends of steps. */
@@ -88,7 +132,10 @@ static double peaks[3], squares[3], jumps;
 static void measure(double t, int ends)
 {
     double now[3] = {sum(q, base * sin(omega * t)), sum(v, base * omega * cos(omega * t)), acceleration(t)};
-    for (int n = 0; n < 3; n++) {
+    int free = 1;
+    for (int j = 0; j < absorbers; j++) free = free && !held[j];
+    /* With what is held the acceleration is another. */
+    for (int n = 0; n < 2 + free; n++) {
         if (fabs(now[n]) > peaks[n]) peaks[n] = fabs(now[n]);
         if (ends) squares[n] += now[n] * now[n];
     }
@@ -139,51 +186,52 @@ int main(void)
     }
     long steps = (long)(out + measured) * each, first = (long)out * each;
     for (long i = 0; i < steps; i++) {
-        double t = (double)(i % each) * step, left = step;
+        double begin = (double)(i % each) * step;
         for (int j = 0; j < absorbers && i == first / 2; j++) {
             if (!absent[j]) continue;
-            double now = at(j, q, base * sin(omega * t)), place = clearance[j] * (2.0 * rand() / RAND_MAX - 1);
+            double now = at(j, q, base * sin(omega * begin)), place = clearance[j] * (2.0 * rand() / RAND_MAX - 1);
             /* It is inside of its walls now. */
             y[j] = fmax(now - 0.999 * clearance[j], fmin(now + 0.999 * clearance[j], place));
             u[j] = 0, absent[j] = 0;
         }
-        /* So many contacts in a step are of chatter, whose rest is lost. */
-        for (int contacts = 0; left > 0; contacts++) {
-            double q0[MOST], v0[MOST], y0[MOST];
-            for (int k = 0; k < modes; k++) q0[k] = q[k], v0[k] = v[k];
-            for (int j = 0; j < absorbers; j++) y0[j] = y[j];
-            advance(t, left, contacts == 0);
-            if (contacts == CONTACTS || beyond(t + left) < 0) break;
-            double inside = 0, outside = left;
-            int j = beyond(t + left);
-            for (int halved = 0; halved <= HALVINGS; halved++) {
-                double middle = halved < HALVINGS ? 0.5 * (inside + outside) : inside;
-                for (int k = 0; k < modes; k++) q[k] = q0[k], v[k] = v0[k];
-                for (int n = 0; n < absorbers; n++) y[n] = y0[n];
-                advance(t, middle, 0);
-                int here = beyond(t + middle);
-                if (here >= 0) j = here, outside = middle;
-                else inside = middle;
-            }
-            t += inside;
-            left -= inside;
-            if (i >= first) measure(t, 0);
-            moving = base * omega * cos(omega * t);
-            double relative = at(j, v, moving) - u[j], yields = 1 / ball[j];
-            for (int k = 0; k < modes; k++) yields += shape[k][j] * shape[k][j] / mass[k];
-            if (relative * (at(j, q, base * sin(omega * t)) - y[j]) > 0) {
-                double impulse = (1 + restitution[j]) * relative / yields;
-                double jump = 0;
-                for (int k = 0; k < modes; k++) {
-                    v[k] -= impulse * shape[k][j] / mass[k];
-                    jump += watched[k] * impulse * shape[k][j] / mass[k];
+        int pieces = 1;
+        for (int j = 0; j < absorbers; j++) if (held[j]) pieces = FINER;
+        for (int piece = 0; piece < pieces; piece++) {
+            double from = (double)(i % each) + (double)piece / pieces, t = from * step, left = step / pieces;
+            double end = (from + 1.0 / pieces) * step;
+            /* So many contacts in a step are of chatter, whose rest is lost. */
+            for (int contacts = 0; left > 0; contacts++) {
+                double q0[MOST], v0[MOST], y0[MOST];
+                for (int k = 0; k < modes; k++) q0[k] = q[k], v0[k] = v[k];
+                for (int j = 0; j < absorbers; j++) y0[j] = y[j];
+                advance(t, left, contacts == 0 && pieces == 1);
+                if (contacts == CONTACTS || beyond(t + left) < 0) break;
+                double inside = 0, outside = left;
+                int j = beyond(t + left);
+                for (int halved = 0; halved <= HALVINGS; halved++) {
+                    double middle = halved < HALVINGS ? 0.5 * (inside + outside) : inside;
+                    for (int k = 0; k < modes; k++) q[k] = q0[k], v[k] = v0[k];
+                    for (int n = 0; n < absorbers; n++) y[n] = y0[n];
+                    advance(t, middle, 0);
+                    int here = beyond(t + middle);
+                    if (here >= 0) j = here, outside = middle;
+                    else inside = middle;
                 }
-                if (i >= first && fabs(jump) > jumps) jumps = fabs(jump);
-                u[j] += impulse / ball[j];
-                last[j][0] = fmod(omega * t / (2 * M_PI), 1), last[j][1] = fabs(u[j]);
-                if (i >= first) impacts[j]++;
+                t += inside;
+                left -= inside;
+                if (i >= first) measure(t, 0);
+                double relative = at(j, v, base * omega * cos(omega * t)) - u[j];
+                int side = at(j, q, base * sin(omega * t)) > y[j] ? 1 : -1;
+                if (relative * side > 0) {
+                    double jump = strike(j, t, restitution[j]);
+                    if (i >= first && fabs(jump) > jumps) jumps = fabs(jump);
+                    last[j][0] = fmod(omega * t / (2 * M_PI), 1), last[j][1] = fabs(u[j]);
+                    if (i >= first) impacts[j]++;
+                    if (stays(j, t, step, restitution[j] * relative * side, side)) held[j] = side, strike(j, t, 0);
+                }
+                if (i >= first) measure(t, 0);
             }
-            if (i >= first) measure(t, 0);
+            hold(end);
         }
         if (i >= first) measure((double)(i % each + 1) * step, 1);
     }
