@@ -48,8 +48,9 @@ impl Polished {
             if stalled && closure > ROUGH {
                 return None;
             }
-            let left = map.numbers(&state) - map.numbers(&end);
-            let derivative = map.derivative(&state)?;
+            let end = map.numbers(&end);
+            let derivative = map.derivative(&state, &end)?;
+            let left = map.numbers(&state) - end;
             if stalled || closure <= CLOSED {
                 let radius = spectral_radius(&derivative)?;
                 let multiplier = libm::pow(radius, 1.0 / f64::from(periods));
@@ -119,7 +120,8 @@ impl<'a> Map<'a> {
         (stop == Stop::EndTime).then(|| simulation.state())
     }
 
-    fn derivative(&self, state: &ModalState) -> Option<DMatrix<f64>> {
+    /// From a state, and where it leads: to one side alone where a wall is too near to the other.
+    fn derivative(&self, state: &ModalState, end: &DVector<f64>) -> Option<DMatrix<f64>> {
         let own = self.numbers(state);
         let step = DIFFERENCE * largest(state);
         let column = |k: usize| {
@@ -128,7 +130,12 @@ impl<'a> Map<'a> {
                 beside[k] += by;
                 Some(self.numbers(&self.after(&self.with(state, &beside))?))
             });
-            Some((up? - down?) / (2.0 * step))
+            match (up, down) {
+                (Some(up), Some(down)) => Some((up - down) / (2.0 * step)),
+                (Some(up), None) => Some((up - end) / step),
+                (None, Some(down)) => Some((end - down) / step),
+                (None, None) => None,
+            }
         };
         let columns: Option<Vec<DVector<f64>>> = (0..own.len()).map(column).collect();
         Some(DMatrix::from_columns(&columns?))
