@@ -120,7 +120,7 @@ impl Search<'_> {
                 End::Open(flight) => open.push(flight),
             }
         }
-        let carried = if starts > 0 { carried(&system) } else { Vec::new() };
+        let carried = if starts > 0 { carried(&system, rest.is_empty()) } else { Vec::new() };
         for state in further.iter().chain(&carried) {
             // Its place may be just outside of a cavity here.
             match of.begin(state) {
@@ -227,11 +227,11 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
     })
 }
 
-/// States of the structure as it carries some of its absorbers: all, or each alone. Those that no start is near, which are of the
-/// structure without absorbers, and in which these hit both of their walls.
-fn carried(system: &ModalSystem) -> Vec<ModalState> {
+/// States of the structure as it carries all of its absorbers, or `each` alone. Those that no start is near, which are of the structure
+/// without absorbers, and in which these hit both of their walls.
+fn carried(system: &ModalSystem, each: bool) -> Vec<ModalState> {
     let all: Vec<usize> = (0..system.absorbers().len()).collect();
-    let alone = all.iter().map(|j| vec![*j]).filter(|_| all.len() > 1);
+    let alone = all.iter().map(|j| vec![*j]).filter(|_| each && all.len() > 1);
     let sets = std::iter::once(all.clone()).chain(alone);
     let states = sets.filter_map(|set| {
         let state = carried_state(system, &set)?;
