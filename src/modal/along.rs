@@ -41,6 +41,8 @@ const EVEN: u32 = 13;
 const ROUNDS: u32 = 3;
 /// How often frequencies are searched in full that set how bad something may be.
 const MOST_IN_FULL: usize = 2;
+/// Most of those at which a motion has not settled, each time.
+const MOST_OPEN: usize = 4;
 /// By how much a motion is worse at least that is followed to the next frequency, and most of them from there.
 const FOLLOWED: f64 = 0.02;
 const MOST_STATES: usize = 2;
@@ -151,7 +153,7 @@ impl Search<'_> {
     }
 
     /// Searches frequencies again, with all patience, while what wanders there, and was not searched so, sets how bad something may be
-    /// along the load: it may be a transient, or hardly be known.
+    /// along the load, or has not settled: it may be a transient, or hardly be known.
     fn in_full(&self, places: &mut [AtFrequency]) -> Result<(), ModalError> {
         let mut known: Vec<usize> = Vec::new();
         for _ in 0..MOST_IN_FULL {
@@ -161,7 +163,10 @@ impl Search<'_> {
                 let (k, (_, wanders)) = all.max_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
                 (wanders && !known.contains(&k)).then_some(k)
             };
+            let open = |k: &usize| places[*k].counting().any(|one| !one.settled);
+            let open = (0..places.len()).filter(|k| open(k) && !known.contains(k));
             let mut chosen: Vec<usize> = self.looks.iter().filter_map(worst).collect();
+            chosen.extend(open.take(MOST_OPEN));
             chosen.sort_unstable();
             chosen.dedup();
             let look = |n: usize| {

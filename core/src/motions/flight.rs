@@ -1,21 +1,13 @@
 //! Many trajectories at a time, each until it comes to rest, is on a known orbit, repeats, or has been measured over a
 //! window.
 
-use super::identity::KnownMotion;
-use super::settling;
-use super::watch::{Watch, WindowSample};
-use crate::regimes::Periodicity;
-use crate::simulation::batch::{self, Extent};
-use crate::simulation::{Observer, Simulation, Stop};
-use crate::system::{State, System};
+use super::model::{KnownMotion, Model};
+use crate::simulation::Stop;
+use crate::simulation::batch::Extent;
 
 /// Periods at the end of those left out in which it is watched whether a motion repeats after up to four; one
 /// that takes longer is seen to in a window. More of them are time lost for the many that repeat after one.
 const WATCHED: u64 = 20;
-/// Flights of the absorber from wall to wall in a window in which it is slow: enough for extremes.
-const FLIGHTS: u32 = 16;
-/// Trajectories up to which each flies alone: most lanes of a batch would be empty.
-const FEW: usize = 3;
 /// Periods after which a trajectory is held against the known orbits: a fraction of any transient, and long enough for a
 /// batch to be filled.
 const LOOK: u64 = 48;
@@ -30,11 +22,11 @@ const FILLS_A_BATCH: u64 = 64;
 
 /// A start on its way.
 #[derive(Debug)]
-pub(super) struct StartFlight {
+pub(super) struct StartFlight<M: Model> {
     /// Its number among those of the search.
     pub index: usize,
-    pub simulation: Simulation,
-    /// Excitation periods that it was flown before the simulation began.
+    pub flight: M::Flight,
+    /// Excitation periods that it was flown before the flight began.
     pub before: u64,
     /// Excitation periods that it flies on before it is looked at.
     pub left_out: u64,
@@ -43,35 +35,38 @@ pub(super) struct StartFlight {
 }
 
 /// What became of one.
-pub(super) enum StartOutcome {
+pub(super) enum StartOutcome<M: Model> {
     /// It came to rest where no wall reaches it, in a state at phase 0.
-    Rests(State),
-    /// It is on the orbit with this index.
+    Rests(M::State),
+    /// It is on the motion with this index.
     On(usize),
     /// It repeats, or was measured over its window.
-    Seen(Box<WindowSample>),
+    Seen(Box<M::Sample>),
     /// Neither.
     Open,
     /// It could not be followed.
     Lost,
 }
 
+/// Starts with what became of them.
+type Ended<M> = Vec<(StartFlight<M>, StartOutcome<M>)>;
+
 /// Flies all of them as far as each is to go; `known` are the motions of each one's place.
-pub(super) fn flown<'a>(
-    flights: Vec<StartFlight>,
+pub(super) fn flown<'a, M: Model + 'a>(
+    flights: Vec<StartFlight<M>>,
     most_impacts: u64,
-    known: &dyn Fn(usize) -> &'a [KnownMotion],
-) -> Vec<(StartFlight, StartOutcome)> {
+    known: &dyn Fn(usize) -> &'a [KnownMotion<M>],
+) -> Ended<M> {
     let mut done = Vec::with_capacity(flights.len());
     let faded = faded(flights, most_impacts, known, &mut done);
     let (mut going, mut windows) = (Vec::new(), Vec::new());
     let periods: Vec<u64> = faded.iter().map(watched).collect();
     let watches = faded.iter().zip(&periods);
-    let watches = watches.map(|(one, far)| Watch::of_repetition(&one.simulation, *far)).collect();
+    let watches = watches.map(|(one, far)| M::watch_of_repetition(&one.flight, *far)).collect();
     for (flight, mut watch, stop) in watched_over(faded, &periods, watches, most_impacts) {
-        let simulation = &flight.simulation;
-        let repeats = watch.repetition().is_some();
-        if let Some(state) = settling::at_rest(simulation.system(), &simulation.state()) {
+        let trajectory = &flight.flight;
+        let repeats = M::repeats(&mut watch).is_some();
+        if let Some(state) = M::at_rest(trajectory) {
             done.push((flight, StartOutcome::Rests(state)));
         } else if stop == Stop::EndTime && flight.window == 0 && !repeats {
             done.push((flight, StartOutcome::Open));
@@ -80,13 +75,13 @@ pub(super) fn flown<'a>(
             done.push((flight, end));
         } else {
             // Without an impact yet a window holds some flights, but is no longer than what was left out.
-            let silent = watch.statistics().impacts() == 0;
-            let flown = if silent { periods_of_flights(simulation) } else { 0 };
-            let no_longer = |periods| settling::window(simulation.system(), periods);
+            let silent = M::is_silent(&mut watch);
+            let flown = if silent { M::periods_of_flights(trajectory) } else { 0 };
+            let no_longer = |periods| M::of(trajectory).window(periods);
             windows.push(match stop {
                 // Many impacts are a regime already.
                 Stop::ImpactLimit => no_longer(WATCHED),
-                _ => no_longer(flown.min(simulation.periods())).max(flight.window),
+                _ => no_longer(flown.min(M::periods(trajectory))).max(flight.window),
             });
             going.push(flight);
         }
@@ -96,41 +91,38 @@ pub(super) fn flown<'a>(
 }
 
 /// Periods at the end of those that are left out in which it is watched whether it repeats.
-fn watched(flight: &StartFlight) -> u64 {
-    settling::window(flight.simulation.system(), WATCHED)
+fn watched<M: Model>(flight: &StartFlight<M>) -> u64 {
+    M::of(&flight.flight).window(WATCHED)
 }
 
-fn seen(watch: &mut Watch, flight: &StartFlight, stop: Stop) -> StartOutcome {
-    let sample = watch.sample(&flight.simulation, stop);
+fn seen<M: Model>(watch: &mut M::Watch, flight: &StartFlight<M>, stop: Stop) -> StartOutcome<M> {
+    let sample = M::sample(watch, &flight.flight, stop);
     sample.map_or(StartOutcome::Lost, |sample| StartOutcome::Seen(Box::new(sample)))
 }
 
 /// Leaves out what is to be left out, but for its last periods; those that are on a known orbit by then are done.
-fn faded<'a>(
-    mut flights: Vec<StartFlight>,
+fn faded<'a, M: Model + 'a>(
+    mut flights: Vec<StartFlight<M>>,
     most_impacts: u64,
-    known: &dyn Fn(usize) -> &'a [KnownMotion],
-    done: &mut Vec<(StartFlight, StartOutcome)>,
-) -> Vec<StartFlight> {
+    known: &dyn Fn(usize) -> &'a [KnownMotion<M>],
+    done: &mut Ended<M>,
+) -> Vec<StartFlight<M>> {
     let mut left: Vec<u64> =
         flights.iter().map(|one| one.left_out.saturating_sub(watched(one))).collect();
     let mut distances = vec![f64::INFINITY; flights.len()];
     let (mut over, mut place) = (Vec::new(), (0..flights.len()).collect::<Vec<_>>());
     while !flights.is_empty() {
-        let solved = |one: &StartFlight| {
-            known(one.index).iter().any(|one| one.distance(&State::AT_REST).is_finite())
-        };
+        let solved = |one: &StartFlight<M>| known(one.index).iter().any(KnownMotion::attracts);
         let each = flights.iter().zip(&place);
         let far: Vec<u64> = each
             .map(|(one, at)| if solved(one) { left[*at].min(LOOK) } else { left[*at] })
             .collect();
-        let mut nobody: Vec<()> = vec![(); flights.len()];
-        let stops = run(&mut flights, &far, &mut nobody, most_impacts);
+        let stops = run(&mut flights, &far, None, most_impacts);
         let ended = std::mem::take(&mut flights).into_iter().zip(std::mem::take(&mut place));
         for (((flight, at), far), stop) in ended.zip(far).zip(stops) {
             left[at] -= far;
-            let state = flight.simulation.state();
-            let distance = |one: &KnownMotion| one.distance(&state);
+            let state = M::state(&flight.flight);
+            let distance = |one: &KnownMotion<M>| one.distance(&state);
             let nearest = known(flight.index).iter().map(distance).enumerate();
             let nearest = nearest.min_by(|a, b| a.1.total_cmp(&b.1));
             let before = distances[at];
@@ -153,11 +145,11 @@ fn faded<'a>(
 }
 
 /// Measures each over a window, in stretches that grow: what has settled at the end of one needs no more.
-fn measured(
-    mut flights: Vec<StartFlight>,
+fn measured<M: Model>(
+    mut flights: Vec<StartFlight<M>>,
     mut windows: Vec<u64>,
     most_impacts: u64,
-    done: &mut Vec<(StartFlight, StartOutcome)>,
+    done: &mut Ended<M>,
 ) {
     // Every period of every window is kept until it is over.
     let longest = windows.iter().copied().max().unwrap_or(0).max(1);
@@ -168,7 +160,9 @@ fn measured(
         measured(flights, windows, most_impacts, done);
         return measured(others, left, most_impacts, done);
     }
-    let mut watches: Vec<Watch> = flights.iter().map(|one| Watch::begin(&one.simulation)).collect();
+    let each = flights.iter().zip(&windows);
+    let mut watches: Vec<M::Watch> =
+        each.map(|(one, window)| M::watch(&one.flight, *window)).collect();
     let mut stretch = 2 * WATCHED;
     while !flights.is_empty() {
         let far: Vec<u64> = windows.iter().map(|left| stretch.min(*left)).collect();
@@ -176,7 +170,7 @@ fn measured(
         (flights, watches) = (Vec::new(), Vec::new());
         let mut further = Vec::new();
         for ((flight, mut watch, stop), left) in ended.into_iter().zip(windows) {
-            let settled = watch.repetition().is_some_and(Periodicity::has_settled);
+            let settled = M::repeats(&mut watch).is_some_and(|settled| settled);
             if left <= stretch || stop != Stop::EndTime || settled {
                 let end = seen(&mut watch, &flight, stop);
                 done.push((flight, end));
@@ -192,48 +186,26 @@ fn measured(
 }
 
 /// Goes on with watches.
-fn watched_over(
-    mut flights: Vec<StartFlight>,
+fn watched_over<M: Model>(
+    mut flights: Vec<StartFlight<M>>,
     periods: &[u64],
-    mut watches: Vec<Watch>,
+    mut watches: Vec<M::Watch>,
     most_impacts: u64,
-) -> Vec<(StartFlight, Watch, Stop)> {
-    let mut told: Vec<_> = watches.iter_mut().map(|one| &mut one.observers).collect();
-    let stops = run(&mut flights, periods, &mut told, most_impacts);
+) -> Vec<(StartFlight<M>, M::Watch, Stop)> {
+    let stops = run(&mut flights, periods, Some(&mut watches), most_impacts);
     let all = flights.into_iter().zip(watches).zip(stops);
     all.map(|((flight, watch), stop)| (flight, watch, stop)).collect()
 }
 
-fn run<O: Observer>(
-    flights: &mut [StartFlight],
+fn run<M: Model>(
+    flights: &mut [StartFlight<M>],
     periods: &[u64],
-    observers: &mut [O],
+    watches: Option<&mut [M::Watch]>,
     most_impacts: u64,
 ) -> Vec<Stop> {
     let each = flights.iter().zip(periods);
-    let extents: Vec<Extent> = each
-        .map(|(one, periods)| extent(one.simulation.system(), *periods, most_impacts))
-        .collect();
-    if flights.len() <= FEW {
-        let each = flights.iter_mut().zip(&extents).zip(observers);
-        return each
-            .map(|((one, far), observer)| one.simulation.run(far.periods, far.impacts, observer))
-            .collect();
-    }
-    let mut simulations: Vec<&mut Simulation> =
-        flights.iter_mut().map(|one| &mut one.simulation).collect();
-    batch::run_each(&mut simulations, &extents, observers)
-}
-
-fn extent(system: &System, periods: u64, most_impacts: u64) -> Extent {
-    // A slow excitation has many natural periods in each of its own.
-    let natural = (1.0 / system.frequency_ratio()).max(1.0);
-    Extent { periods, impacts: ((periods as f64 * natural) as u64).saturating_mul(most_impacts) }
-}
-
-/// Excitation periods of [`FLIGHTS`] flights of an absorber from wall to wall.
-fn periods_of_flights(simulation: &Simulation) -> u64 {
-    let speed = simulation.state().y_velocity.abs();
-    let duration = f64::from(FLIGHTS) * 2.0 / speed;
-    if speed > 0.0 { (duration / simulation.system().period()) as u64 } else { 0 }
+    let extents: Vec<Extent> =
+        each.map(|(one, periods)| M::extent(&one.flight, *periods, most_impacts)).collect();
+    let mut flights: Vec<&mut M::Flight> = flights.iter_mut().map(|one| &mut one.flight).collect();
+    M::run(&mut flights, &extents, watches)
 }

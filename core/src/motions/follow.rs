@@ -27,9 +27,9 @@ pub fn follow(
     effort: &Effort,
 ) -> Result<Vec<Option<Motion>>, StartError> {
     let mut motions: Vec<Option<Motion>> = vec![None; starts.len()];
-    let mut flights: Vec<StartFlight> = Vec::with_capacity(starts.len());
+    let mut flights: Vec<StartFlight<System>> = Vec::with_capacity(starts.len());
     for (index, (system, start)) in starts.iter().enumerate() {
-        let simulation = Simulation::new(system, *start, 0.0)?;
+        let flight = Simulation::new(system, *start, 0.0)?;
         // Starts of one system follow each other.
         let before = index.checked_sub(1).filter(|before| starts[*before].0 == *system);
         let left_out = match (effort.discard, before) {
@@ -38,7 +38,7 @@ pub fn follow(
             (None, None) => SettlingTime::of(system).periods,
         };
         let window = effort.periods;
-        flights.push(StartFlight { index, simulation, before: 0, left_out, window });
+        flights.push(StartFlight { index, flight, before: 0, left_out, window });
     }
     for round in 1..=ROUNDS {
         flights.iter_mut().for_each(|one| one.window = effort.periods * round);
@@ -53,11 +53,11 @@ pub fn follow(
             };
             let index = flight.index;
             let motion = Motion::seen(&flight, end);
-            motions[index] = motion.map(|one| one.shaken(flight.simulation.system(), effort));
+            motions[index] = motion.map(|one| one.shaken(flight.flight.system(), effort));
             if settling && round < ROUNDS {
                 flights.push(flight);
             } else {
-                operation_count::note(flight.simulation.operations());
+                operation_count::note(flight.flight.operations());
             }
         }
         flights.sort_by_key(|flight| flight.index);
@@ -67,10 +67,10 @@ pub fn follow(
 
 impl Motion {
     /// What a start led to.
-    fn seen(flight: &StartFlight, end: StartOutcome) -> Option<Self> {
-        let system = flight.simulation.system();
+    fn seen(flight: &StartFlight<System>, end: StartOutcome<System>) -> Option<Self> {
+        let system = flight.flight.system();
         let reached =
-            Reached { starts: 1, followed: flight.simulation.periods(), ..Reached::default() };
+            Reached { starts: 1, followed: flight.flight.periods(), ..Reached::default() };
         let motion = match end {
             StartOutcome::Lost | StartOutcome::On(_) | StartOutcome::Open => return None,
             StartOutcome::Rests(state) => {

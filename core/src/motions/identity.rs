@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::model::Proof;
 use super::repetition::{Polished, Repetition};
 use super::watch::WindowSample;
 use super::{Facts, Measured, Motion, MotionKind, Reached};
@@ -19,22 +20,7 @@ const MIRRORED: f64 = 1e-4;
 const SAME: f64 = 1e-3;
 /// Longest cycle that is proven; a longer one is a chattering sequence, which ends in contact and is no cycle of impacts.
 const MOST_IMPACTS: usize = 64;
-/// Distance from an attracting orbit, over its size, times its distance from losing stability, below which a trajectory that
-/// comes closer is on it. Next to a saddle-node the orbit that bounds its basin is as far away as its largest multiplier is
-/// from 1, next to other bifurcations the root of that.
-const CAPTURED: f64 = 0.03;
-
-/// What a trajectory that repeats is.
-pub(super) enum Proof {
-    /// An orbit that attracts, or a repetition that no solver of orbits covers, with what is seen of it.
-    Is(MotionKind, Box<WindowSample>),
-    /// An orbit, or a repetition, that does not attract: the trajectory is about to leave it.
-    Leaves,
-    /// Neither: it is still settling.
-    Open,
-}
-
-impl Proof {
+impl Proof<System> {
     /// Of a trajectory that was seen to repeat, by Newton's method from its last repetition.
     pub fn of(system: &System, sample: &WindowSample, found: Periodicity) -> Self {
         let orbit = orbit_in(system, sample, found);
@@ -180,40 +166,17 @@ fn cycle(system: &System, impacts: &[Impact], periods: u32) -> Option<Cycle> {
     })
 }
 
-/// A motion of a place that trajectories are held against.
-#[derive(Debug, Clone)]
-pub(super) struct KnownMotion {
-    pub motion: Motion,
-    /// Its states at the ends of its excitation periods, and those of its mirror image.
-    states: Vec<State>,
-    size: f64,
-}
-
-impl KnownMotion {
-    /// A motion with where it stands at phase 0, if it repeats and is known to attract.
-    pub fn new(system: &System, motion: Motion) -> Self {
-        let states = match &motion.kind {
-            MotionKind::Orbit(orbit) => states(system, orbit),
-            MotionKind::Repeats(Repetition { periods, multiplier: Some(_), .. }) => {
-                let State { x, x_velocity, y, y_velocity } = motion.state;
-                let turned =
-                    State { x: -x, x_velocity: -x_velocity, y: -y, y_velocity: -y_velocity };
-                let twin = system.cavity().is_symmetric().then_some((turned, PI));
-                states_from(system, [(motion.state, 0.0)].into_iter().chain(twin), *periods)
-            }
-            _ => Vec::new(),
-        };
-        let size = states.iter().map(State::size).fold(1.0, f64::max);
-        Self { motion, states, size }
-    }
-
-    /// How far a state at phase 0 is from it, over what counts as being on it; infinite where that is not known.
-    pub fn distance(&self, state: &State) -> f64 {
-        let Some(multiplier) = self.motion.largest_multiplier() else { return f64::INFINITY };
-        let near =
-            self.states.iter().map(|known| known.distance(state)).fold(f64::INFINITY, f64::min);
-        let room = CAPTURED * (1.0 - multiplier);
-        near / (room * self.size).max(f64::MIN_POSITIVE)
+/// States at the ends of the periods of a motion that attracts, and of its mirror image; none of one that is known by averages.
+pub(super) fn states_of(system: &System, motion: &Motion) -> Vec<State> {
+    match &motion.kind {
+        MotionKind::Orbit(orbit) => states(system, orbit),
+        MotionKind::Repeats(Repetition { periods, multiplier: Some(_), .. }) => {
+            let State { x, x_velocity, y, y_velocity } = motion.state;
+            let turned = State { x: -x, x_velocity: -x_velocity, y: -y, y_velocity: -y_velocity };
+            let twin = system.cavity().is_symmetric().then_some((turned, PI));
+            states_from(system, [(motion.state, 0.0)].into_iter().chain(twin), *periods)
+        }
+        _ => Vec::new(),
     }
 }
 

@@ -25,6 +25,8 @@ mod follow;
 mod identity;
 mod measured;
 mod modal;
+mod model;
+mod one;
 mod patience;
 mod repetition;
 mod rest;

@@ -59,7 +59,7 @@ const SPARSE: usize = 4;
 /// on either side of it.
 const WAITED: f64 = 0.25;
 /// Relative error of a largest value from which on it is hardly known at a place that may not decide.
-const VAGUE: f64 = 1.0;
+pub(super) const VAGUE: f64 = 1.0;
 /// The same where it may.
 pub(super) const VAGUE_IN_FULL: f64 = 0.5;
 /// Places that are added before the next gaps are chosen.

@@ -1,26 +1,20 @@
 //! The search: what can be solved for, then starts, each flown until it has settled; a chaotic transient is no motion.
 //!
-//! Every start is left alone for the [`SettlingTime`]; then it is on an orbit that was solved for, or is seen to repeat. A
+//! Every start is left alone until what it leaves has faded; then it is on an orbit that was solved for, or is seen to repeat. A
 //! repetition is proven by Newton's method; if the orbit does not attract, the start is pushed off it and flown on. What
 //! wanders is flown on as well, for longer each time, while starts of its place still settle: until they have flown so many
 //! windows together without one of them settling that a transient would have ended. What wanders still is measured.
 
 use super::cluster::Cluster;
 use super::flight::{StartFlight, StartOutcome, flown};
-use super::identity::{KnownMotion, Proof};
+use super::model::{KnownMotion, LongTerm, Model, Proof, Sample};
 use super::patience::{Missing, Patience, Thoroughness, busy};
-use super::rest::Rest;
-use super::settling::SettlingTime;
-use super::watch::WindowSample;
-use super::{Effort, Facts, Motion, MotionKind, Motions, Place, Reached, settling, solved};
+use super::{Effort, Motion, Motions, Place, Reached};
 use crate::executor::{Executor, map};
 use crate::operation_count;
-use crate::orbits::Orbit;
-use crate::simulation::{Simulation, StartError, Stop};
-use crate::system::{State, System};
+use crate::simulation::{StartError, Stop};
+use crate::system::System;
 
-/// Share of its steady amplitude within which a structure vibrates as if alone.
-const STEADY: f64 = 1e-6;
 /// How often the window is doubled of starts that still settle, that together are not one motion yet, or whose largest value
 /// is hardly known.
 const LONGEST: usize = 4;
@@ -29,11 +23,6 @@ const LONGEST: usize = 4;
 const MOST_PERIODS: u64 = 512_000;
 /// Measurements after which what looks like a motion that repeats, but for a modulation that stays, is one that wanders.
 const FEWEST: usize = 3;
-/// Excitation periods over which a start is measured at least, where it does not repeat; several times the slowest
-/// modulation.
-const RECOGNITION: u64 = 200;
-/// Push off an orbit that does not attract, over the size of the motion: far above what a repetition leaves open.
-const PUSH: f64 = 1e-3;
 /// Starts that fly side by side: a few times the lanes of a batch.
 const SIDE_BY_SIDE: usize = 256;
 
@@ -84,7 +73,11 @@ pub fn motions(
                 on.advance(starts as u64)
             }
         };
-        let searched = || searched(groups[k], effort, on, &advance);
+        let starts: Vec<Starts<System>> = groups[k].iter().map(Starts::of).collect();
+        let searched = || -> Result<Vec<Motions>, StartError> {
+            let found = searched(&starts, effort, on, &advance)?.into_iter().zip(groups[k]);
+            Ok(found.map(|(found, place)| Motions::of(found, place, effort)).collect())
+        };
         let (found, cost) = operation_count::counted(searched);
         // Places that are searched together share the work.
         let cost = cost / groups[k].len().max(1) as u64;
@@ -97,32 +90,55 @@ pub fn motions(
     Ok(all)
 }
 
-fn searched(
-    places: &[Place],
+/// What moves at a place, and where its motions begin: see [`Place`].
+pub(super) struct Starts<M: Model> {
+    pub model: M,
+    pub counted: Vec<M::State>,
+    pub further: Vec<M::State>,
+    pub known: Vec<M::Motion>,
+    pub patience: f64,
+    pub in_full: bool,
+}
+
+impl Starts<System> {
+    fn of(place: &Place) -> Self {
+        let Place { system, starts, further, known, patience, in_full } = place.clone();
+        Self { model: system, counted: starts, further, known, patience, in_full }
+    }
+}
+
+/// The motions of a place: those that are known first, then those that were found.
+pub(super) struct Found<M: Model> {
+    pub all: Vec<M::Motion>,
+    /// Which of them each counted start led to.
+    pub led: Vec<Option<usize>>,
+}
+
+/// The motions of some places, whose starts fly side by side.
+pub(super) fn searched<M: Model>(
+    places: &[Starts<M>],
     effort: &Effort,
     on: &dyn Executor,
     advance: &dyn Fn(usize),
-) -> Result<Vec<Motions>, StartError> {
-    let mut grounds: Vec<Ground> = Vec::with_capacity(places.len());
-    let mut flights: Vec<StartFlight> = Vec::new();
+) -> Result<Vec<Found<M>>, M::StartError> {
+    let mut grounds: Vec<Ground<M>> = Vec::with_capacity(places.len());
+    let mut flights: Vec<StartFlight<M>> = Vec::new();
     let mut of_place: Vec<usize> = Vec::new();
-    let mut solved: Vec<KnownMotion> = Vec::new();
+    let mut solved: Vec<KnownMotion<M>> = Vec::new();
     for (number, place) in places.iter().enumerate() {
         // Places of one system, with a start each, follow one another.
-        if number == 0 || places[number - 1].system != place.system {
-            solved = solved::known(&place.system);
-            let rest = solved::at_rest(&place.system);
-            solved.extend(rest.map(|motion| KnownMotion::new(&place.system, motion)));
+        if number == 0 || places[number - 1].model != place.model {
+            solved = place.model.solved();
         }
         let mut ground = Ground::of(place, &solved, effort, of_place.len());
-        for start in place.starts.iter().chain(&place.further) {
-            let simulation = Simulation::new(&place.system, *start, 0.0)?;
+        for start in place.counted.iter().chain(&place.further) {
+            let flight = place.model.begin(start)?;
             let left_out = ground.left_out;
             let index = of_place.len();
-            flights.push(StartFlight { index, simulation, before: 0, left_out, window: 0 });
+            flights.push(StartFlight { index, flight, before: 0, left_out, window: 0 });
             of_place.push(number);
         }
-        if settling::comes_to_rest(&place.system) {
+        if place.model.comes_to_rest() {
             flights.truncate(flights.len() - ground.led.len());
             let rest = ground.at_rest(None);
             ground.led.fill(rest);
@@ -140,7 +156,7 @@ fn searched(
             ended.extend(flown(flights, effort.most_impacts, &known));
             flights = later;
         }
-        let mut open: Vec<Vec<StartFlight>> = places.iter().map(|_| Vec::new()).collect();
+        let mut open: Vec<Vec<StartFlight<M>>> = places.iter().map(|_| Vec::new()).collect();
         for (flight, end) in ended {
             let place = of_place[flight.index];
             open[place].extend(grounds[place].taken(flight, end));
@@ -152,18 +168,13 @@ fn searched(
         advance(under_way - flights.len());
     }
     let all = grounds.into_iter().zip(places);
-    let motions = |(ground, place): (Ground, &Place)| {
-        let found = ground.motions(place.starts.len());
-        let shaken = |motion: Motion| motion.shaken(&place.system, effort);
-        Motions { all: found.all.into_iter().map(shaken).collect(), ..found }
-    };
-    Ok(all.map(motions).collect())
+    Ok(all.map(|(ground, place)| ground.motions(place.counted.len())).collect())
 }
 
 /// What is known of a place.
-struct Ground {
-    system: System,
-    known: Vec<KnownMotion>,
+struct Ground<M: Model> {
+    model: M,
+    known: Vec<KnownMotion<M>>,
     left_out: u64,
     /// The number of its first start among those of the search.
     first: usize,
@@ -174,7 +185,7 @@ struct Ground {
     /// Starts that led there late, by their known motion.
     late: Vec<usize>,
     /// What the others were like when they were measured, if they still are.
-    open: Vec<Option<WindowSample>>,
+    open: Vec<Option<M::Sample>>,
     /// Periods of a window, and the patience with all of them.
     periods: u64,
     patience: Patience,
@@ -189,43 +200,44 @@ struct Ground {
     followed: Vec<u64>,
     impacts: Vec<u64>,
     busy: Vec<f64>,
+    /// Impacts of starts that wandered, and at most.
+    work: f64,
+    most_work: f64,
 }
 
-impl Ground {
-    fn of(place: &Place, solved: &[KnownMotion], effort: &Effort, first: usize) -> Self {
-        let system = place.system;
-        let mut known: Vec<KnownMotion> = Vec::new();
+impl<M: Model> Ground<M> {
+    fn of(place: &Starts<M>, solved: &[KnownMotion<M>], effort: &Effort, first: usize) -> Self {
+        let model = place.model.clone();
+        let mut known: Vec<KnownMotion<M>> = Vec::new();
         for motion in &place.known {
-            let mut motion = motion.clone();
-            motion.reached = Reached { solved: motion.reached.solved, ..Reached::default() };
-            known.push(KnownMotion::new(&system, motion));
+            let solved = motion.reached().solved;
+            let motion = motion.clone().with(Reached { solved, ..Reached::default() });
+            known.push(KnownMotion::new(&model, motion));
         }
         let given = known.len();
         for one in solved {
-            let is_given = |other: &KnownMotion| other.motion.kind.is_same(&one.motion.kind);
+            let is_given = |other: &KnownMotion<M>| other.motion.is_same(&one.motion);
             if !known[..given].iter().any(is_given) {
                 known.push(one.clone());
             }
         }
-        let orbits: Vec<Orbit> =
-            known.iter().filter_map(|one| one.motion.orbit().cloned()).collect();
-        let count = place.starts.len() + place.further.len();
+        let count = place.counted.len() + place.further.len();
         let periods = effort.periods.max(1);
         let patience = Patience::with(Thoroughness {
             periods,
-            starts: if place.in_full { effort.starts as usize } else { place.starts.len() },
+            starts: if place.in_full { effort.starts as usize } else { place.counted.len() }
+                .min(M::MOST_STARTS),
             effort: effort.patience,
             place: place.patience,
             in_full: place.in_full,
         });
         Self {
-            left_out: effort
-                .discard
-                .unwrap_or_else(|| SettlingTime::beside(&system, &orbits).periods),
-            system,
+            left_out: effort.discard.unwrap_or_else(|| model.settling(&known)),
+            creeps: model.creeps(),
+            most_work: model.most_impacts(place.patience),
+            model,
             known,
             first,
-            creeps: settling::creeps(&system),
             led: vec![None; count],
             late: Vec::new(),
             open: vec![None; count],
@@ -239,19 +251,21 @@ impl Ground {
             followed: vec![0; count],
             impacts: vec![0; count],
             busy: vec![0.0; count],
+            work: 0.0,
         }
     }
 
     /// Notes what became of a start; the flight if it is open.
-    fn taken(&mut self, flight: StartFlight, end: StartOutcome) -> Option<StartFlight> {
+    fn taken(&mut self, flight: StartFlight<M>, end: StartOutcome<M>) -> Option<StartFlight<M>> {
         let start = flight.index - self.first;
-        let flown = flight.before + flight.simulation.periods() - self.followed[start];
+        let flown = flight.before + M::periods(&flight.flight) - self.followed[start];
         self.followed[start] += flown;
-        let impacts = flight.simulation.impacts() - self.impacts[start];
+        let impacts = M::impacts(&flight.flight) - self.impacts[start];
         self.impacts[start] += impacts;
         self.busy[start] = impacts as f64 / flown.max(1) as f64;
         self.open[start] = None;
         let first = self.patience.is_new() && self.measured == 0;
+        self.work += if first { 0.0 } else { impacts as f64 };
         let motion = match end {
             StartOutcome::Lost => None,
             StartOutcome::Rests(_) => self.at_rest(None),
@@ -264,20 +278,16 @@ impl Ground {
                 Identified::Known(known) => Some(known),
                 Identified::Open => {
                     self.patience.flown(flown);
-                    let goes_on = sample.stop == Stop::EndTime;
+                    let goes_on = sample.stop() == Stop::EndTime;
                     self.open[start] = Some(*sample);
                     return goes_on.then_some(flight);
                 }
                 Identified::Leaves => {
                     let before = self.followed[start];
                     self.impacts[start] = 0;
-                    let simulation = pushed(&self.system, &sample.end);
+                    let beside = self.model.pushed(M::end(&sample));
                     self.open[start] = Some(*sample);
-                    return simulation.map(|simulation| StartFlight {
-                        simulation,
-                        before,
-                        ..flight
-                    });
+                    return beside.map(|beside| StartFlight { flight: beside, before, ..flight });
                 }
             },
         };
@@ -290,61 +300,51 @@ impl Ground {
     }
 
     /// The place of the motion at rest; one that was not solved for is what was seen.
-    fn at_rest(&mut self, seen: Option<&WindowSample>) -> Option<usize> {
-        let known = self.known.iter().position(|one| one.motion.rest().is_some());
-        if known.is_some() {
-            return known;
-        }
-        let (facts, state) = match seen {
-            Some(sample) => (sample.facts, sample.end),
-            None => {
-                let steady = self.system.linear_response()?;
-                (Facts::of_sine(steady.amplitude(), 0.0), steady.state(&self.system))
-            }
-        };
-        let motion = Motion::resting(Rest::seen(&self.system, facts.peak.value), facts, state);
-        self.known.push(KnownMotion::new(&self.system, motion));
-        Some(self.known.len() - 1)
+    fn at_rest(&mut self, seen: Option<&M::Sample>) -> Option<usize> {
+        let known = self.known.iter().position(|one| one.motion.rests());
+        known.or_else(|| {
+            let motion = self.model.resting(seen)?;
+            Some(self.add(motion))
+        })
     }
 
-    fn identified(&mut self, sample: &WindowSample) -> Identified {
-        if sample.stop != Stop::EndTime {
+    /// The place of a new motion.
+    fn add(&mut self, motion: M::Motion) -> usize {
+        self.known.push(KnownMotion::new(&self.model, motion));
+        self.known.len() - 1
+    }
+
+    fn identified(&mut self, sample: &M::Sample) -> Identified {
+        if sample.stop() != Stop::EndTime {
             return Identified::Open;
         }
-        // Without damping a free vibration beside it never fades; after almost plastic impacts the absorber drifts so
-        // slowly that no wall is reached in any window, while the structure vibrates as if alone.
-        let alone = || {
-            let drifts = !self.system.cavity().moves_absorber();
-            let steady = self.system.linear_response().map_or(f64::NAN, |at| at.amplitude());
-            drifts && (sample.facts.peak.value - steady).abs() < STEADY * steady
-        };
-        let free =
-            sample.evidence.impacts_per_period == 0.0 && (self.system.damping() == 0.0 || alone());
-        if free || sample.evidence.periodicity.is_some_and(|found| found.impacts == 0) {
+        if self.model.rests(sample) {
             return self.at_rest(Some(sample)).map_or(Identified::Open, Identified::Known);
         }
-        let Some(found) = sample.evidence.periodicity else { return Identified::Open };
-        if let Some(near) = self.known.iter().position(|one| one.distance(&sample.end) < 1.0) {
+        if !sample.repeats() {
+            return Identified::Open;
+        }
+        let end = M::end(sample);
+        if let Some(near) = self.known.iter().position(|one| one.distance(end) < 1.0) {
             return Identified::Known(near);
         }
-        let (kind, sample) = match Proof::of(&self.system, sample, found) {
+        let (kind, sample, is_on) = match self.model.proof(sample) {
             Proof::Leaves => return Identified::Leaves,
             Proof::Open => return Identified::Open,
-            Proof::Is(kind, sample) => (kind, sample),
+            Proof::Is(kind, sample) => (kind, sample, true),
+            Proof::Nears(kind, sample) => (kind, sample, false),
         };
-        if let Some(known) = self.known.iter().position(|one| one.motion.kind.is_same(&kind)) {
-            return Identified::Known(known);
-        }
-        let Some(motion) = Motion::proven(&self.system, kind, Some(&sample)) else {
-            return Identified::Open;
-        };
-        self.known.push(KnownMotion::new(&self.system, motion));
-        Identified::Known(self.known.len() - 1)
+        let known = self.known.iter().position(|one| M::is_kind(&one.motion, &kind));
+        let known = known.or_else(|| {
+            let motion = self.model.proven(kind, &sample)?;
+            Some(self.add(motion))
+        });
+        known.filter(|_| is_on).map_or(Identified::Open, Identified::Known)
     }
 
     /// Those that have not settled, with how far they go; none once they have shown what they are.
-    fn further(&mut self, mut open: Vec<StartFlight>) -> Vec<StartFlight> {
-        let beside = self.known.iter().any(|one| one.motion.rest().is_none());
+    fn further(&mut self, mut open: Vec<StartFlight<M>>) -> Vec<StartFlight<M>> {
+        let beside = self.known.iter().any(|one| !one.motion.rests());
         let Missing { windows, usual } = self.patience.missing(open.len(), beside);
         if open.is_empty() {
             self.impatient = false;
@@ -353,32 +353,33 @@ impl Ground {
         let missing = if self.creeps { 0.0 } else { windows };
         // Where the rounds end before that it is what it is elsewhere.
         self.impatient = usual || self.creeps;
-        let of = |flight: &StartFlight| {
+        let of = |flight: &StartFlight<M>| {
             Some((flight.index, self.open[flight.index - self.first].clone()?))
         };
-        let samples: Vec<(usize, WindowSample)> = open.iter().filter_map(of).collect();
+        let samples: Vec<(usize, M::Sample)> = open.iter().filter_map(of).collect();
         let measured = samples.len() == open.len();
         let count = open.len() as u64;
         let clusters =
-            if measured { Cluster::all(samples.into_iter(), self.periods) } else { Vec::new() };
+            if measured { Cluster::all(&self.model, samples, self.periods) } else { Vec::new() };
         let young = self.measured < FEWEST;
         let settles = clusters.len() > 1 || clusters.iter().any(|one| one.settles(young));
         let restless = settles && !self.creeps && self.measured <= LONGEST;
         let loose = |limits| clusters.iter().any(|one| !one.is_within(limits));
         let again = self.accuracy.is_some_and(loose) && self.window * count < MOST_PERIODS;
         let vague = self.measured <= LONGEST && clusters.iter().any(|one| one.is_vague(self.vague));
+        let goes_on = self.patience.goes_on() && self.work <= self.most_work;
         let busiest = open.iter().map(|flight| self.busy[flight.index - self.first]);
         let busiest = busiest.fold(0.0, f64::max);
-        let (left_out, window) = if self.patience.goes_on() && (missing > 0.0 || restless) {
+        let (left_out, window) = if goes_on && (missing > 0.0 || restless) {
             let [each, most] = self.patience.next(missing, open.len(), busiest);
             (if restless { most } else { each }, 0)
         } else if measured && !again && !vague {
             return Vec::new();
         } else {
-            let shared = (self.periods / count).max(RECOGNITION).min(self.periods);
+            let shared = (self.periods / count).max(self.model.shortest_window()).min(self.periods);
             let wanted = if self.window == 0 { shared } else { 2 * self.window };
             // What a case asks for takes what it takes.
-            self.window = if again { wanted } else { settling::window(&self.system, wanted) };
+            self.window = if again { wanted } else { self.model.window(wanted) };
             self.measured += busy(busiest) as usize;
             (0, self.window)
         };
@@ -389,13 +390,13 @@ impl Ground {
     }
 
     /// The list, of which the first `counted` starts are counted.
-    fn motions(self, counted: usize) -> Motions {
-        let Self { mut known, mut led, late, open, impatient, followed, periods, .. } = self;
+    fn motions(self, counted: usize) -> Found<M> {
+        let Self { model, known, mut led, late, open, impatient, followed, periods, .. } = self;
         let is_counted = |start: &usize| *start < counted;
         let samples = open.into_iter().enumerate().filter_map(|(start, one)| Some((start, one?)));
-        let wanders = Cluster::all(samples, periods);
-        let mut all: Vec<Motion> = Vec::new();
-        for (index, one) in known.drain(..).enumerate() {
+        let wanders = Cluster::all(&model, samples.collect(), periods);
+        let mut all: Vec<M::Motion> = Vec::new();
+        for (index, one) in known.into_iter().enumerate() {
             let led = || (0..led.len()).filter(|start| led[*start] == Some(index));
             let late: Vec<usize> = led().filter(|start| late.contains(start)).collect();
             let last = late.iter().map(|start| followed[*start]).max();
@@ -404,33 +405,28 @@ impl Ground {
                 starts: led().filter(is_counted).count() as u32,
                 late: late.iter().filter(|start| is_counted(start)).count() as u32,
                 followed: last.or(first).unwrap_or_default(),
-                solved: one.motion.reached.solved,
+                solved: one.motion.reached().solved,
             };
-            all.push(Motion { reached, ..one.motion });
+            all.push(one.motion.with(reached));
         }
         for cluster in wanders {
-            let known = all.iter_mut().enumerate().find(|(_, one)| {
-                matches!(one.kind, MotionKind::Wanders) && cluster.is_like(&one.facts)
-            });
-            if let Some((index, known)) = known {
-                known.reached.starts +=
-                    cluster.members.iter().filter(|start| is_counted(start)).count() as u32;
-                cluster.members.iter().for_each(|member| led[*member] = Some(index));
+            let starts = cluster.members.iter().filter(|start| is_counted(start)).count() as u32;
+            let is_known = |one: &M::Motion| one.wanders() && cluster.is_like(&one.averages());
+            let index = all.iter().position(is_known).unwrap_or(all.len());
+            cluster.members.iter().for_each(|member| led[*member] = Some(index));
+            if let Some(known) = all.get_mut(index) {
+                let reached = known.reached();
+                let starts = reached.starts + starts;
+                *known = known.clone().with(Reached { starts, ..reached });
                 continue;
             }
             let first = cluster.members.first().map(|start| followed[*start]);
-            let reached = Reached {
-                starts: cluster.members.iter().filter(|start| is_counted(start)).count() as u32,
-                followed: first.unwrap_or_default(),
-                ..Reached::default()
-            };
-            for member in &cluster.members {
-                led[*member] = Some(all.len());
-            }
+            let followed = first.unwrap_or_default();
+            let reached = Reached { starts, followed, ..Reached::default() };
             all.push(cluster.motion(reached, !impatient));
         }
         led.truncate(counted);
-        Motions::ordered(all, counted as u32, led)
+        Found { all, led }
     }
 }
 
@@ -443,17 +439,14 @@ enum Identified {
     Open,
 }
 
-/// A trajectory beside a state, in no direction that a symmetry has.
-fn pushed(system: &System, state: &State) -> Option<Simulation> {
-    let push = PUSH * state.size().max(1.0);
-    let gap = state.relative_displacement();
-    // Inwards, as the absorber may be at a wall.
-    let y = state.y + push * if gap < 0.0 { -1.0 } else { 1.0 };
-    let beside = State { x_velocity: state.x_velocity + push, y, ..*state };
-    Simulation::new(system, beside, 0.0).ok()
-}
-
 impl Motions {
+    /// What was found at a place.
+    fn of(found: Found<System>, place: &Place, effort: &Effort) -> Self {
+        let found = Self::ordered(found.all, place.starts.len() as u32, found.led);
+        let shaken = |motion: Motion| motion.shaken(&place.system, effort);
+        Self { all: found.all.into_iter().map(shaken).collect(), ..found }
+    }
+
     /// In the order of documents: by share, then peak.
     pub(super) fn ordered(all: Vec<Motion>, of_starts: u32, mut led: Vec<Option<usize>>) -> Self {
         let mut list = Self { all, of_starts, led: Vec::new(), operations: 0 };

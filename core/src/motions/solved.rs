@@ -4,7 +4,8 @@
 //! Where the absorber rubs its slip may reverse between two impacts. The solver of orbits knows cycles that slide one way
 //! from wall to wall; one that would reverse is where simulation begins, which finds what the motion is like then.
 
-use super::identity::{KnownMotion, Proof, state_of};
+use super::identity::state_of;
+use super::model::{KnownMotion, Proof};
 use super::rest::{AtRest, Rest};
 use super::watch::Watch;
 use super::{Facts, Motion, MotionKind, Reached};
@@ -49,8 +50,8 @@ pub(super) fn steady_of(motions: &[Motion]) -> Option<&Motion> {
 }
 
 /// The same with where they stand at phase 0.
-pub(super) fn known(system: &System) -> Vec<KnownMotion> {
-    let mut found: Vec<KnownMotion> = Vec::new();
+pub(super) fn known(system: &System) -> Vec<KnownMotion<System>> {
+    let mut found: Vec<KnownMotion<System>> = Vec::new();
     let may_reverse = system.cavity().friction_acceleration > 0.0;
     let orbits = match may_reverse {
         true => two_impact_orbits(system).map(|all| all.orbits),
@@ -77,7 +78,7 @@ pub(super) fn known(system: &System) -> Vec<KnownMotion> {
 }
 
 /// What a trajectory from a cycle ends in, if it is soon seen to repeat, or close enough for Newton's method.
-fn repeated(system: &System, orbit: &Orbit) -> Option<Proof> {
+fn repeated(system: &System, orbit: &Orbit) -> Option<Proof<System>> {
     let begin = state_of(system, orbit)?;
     // Most are so near that there is nothing to fly.
     if let proof @ Proof::Is(..) = Proof::solved(system, begin) {

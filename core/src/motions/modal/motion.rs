@@ -2,12 +2,11 @@
 
 use serde::Serialize;
 
-use super::stretch::Stretch;
 use crate::motions::NEGLIGIBLE;
 use crate::motions::cluster::{ERRORS, NO_DIFFERENCE};
 use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
-use crate::simulation::{Reading, Sensor, SensorRecord};
-use crate::system::ModalState;
+use crate::simulation::{Reading, SensorRecord};
+use crate::system::{MOST_MODES, ModalState};
 
 /// What a sensor reads in a long-term motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -59,60 +58,75 @@ pub struct ModalMotion {
 /// What a flight came to in each of its stretches: the largest that each sensor reads, its mean square, and impacts in a period
 /// of each absorber with the largest of their speeds.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct FlightCourse {
+pub(in crate::motions) struct FlightCourse {
     /// Excitation periods of all of them.
-    periods: u64,
-    peaks: Vec<Vec<f64>>,
-    squares: Vec<Vec<f64>>,
-    impacts: Vec<Vec<f64>>,
+    pub periods: u64,
+    pub peaks: Vec<Vec<f64>>,
+    pub squares: Vec<Vec<f64>>,
+    pub impacts: Vec<Vec<f64>>,
     speeds: Vec<Vec<f64>>,
 }
 
-/// Relative difference of largest displacements of stretches up to which they are nearly the same.
-const NEARLY_LEVEL: f64 = 0.02;
+impl FlightCourse {
+    /// Of so many sensors and absorbers, without a stretch.
+    pub fn new(sensors: usize, absorbers: usize) -> Self {
+        let [read, hit] = [sensors, absorbers].map(|count| vec![Vec::new(); count]);
+        Self { periods: 0, peaks: read.clone(), squares: read, impacts: hit.clone(), speeds: hit }
+    }
+
+    /// Adds a stretch of so many periods, with the impacts of each absorber in it.
+    pub fn add(
+        &mut self,
+        periods: u64,
+        read: &[SensorRecord],
+        impacts: &[u64; MOST_MODES],
+        speeds: &[f64; MOST_MODES],
+    ) {
+        self.periods += periods;
+        for (n, record) in read.iter().enumerate() {
+            self.peaks[n].push(record.peak);
+            self.squares[n].push(record.mean_square);
+        }
+        for (j, of) in self.impacts.iter_mut().enumerate() {
+            of.push(impacts[j] as f64 / periods as f64);
+            self.speeds[j].push(speeds[j]);
+        }
+    }
+
+    /// Whether no absorber impacts in it.
+    pub fn is_silent(&self) -> bool {
+        self.impacts.iter().flatten().all(|count| *count == 0.0)
+    }
+}
+
 /// Relative difference up to which peaks, root mean squares and impacts of two motions that repeat are the same.
 const SAME_REPEATING: f64 = 1e-6;
 
 impl ModalMotion {
-    /// From what stretches of equal length came to, in a case with a window of so many periods.
+    /// From what was seen of it by sensors, in a case with a window of so many periods.
     pub(super) fn of(
-        sensors: &[Sensor],
-        stretches: &[Stretch],
+        reads: &[Reading],
+        flights: Vec<FlightCourse>,
         repeats_after: Option<u32>,
         settled: bool,
         periods: u64,
     ) -> Self {
-        let of_sensors = |of: fn(&SensorRecord) -> f64| {
-            let each = |n: usize| stretches.iter().map(|one| of(&one.sensors[n])).collect();
-            (0..sensors.len()).map(each).collect()
-        };
-        let absorbers = stretches[0].impacts.len();
-        let of_absorbers = |of: fn(&Stretch) -> &Vec<f64>| {
-            let each = |j: usize| stretches.iter().map(|one| of(one)[j]).collect();
-            (0..absorbers).map(each).collect()
-        };
-        let flight = FlightCourse {
-            periods: stretches.iter().map(|one| one.periods).sum(),
-            peaks: of_sensors(|one| one.peak),
-            squares: of_sensors(|one| one.mean_square),
-            impacts: of_absorbers(|one| &one.impacts),
-            speeds: of_absorbers(|one| &one.speeds),
-        };
+        let absorbers = flights[0].impacts.len();
         let unknown =
-            |one: &Sensor| SensorExtent { reads: one.reads, peak: 0.0, error: 0.0, rms: [0.0; 2] };
+            |reads: &Reading| SensorExtent { reads: *reads, peak: 0.0, error: 0.0, rms: [0.0; 2] };
         let mut found = Self {
-            sensors: sensors.iter().map(unknown).collect(),
+            sensors: reads.iter().map(unknown).collect(),
             impacts_per_period: vec![[0.0; 2]; absorbers],
             impact_speed: vec![[0.0; 2]; absorbers],
             repeats_after,
             settled,
             largest_multiplier: None,
             is_orbit: false,
-            starts: 1,
+            starts: 0,
             resting: vec![None; absorbers],
             state: None,
             periods,
-            flights: vec![flight],
+            flights,
         };
         found.measure();
         found
@@ -219,28 +233,5 @@ impl ModalMotion {
         repeats == other.repeats_after.is_some()
             && own.iter().zip(&of).all(|(a, b)| peaks(a, b) && near(a.rms, b.rms))
             && impacts.into_iter().all(|(a, b)| near(*a, *b))
-    }
-
-    /// Whether what wanders has the same impacts and nearly the same peaks all the time, as if it repeated.
-    pub(super) fn looks_repeating(&self) -> bool {
-        let level = |of: &Vec<f64>, within: f64| {
-            let [least, most] = [f64::min, f64::max].map(|end| of.iter().copied().fold(of[0], end));
-            most - least <= within * most
-        };
-        let displaced = |n: &usize| self.sensors[*n].reads == Reading::Displacement;
-        self.flights.iter().all(|one| {
-            let mut peaks = (0..one.peaks.len()).filter(displaced).map(|n| &one.peaks[n]);
-            one.impacts.iter().all(|of| level(of, 0.0)) && peaks.all(|of| level(of, NEARLY_LEVEL))
-        })
-    }
-
-    /// Adds another flight of it; what repeats is known from one.
-    pub(super) fn join(&mut self, other: &Self) {
-        self.starts += other.starts;
-        self.settled &= other.settled;
-        if self.repeats_after.is_none() {
-            self.flights.extend(other.flights.iter().cloned());
-            self.measure();
-        }
     }
 }

@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::stretch::{MOST_IMPACTS, distance};
+use super::watch::{MOST_IMPACTS, distance, size};
 use crate::orbits::spectral_radius;
 use crate::simulation::{ModalSimulation, Stop};
 use crate::system::{ModalState, ModalSystem};
@@ -76,12 +76,12 @@ struct Map<'a> {
 
 impl<'a> Map<'a> {
     fn of(system: &'a ModalSystem, state: &ModalState, periods: u32, moves: &[usize]) -> Self {
-        let size = largest(state);
+        let most = size(state);
         let side = |j: usize| {
             let [place, velocity] = system.displaced(j, state);
             let [gap, slope] = [place - state.absorbers[j][0], velocity - state.absorbers[j][1]];
             let off = gap.abs() / system.absorbers()[j].clearance - 1.0;
-            (off.abs() <= ON_WALL && slope.abs() <= ON_WALL * size).then_some((j, gap.signum()))
+            (off.abs() <= ON_WALL && slope.abs() <= ON_WALL * most).then_some((j, gap.signum()))
         };
         let held: Vec<(usize, f64)> = moves.iter().filter_map(|j| side(*j)).collect();
         let is_held = |j: &usize| held.iter().any(|one| one.0 == *j);
@@ -123,7 +123,7 @@ impl<'a> Map<'a> {
     /// From a state, and where it leads: to one side alone where a wall is too near to the other.
     fn derivative(&self, state: &ModalState, end: &DVector<f64>) -> Option<DMatrix<f64>> {
         let own = self.numbers(state);
-        let step = DIFFERENCE * largest(state);
+        let step = DIFFERENCE * size(state);
         let column = |k: usize| {
             let [up, down] = [step, -step].map(|by| {
                 let mut beside = own.clone();
@@ -140,9 +140,4 @@ impl<'a> Map<'a> {
         let columns: Option<Vec<DVector<f64>>> = (0..own.len()).map(column).collect();
         Some(DMatrix::from_columns(&columns?))
     }
-}
-
-fn largest(state: &ModalState) -> f64 {
-    let numbers = state.modes.iter().chain(&state.absorbers).flatten();
-    numbers.fold(0.0, |most: f64, one| most.max(one.abs()))
 }

@@ -1,97 +1,90 @@
-//! Exact orbits that attract: those that are solved for at first, and those that a start nearly is on.
+//! Periodic motions that attract: exact orbits that are solved for at first, and those that a trajectory nearly is on.
 
-use super::motion::ModalMotion;
+use super::motion::{FlightCourse, ModalMotion};
 use super::polished::{Polished, ROUGH};
-use super::stretch::{MOST_IMPACTS, SAME_STATE, Stretch, distance};
-use crate::orbits::{CycleImpact, ModalCycle, antiperiodic_orbits, orbit_state};
-use crate::simulation::{
-    Detail, ModalImpact, ModalObserver, ModalSimulation, ModalStartError, Sensor, Side,
-};
-use crate::system::{ModalState, ModalSystem};
+use super::sensed::Sensed;
+use super::watch::{MOST_IMPACTS, ModalWatch, SAME_STATE, distance};
+use crate::orbits::{CycleImpact, ModalCycle, ModalOrbit, antiperiodic_orbits, orbit_state};
+use crate::simulation::{Detail, ModalImpact, ModalObserver, ModalSimulation, Side};
+use crate::system::ModalState;
 
-/// Difference of states, over their size, up to which one is that of an orbit that attracts; of one that was solved for from a start, beside which others
-/// may lie that belong to it, as after a period doubling.
-const NEAR_ORBIT: f64 = 1e-3;
-const NEAR_PROVEN: f64 = 1e-6;
-/// The same up to which a start may be on its way to one that attracts: it is, if it comes closer and closer.
-pub(super) const NEAR_BY: f64 = 0.01;
+/// Difference of states, over their size, up to which a trajectory is on the motion that Newton's method leads to.
+const ON: f64 = 1e-3;
+/// The same up to which it may be on its way to one that attracts: it is, if it comes closer and closer.
+const NEAR_BY: f64 = 0.01;
 /// Most impacts of an exact orbit.
 const MOST_OF_CYCLE: usize = 64;
 
-/// An exact orbit that attracts, by a state at the end of one of its periods.
-pub(super) struct Attracting {
-    pub state: ModalState,
-    /// Distance up to which another state is taken for one on it.
-    pub reach: f64,
-    pub motion: ModalMotion,
-}
-
-impl Attracting {
-    /// The periodic motion that a state nearly is on; none where there is none.
-    pub fn near(
-        system: &ModalSystem,
-        sensors: &[Sensor],
-        state: &ModalState,
-        periods: u32,
-    ) -> Option<Near> {
-        let mut simulation = ModalSimulation::new(system, state, 0.0).ok()?;
-        let mut seen = Sequence::default();
-        simulation.run(periods.into(), u64::from(periods) * MOST_IMPACTS, &mut seen);
-        let moves = |j: &usize| seen.impacts.iter().any(|impact| impact.absorber == *j);
-        let all = 0..system.absorbers().len();
-        // One that hits nothing and moves is on its way to a wall.
-        if all.clone().any(|j| state.absorbers[j][1] != 0.0 && !moves(&j)) {
-            return None;
-        }
-        let is_orbit = !seen.sticks && seen.impacts.len() <= MOST_OF_CYCLE;
-        let (begin, multiplier, attracts) = if is_orbit {
-            let cycle = ModalCycle { state: *state, periods, impacts: seen.impacts };
-            let orbit = cycle.solve(system).ok()?;
-            (orbit.cycle.state, orbit.radius_per_period(), orbit.attracts())
-        } else {
-            let moves: Vec<usize> = all.filter(moves).collect();
-            let Polished { state, multiplier } = Polished::of(system, state, periods, &moves)?;
-            (state, multiplier, multiplier < 1.0)
-        };
-        let off = distance(&begin, state);
-        if off > if attracts { NEAR_BY } else { NEAR_ORBIT } {
-            return None;
-        }
-        if !attracts {
-            return Some(Near::Leaves);
-        }
-        // Its states, until it is there again: that may be so earlier.
-        let mut on = ModalSimulation::new(system, &begin, 0.0).ok()?;
-        let mut states = vec![begin];
-        for _ in 1..periods {
-            on.run(1, MOST_IMPACTS, &mut ());
-            if distance(&begin, &on.state()) <= SAME_STATE {
-                break;
-            }
-            states.push(on.state());
-        }
-        let periods = states.len() as u32;
-        let mut simulation = ModalSimulation::new(system, &begin, 0.0).ok()?;
-        let whole = Stretch::fly(&mut simulation, system, sensors, periods.into());
-        let motion = ModalMotion::of(sensors, &[whole], Some(periods), true, 1);
-        let motion = ModalMotion {
-            largest_multiplier: Some(multiplier),
-            is_orbit,
-            state: Some(begin),
-            ..motion.within(if is_orbit { 0.0 } else { ROUGH })
-        };
-        let on = |state| Self { state, reach: NEAR_PROVEN, motion: motion.clone() };
-        let solved = states.into_iter().map(on).collect();
-        Some(Near::Attracts { solved, is_on: off <= NEAR_ORBIT })
-    }
-}
-
-/// An exact orbit that a state nearly is on.
+/// A periodic motion that a state nearly is on.
 pub(super) enum Near {
-    /// It attracts; by each of its states at the ends of periods, and whether that is so near that the start is on it.
-    Attracts { solved: Vec<Attracting>, is_on: bool },
-    /// It does not: a start on it is about to leave.
+    /// It attracts, and the state is on it.
+    On(Box<ModalMotion>),
+    /// It attracts, and the state is near it.
+    Beside(Box<ModalMotion>),
+    /// It does not: a trajectory on it is about to leave.
     Leaves,
+}
+
+/// The periodic motion that a state nearly is on; none where there is none.
+pub(super) fn near(of: &Sensed, state: &ModalState, periods: u32) -> Option<Near> {
+    let system = of.system();
+    let mut simulation = ModalSimulation::new(system, state, 0.0).ok()?;
+    let mut seen = Sequence::default();
+    simulation.run(periods.into(), u64::from(periods) * MOST_IMPACTS, &mut seen);
+    let moves = |j: &usize| seen.impacts.iter().any(|impact| impact.absorber == *j);
+    let all = 0..system.absorbers().len();
+    // One that hits nothing and moves is on its way to a wall.
+    if all.clone().any(|j| state.absorbers[j][1] != 0.0 && !moves(&j)) {
+        return None;
+    }
+    let is_orbit = !seen.sticks && seen.impacts.len() <= MOST_OF_CYCLE;
+    let (begin, multiplier, attracts) = if is_orbit {
+        let cycle = ModalCycle { state: *state, periods, impacts: seen.impacts };
+        let orbit = cycle.solve(system).ok()?;
+        (orbit.cycle.state, orbit.radius_per_period(), orbit.attracts())
+    } else {
+        let moves: Vec<usize> = all.filter(moves).collect();
+        let Polished { state, multiplier } = Polished::of(system, state, periods, &moves)?;
+        (state, multiplier, multiplier < 1.0)
+    };
+    let off = distance(&begin, state);
+    // What differences say of a multiplier does not tell whether others come to it.
+    if off > if attracts && is_orbit { NEAR_BY } else { ON } {
+        return None;
+    }
+    if !attracts {
+        return Some(Near::Leaves);
+    }
+    let motion = solved(of, begin, once(of, &begin, periods)?, multiplier)?;
+    let motion = ModalMotion { is_orbit, ..motion.within(if is_orbit { 0.0 } else { ROUGH }) };
+    Some(if off <= ON { Near::On(Box::new(motion)) } else { Near::Beside(Box::new(motion)) })
+}
+
+/// Periods until a state is there again that is so after so many.
+fn once(of: &Sensed, begin: &ModalState, periods: u32) -> Option<u32> {
+    let mut simulation = ModalSimulation::new(of.system(), begin, 0.0).ok()?;
+    let again = |_: &u32| {
+        simulation.run(1, MOST_IMPACTS, &mut ());
+        distance(begin, &simulation.state()) <= SAME_STATE
+    };
+    Some((1..periods).find(again).unwrap_or(periods))
+}
+
+/// A motion that repeats after so many periods, as it was seen from a state on it.
+pub(super) fn seen(of: &Sensed, begin: &ModalState, periods: u32) -> Option<ModalMotion> {
+    let mut simulation = ModalSimulation::new(of.system(), begin, 0.0).ok()?;
+    let whole = u64::from(periods);
+    let mut watch = ModalWatch::in_stretches(of.system(), of.sensors(), &simulation, whole);
+    let stop = simulation.run(whole, whole * MOST_IMPACTS, &mut watch);
+    let sample = watch.sample(&simulation, stop)?;
+    let course: Vec<FlightCourse> = vec![sample.course];
+    let motion = ModalMotion::of(&sample.reads, course, Some(periods), true, whole);
+    Some(ModalMotion { state: Some(*begin), ..motion })
+}
+
+fn solved(of: &Sensed, begin: ModalState, periods: u32, multiplier: f64) -> Option<ModalMotion> {
+    let motion = seen(of, &begin, periods)?;
+    Some(ModalMotion { largest_multiplier: Some(multiplier), ..motion })
 }
 
 /// Impacts in their order, and whether an absorber came to rest on a wall.
@@ -116,25 +109,13 @@ impl ModalObserver for Sequence {
 }
 
 /// The exact orbits that attract, each measured over a period of its own.
-pub(super) fn attracting(
-    system: &ModalSystem,
-    sensors: &[Sensor],
-) -> Result<Vec<Attracting>, ModalStartError> {
-    let stable = antiperiodic_orbits(system).into_iter().filter(|orbit| orbit.stable());
-    let each = stable.map(|orbit| {
-        let state = orbit_state(system, &orbit);
-        let mut simulation = ModalSimulation::new(system, &state, 0.0)?;
-        let block = Stretch::fly(&mut simulation, system, sensors, 1);
+pub(super) fn attracting(of: &Sensed) -> Vec<ModalMotion> {
+    let system = of.system();
+    let stable = antiperiodic_orbits(system).into_iter().filter(ModalOrbit::stable);
+    let each = stable.filter_map(|orbit| {
         let radius = orbit.spectral_radius();
-        let multiplier = Some(radius * radius);
-        let motion = ModalMotion {
-            largest_multiplier: multiplier,
-            is_orbit: true,
-            state: Some(state),
-            starts: 0,
-            ..ModalMotion::of(sensors, &[block], Some(1), true, 1)
-        };
-        Ok(Attracting { state, reach: NEAR_ORBIT, motion })
+        let motion = solved(of, orbit_state(system, &orbit), 1, radius * radius)?;
+        Some(ModalMotion { is_orbit: true, ..motion })
     });
     each.collect()
 }

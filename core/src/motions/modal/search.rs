@@ -1,13 +1,15 @@
 //! The search: starts, with every set of absorbers at rest that no wall reaches.
 
-use super::flight::{End, Of};
-use super::motion::{ModalMotion, SensorExtent};
-use super::proven::attracting;
-use super::wandering::Wandering;
-use crate::linear::{ModalAmplitudes, carried_state};
-use crate::motions::starts::position;
+use super::motion::ModalMotion;
+use super::sensed::{Sensed, most_impacts, window};
+use super::starts::{carried, start};
+use crate::executor::Serial;
+use crate::motions::Effort;
+use crate::motions::model::Model;
+use crate::motions::sampler::{VAGUE, VAGUE_IN_FULL};
+use crate::motions::search::{Starts, searched};
 use crate::simulation::{ModalStartError, Reading, Sensor};
-use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
+use crate::system::{ModalState, ModalSystem};
 
 /// How thoroughly motions are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,45 +98,33 @@ impl Search<'_> {
         further: &[ModalState],
     ) -> Result<(Vec<ModalMotion>, Option<ModalMotion>), ModalStartError> {
         let Some(system) = self.system.without(rest) else { return Ok((Vec::new(), None)) };
-        let sensors = self.without(rest);
-        let orbits = attracting(&system, &sensors)?;
-        let mut found: Vec<ModalMotion> = orbits.iter().map(|one| one.motion.clone()).collect();
-        let mut at_rest = modal_at_rest(&system, &sensors);
-        let mut of =
-            Of { system: &system, sensors: &sensors, periods: self.effort.periods, orbits };
-        let mut take = |motion: ModalMotion, found: &mut Vec<ModalMotion>| {
-            // What is left of a transient then is no other motion.
-            if let Some(at_rest) = at_rest.as_mut().filter(|_| motion.rests()) {
-                at_rest.starts += motion.starts;
-                return;
-            }
-            match found.iter_mut().find(|known| known.is_same(&motion)) {
-                Some(known) => known.join(&motion),
-                None => found.push(motion),
-            }
-        };
-        let mut open = Vec::new();
-        for k in 0..starts {
-            match of.begin(&start(&system, k))? {
-                End::On(motion) => take(*motion, &mut found),
-                End::Open(flight) => open.push(flight),
-            }
-        }
         let carried = if starts > 0 { carried(&system, rest.is_empty()) } else { Vec::new() };
-        for state in further.iter().chain(&carried) {
-            // Its place may be just outside of a cavity here.
-            match of.begin(state) {
-                Ok(End::On(motion)) => take(ModalMotion { starts: 0, ..*motion }, &mut found),
-                Ok(End::Open(flight)) => open.push(Box::new(flight.uncounted())),
-                Err(_) => {}
-            }
-        }
+        let counted = (0..starts).map(|k| start(&system, k)).collect();
         // Of motions in which absorbers rest there are many.
         let most = if rest.is_empty() { ModalEffort::IN_FULL } else { ModalEffort::OF_MANY };
-        let part = self.effort.patience.min(most);
-        for motion in Wandering::of(open, &of, starts, part).ends(&mut of, &found) {
-            take(motion, &mut found);
-        }
+        let patience = self.effort.patience.min(most);
+        let vague = match patience {
+            0.0 => f64::INFINITY,
+            ModalEffort::IN_FULL => VAGUE_IN_FULL,
+            _ => VAGUE,
+        };
+        let effort = Effort {
+            starts,
+            periods: window(&system, self.effort.periods),
+            patience: if patience > 0.0 { 1.0 } else { 0.0 },
+            most_impacts: most_impacts(&system),
+            vague,
+            ..Effort::default()
+        };
+        let model = Sensed::new(system, self.without(rest));
+        // Its place may be just outside of a cavity here.
+        let begins = |state: &&ModalState| model.begin(state).is_ok();
+        let further = further.iter().chain(&carried).filter(begins).copied().collect();
+        let (known, in_full) = (Vec::new(), false);
+        let place = Starts { model, counted, further, known, patience, in_full };
+        let mut found = searched(&[place], &effort, &Serial, &|_| ())?.remove(0).all;
+        let still = |one: &ModalMotion| one.rests() && one.resting.iter().all(Option::is_some);
+        let at_rest = found.iter().position(still).map(|index| found.remove(index));
         let found = found.into_iter().filter_map(|one| self.with_resting(one, rest)).collect();
         Ok((found, at_rest))
     }
@@ -193,82 +183,4 @@ impl Search<'_> {
         };
         more.map(with).filter(|set| set.len() < count).collect()
     }
-}
-
-/// Every absorber at rest where no wall reaches it, as these sensors read it: in closed form. None where a wall reaches one.
-pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMotion> {
-    let share = |(j, one): (usize, &ModalAbsorber)| {
-        1.0 - system.steady_motion_at(j).amplitude() / one.clearance
-    };
-    let shares: Vec<f64> = system.absorbers().iter().enumerate().map(share).collect();
-    if shares.iter().any(|share| *share <= 0.0) {
-        return None;
-    }
-    let shapes: Vec<Vec<f64>> = sensors.iter().map(|one| one.shape.clone()).collect();
-    let amplitudes = ModalAmplitudes::of(system, &[], &shapes).places;
-    let extent = |(sensor, amplitude): (&Sensor, f64)| {
-        let peak = sensor.of_sine(amplitude, system.frequency_ratio());
-        let rms = [peak * std::f64::consts::FRAC_1_SQRT_2, 0.0];
-        SensorExtent { reads: sensor.reads, peak, error: 0.0, rms }
-    };
-    Some(ModalMotion {
-        sensors: sensors.iter().zip(amplitudes).map(extent).collect(),
-        impacts_per_period: vec![[0.0; 2]; system.absorbers().len()],
-        impact_speed: vec![[0.0; 2]; system.absorbers().len()],
-        repeats_after: Some(1),
-        settled: true,
-        largest_multiplier: None,
-        is_orbit: false,
-        starts: 0,
-        state: None,
-        resting: shares.into_iter().map(Some).collect(),
-        periods: 0,
-        flights: Vec::new(),
-    })
-}
-
-/// States of the structure as it carries all of its absorbers, or `each` alone. Those that no start is near, which are of the structure
-/// without absorbers, and in which these hit both of their walls.
-fn carried(system: &ModalSystem, each: bool) -> Vec<ModalState> {
-    let all: Vec<usize> = (0..system.absorbers().len()).collect();
-    let alone = all.iter().map(|j| vec![*j]).filter(|_| each && all.len() > 1);
-    let sets = std::iter::once(all.clone()).chain(alone);
-    let states = sets.filter_map(|set| {
-        let state = carried_state(system, &set)?;
-        let farther = |j: &usize| {
-            let [x, v] = system.displaced(*j, &state);
-            let amplitude = libm::hypot(x, v / system.frequency_ratio());
-            let near = BEYOND * system.steady_motion_at(*j).amplitude();
-            amplitude > near && amplitude > system.absorbers()[*j].clearance
-        };
-        set.iter().any(farther).then_some(state)
-    });
-    states.collect()
-}
-
-/// The largest start, over the structure's own steady motion.
-const BEYOND: f64 = 1.2;
-/// One prime for the share of the steady motion, and for the place of each absorber.
-const PRIMES: [f64; MOST_MODES + 1] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0];
-
-/// The `k`-th start: from rest, each absorber half way to a wall; then with a share of the structure's own steady motion and
-/// the absorbers anywhere in their cavities, evenly spread.
-fn start(system: &ModalSystem, k: u32) -> ModalState {
-    let mut start = ModalState::AT_REST;
-    let part = |axis: usize| position(PRIMES[axis], k.saturating_sub(1));
-    let share = if k == 0 { 0.0 } else { BEYOND * part(0) };
-    for mode in 0..system.modes().len() {
-        let steady = system.steady_motion(mode);
-        let velocity = system.frequency_ratio() * steady.sine;
-        start.modes[mode] = [share * steady.cosine, share * velocity];
-    }
-    for (j, absorber) in system.absorbers().iter().enumerate() {
-        let each = system.modes().iter().zip(&start.modes);
-        let [x, v] = each.fold([0.0, 0.0], |[x, v], (mode, [q, p])| {
-            [x + mode.shape[j] * q, v + mode.shape[j] * p]
-        });
-        let place = if k == 0 { 0.5 } else { 1.98 * part(1 + j) - 0.99 };
-        start.absorbers[j] = [x - place * absorber.clearance, v];
-    }
-    start
 }

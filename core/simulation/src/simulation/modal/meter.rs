@@ -150,6 +150,15 @@ impl ModalMeter {
         };
         self.peaks.iter().zip(&self.squares).map(of).collect()
     }
+
+    /// The same, after which it begins anew.
+    pub fn taken(&mut self) -> Vec<SensorRecord> {
+        let records = self.records();
+        self.peaks.fill(0.0);
+        self.squares.fill(0.0);
+        self.time = 0.0;
+        records
+    }
 }
 
 impl ModalObserver for ModalMeter {
