@@ -107,7 +107,7 @@ impl OverForce {
             let bare = bare.fold(0.0, f64::max);
             let motions = found.iter().flat_map(|one| one.motions.iter().cloned()).collect();
             let answer = |case: &ModalCase, places: Vec<AtFrequency>| {
-                let along = AlongLoad { load, places, bare: along.bare.clone(), modes: Vec::new() };
+                let along = AlongLoad::at_some(load, places, along.bare.clone());
                 ModalAnswer::judged(case, vec![along])
             };
             let judged = answer(&here, found.to_vec()).in_contact(&here, |shifted| {

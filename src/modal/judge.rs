@@ -66,7 +66,7 @@ impl Scope<'_> {
         for (load, along) in loads.filter(|(k, _)| self.load.is_none_or(|one| one == *k)) {
             for of in parts(self.case, asked.measure, asked.of) {
                 let looks = Look::of(asked, of);
-                let between = looks.map(|one| along.between(self.case, &one)).fold(0.0, f64::max);
+                let between = looks.map(|one| along.between(&one)).fold(0.0, f64::max);
                 for here in &along.places {
                     let followed = self.followed(along, here);
                     let motions = here.motions.iter().enumerate();

@@ -51,11 +51,6 @@ impl Look {
         let [value, error] = measured(case, motion, self.of, self.measure)?;
         Some([if self.least { -value } else { value }, error])
     }
-
-    /// The same without its error.
-    pub fn signed(&self, case: &ModalCase, motion: &ModalMotion) -> Option<f64> {
-        Some(self.measured(case, motion)?[0])
-    }
 }
 
 /// The parts of a structure that have a measure, of those that are asked about.

@@ -709,6 +709,23 @@ fn pages_solve_nothing() {
     assert!(solves.is_match("let dampers = choices(case);"));
 }
 
+/// How long to wait for a motion, which motions are one, and where to look along a range are decided once, for every structure.
+#[test]
+fn one_search_finds_every_motion() {
+    let decided = [
+        (r"\bPatience::with\(", "motions/search.rs"),
+        (r"\bCluster::all\(", "motions/search.rs"),
+        (r"\bworst_between\(", "motions/sampler.rs"),
+    ];
+    for (what, by) in decided {
+        let decides = Regex::new(what).expect("a pattern");
+        let all = sources().into_iter().filter(|(_, source)| decides.is_match(&code(source)));
+        let mut files: Vec<String> = all.map(|(path, _)| path).collect();
+        files.retain(|path| path != "motions/between.rs");
+        assert_eq!(files, [by], "{what}");
+    }
+}
+
 /// A criterion is judged by one rule, of whatever structure: nobody else makes a verdict.
 #[test]
 fn one_room_judges() {

@@ -626,10 +626,16 @@ fn absorbers_rest_up_to_where_a_wall_reaches_them() {
     let zeta = 0.15;
     (damped.modes[0].damping_ratio, damped.absorbers[0].clearance_m) = (zeta, 1.0);
     let answer = ModalAnswer::of(&damped, &Serial).expect("flown");
-    let worst = answer.worst(&damped, None).expect("a motion").found;
     let omega = std::f64::consts::TAU * 2.1;
     let top = 280.0 / (20_000.0 * omega * omega * 2.0 * zeta * (1.0 - zeta * zeta).sqrt());
-    assert!(worst.rests() && (worst.value / top - 1.0).abs() < 1e-9, "{} {top}", worst.value);
+    let peak = |rests: bool| {
+        let all = answer.along[0].places.iter().flat_map(|one| one.counting());
+        let all = all.filter(|one| one.rests() == rests).map(|one| one.sensors[0].peak);
+        all.fold(0.0, f64::max)
+    };
+    assert!((peak(true) / top - 1.0).abs() < 1e-9, "{} {top}", peak(true));
+    // One that drifts from wall to wall for a thousand periods shakes it by a part of its own mass, where it hits one.
+    assert!(peak(false) < 1.05 * top, "{} {top}", peak(false));
 }
 
 /// Other amplitudes: at the load's own the worst is that of the answer, absorbers work between their folds and symmetry breaking,
@@ -1009,15 +1015,15 @@ fn each_mode_in_a_wide_range_is_looked_at() {
                 from = '5 Hz'\nto = '25 Hz'\n[criteria]\npeak_displacement = '<= 3 mm'\n";
     let case = ModalCase::parse("case.toml", case).expect("a case");
     let answer = ModalAnswer::of(&case, &Serial).expect("flown");
-    let near = |[from, to]: [f64; 2]| {
+    let near = |[from, to]: [f64; 2], with_error: f64| {
         let places = answer.along[0].places.iter().filter(|one| (from..to).contains(&one.at));
-        let peaks = places.flat_map(|one| &one.motions).map(|one| one.sensors[1].peak);
-        peaks.fold(0.0, f64::max)
+        let sensors = places.flat_map(|one| &one.motions).map(|one| one.sensors[1]);
+        sensors.map(|one| one.peak + with_error * one.error).fold(0.0, f64::max)
     };
     assert_eq!(case.places, ["mid", "top"]);
-    let (first, second) = (near([5.0, 7.0]), near([20.0, 24.0]));
+    let (first, second) = (near([5.0, 7.0], 0.0), near([20.0, 24.0], 1.0));
     assert!(first > 2.062e-3 * 0.995 && first < 2.062e-3 * 1.02, "{first}");
-    assert!(second > 2.40e-3 * 0.9, "{second}");
+    assert!(second > 2.40e-3, "{second}");
     let worst = answer.worst(&case, None).expect("a motion").found;
     assert!(worst.value + worst.error > 2.40e-3, "{worst:?}");
 }

@@ -2,7 +2,7 @@
 //! motions are followed from a place to its neighbours, until the largest is known to a tolerance. Where an attracting 1:1
 //! orbit begins and ends, and where its numbers are largest, are roots, not samples.
 
-use super::sampler::{BESIDE, Sampler};
+use super::of_band::{BESIDE, OfBand};
 use super::stability::{Extreme, Fact, OneToOne, extreme_at, stability};
 use super::{Effort, Motion, Motions, Place, Value, motions, rest, steady};
 use crate::executor::{Executor, Serial};
@@ -137,7 +137,7 @@ pub fn along(
     let stability = stability(band);
     let shaking = wanted.iter().any(|one| one.of.is_of_shaking());
     let solved_for = OneToOne::along(band, shaking);
-    let peak_at = extreme_at(&solved_for, &stability, Extreme { of: Fact::Peak, least: false });
+    let peak_at = extreme_at(&solved_for, &stability, Extreme::PEAK);
     let rest_at = rest::largest_along(band, 0);
     let shakes = wanted.iter().filter(|one| one.of.is_of_shaking() && !one.least);
     let shakes = shakes.filter_map(|one| rest::largest_along(band, one.of.power_of_frequency()));
@@ -152,10 +152,10 @@ pub fn along(
     let (ends, extremes): (Vec<f64>, Vec<f64>) = extremes.into_iter().partition(is_end);
     let (mut places, unresolved) = match effort {
         Some(effort) => {
-            let peak = Extreme { of: Fact::Peak, least: false };
+            let peak = Extreme::PEAK;
             let others = wanted.iter().copied().filter(|one| *one != peak);
             let worst = std::iter::once(peak).chain(others).collect();
-            Sampler::new(band, effort, on, worst).sampled(&stability, extremes, own)?
+            OfBand { band, effort, on }.sampled(&stability, extremes, own, worst)?
         }
         None => (solved(band, extremes, shaking)?, Vec::new()),
     };

@@ -10,14 +10,7 @@ const UNEVEN: f64 = 4.0;
 
 /// The worst that a number may be between `around[right - 1]` and `around[right]`, of up to two places to either side, ascending,
 /// each with where it is and the number there, larger being worse.
-///
-/// ```
-/// use vinesink_core::motions::worst_between;
-/// // A parabola y = -x^2, seen at 0.4 to either side of its top and beyond: what it reaches is less than what it may.
-/// let places = [-1.2, -0.4, 0.4, 1.2].map(|x: f64| [x, -x * x]);
-/// assert!(worst_between(&places, 2) > 0.0);
-/// ```
-pub fn worst_between(around: &[[f64; 2]], right: usize) -> f64 {
+pub(super) fn worst_between(around: &[[f64; 2]], right: usize) -> f64 {
     let value = |k: usize| around[k][1];
     let largest = around.iter().map(|one| one[1]).fold(f64::NEG_INFINITY, f64::max);
     let smallest = around.iter().map(|one| one[1]).fold(f64::INFINITY, f64::min);

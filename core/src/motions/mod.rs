@@ -23,9 +23,11 @@ mod facts;
 mod flight;
 mod follow;
 mod identity;
+mod line;
 mod measured;
 mod modal;
 mod model;
+mod of_band;
 mod one;
 mod patience;
 mod repetition;
@@ -44,17 +46,17 @@ mod watch;
 use serde::Serialize;
 
 pub use along::{Along, along};
-pub use between::worst_between;
 pub use facts::{Facts, Value};
 pub use follow::{DiagramError, DiagramPoint, SweepDirection, carried_over, follow, sweep};
 pub use identity::orbit_of;
+pub use line::{Line, Purpose, Site};
 pub use measured::{Measured, Window, measured};
 pub use modal::{
     ModalEffort, ModalMotion, SensorExtent, longest_flight, modal_at_rest, modal_motions,
 };
 pub use repetition::Repetition;
 pub use rest::{Rest, RestKind};
-pub use sampler::BandEffort;
+pub use sampler::{BandEffort, Sampled, Sampling, sampled};
 pub use search::motions;
 pub use section::{Section, sections};
 pub use settling::{SettlingTime, window as longest_window};

@@ -3,12 +3,9 @@
 
 use serde::Serialize;
 
+use super::Effort;
 use super::between::worst_between;
-use super::stability::Extreme;
-use super::{Effort, Motion, MotionKind, Motions, Place, motions};
-use crate::executor::Executor;
-use crate::simulation::StartError;
-use crate::system::{Band, BandOver, State, Stretch};
+use super::line::{Line, Purpose, Site};
 
 /// How thoroughly a band is looked at beside what one place asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -46,13 +43,6 @@ impl Effort {
     }
 }
 
-/// Distance of places that is never halved, over the width of the resonance and of the slow flow: what
-/// scatters on a finer scale is chaos, whose peaks have an error of their own.
-const FINEST: f64 = 0.1;
-/// The same over a band of amplitudes.
-const FINEST_AMPLITUDE: f64 = 1.0 / 256.0;
-/// Smallest finest distance, over the band.
-const NARROWEST: f64 = 1.0 / 4096.0;
 /// Of the first places one of so many is searched before those between.
 const SPARSE: usize = 4;
 /// Share of the patience with what may be a transient that is left where it was told from one before: at the same place, or
@@ -66,97 +56,69 @@ pub(super) const VAGUE_IN_FULL: f64 = 0.5;
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.
 const FOLLOWED: f64 = 0.02;
+/// Part of the worst of all places from which on a motion is followed where flights are dear.
+const NOT_SMALL: f64 = 0.5;
 /// Most motions that are followed from each neighbour.
 const MOST_FOLLOWED: usize = 3;
-/// Distance from the end of a stable stretch, over the band, at which its other side is simulated.
-pub(super) const BESIDE: f64 = 1e-3;
 
-/// Smallest distance of places.
-fn finest(band: &Band) -> f64 {
-    let eps = band.base.mass_ratio();
-    let fine = match band.over {
-        BandOver::Frequency => FINEST * eps.min(0.5 * eps * band.base.damping()),
-        BandOver::Amplitude => FINEST_AMPLITUDE * band.width(),
-    };
-    fine.max(NARROWEST * band.width())
+/// What is looked for along a range.
+#[derive(Debug)]
+pub struct Sampling<L: Line> {
+    /// Places to begin with, ascending.
+    pub first: Vec<f64>,
+    /// A place whose motions are known, and to which nobody adds.
+    pub own: Option<(f64, L::Motions)>,
+    /// The numbers whose worst values are looked for.
+    pub worst: Vec<L::Wanted>,
+    /// Places at most.
+    pub most: usize,
+    /// Relative error to which they are to be known.
+    pub tolerance: f64,
+    /// How many places that decide are searched in full.
+    pub most_in_full: usize,
+    /// Whether flights are dear: motions are followed when no place is missing any more, and only those that are not small beside the
+    /// worst; places decide as well at which a motion has not settled, as it was given up.
+    pub are_dear: bool,
 }
 
-/// Even places, both sides of each end of a stable stretch, the middles of the others, and the flanks of the resonances,
-/// which may lie between two even places.
-fn first_places(band: &Band, stability: &[Stretch<bool>], sampling: &BandEffort) -> Vec<f64> {
-    let [from, to] = band.range;
-    let mut places: Vec<f64> = band.places(sampling.even).collect();
-    let unstable = stability.iter().filter(|one| !one.of);
-    places.extend(unstable.map(|one| 0.5 * (one.from + one.to)));
-    let beside = BESIDE * band.width();
-    places.extend(stability.windows(2).flat_map(|pair| [pair[0].to - beside, pair[0].to + beside]));
-    if band.over == BandOver::Frequency {
-        let eps = band.base.mass_ratio();
-        let width = 0.5 * eps * band.base.damping();
-        for resonance in [1.0, 1.0 / (1.0 + eps).sqrt()] {
-            places.extend([-2.0, -1.0, 0.0, 1.0, 2.0].map(|k| resonance + k * width));
-        }
-    }
-    places.retain(|at| from <= *at && *at <= to);
-    places
+/// Places with their motions, ascending, and by how much each number that was asked for may be worse between them.
+pub type Sampled<L> = (Vec<(f64, <L as Line>::Motions)>, Vec<(<L as Line>::Wanted, f64)>);
+
+/// The places of a range with their motions.
+///
+/// # Errors
+/// Where a motion cannot be flown.
+pub fn sampled<L: Line>(line: &L, sampling: Sampling<L>) -> Result<Sampled<L>, L::Error> {
+    let Sampling { first, own, worst, most, tolerance, most_in_full, are_dear } = sampling;
+    let spot =
+        |(at, motions)| Spot { at, motions, followed: Vec::new(), is_own: true, in_full: true };
+    let spots = own.into_iter().map(spot).collect();
+    let finest = line.finest();
+    let mut sampler =
+        Sampler { line, finest, worst, most, tolerance, most_in_full, are_dear, spots };
+    sampler.begin(&first)?;
+    sampler.refine()?;
+    // What is within the tolerance is an error as well.
+    let between = |of: &L::Wanted| {
+        let worst = sampler.worst_of(*of)?;
+        let gaps = sampler.gaps(*of).into_iter().map(|gap| gap.1);
+        let narrow = (1..sampler.spots.len()).filter_map(|right| sampler.beyond(right, *of));
+        Some((*of, gaps.chain(narrow).fold(worst, f64::max) - worst))
+    };
+    let unresolved = sampler.worst.iter().filter_map(between).collect();
+    Ok((sampler.spots.into_iter().map(|spot| (spot.at, spot.motions)).collect(), unresolved))
 }
 
 /// A place on the way.
-struct Spot {
+struct Spot<L: Line> {
     at: f64,
-    motions: Motions,
-    /// The largest peak of a neighbour that was followed here.
-    followed: f64,
+    motions: L::Motions,
+    /// Of each number that is looked at the worst of a neighbour that was followed here.
+    followed: Vec<f64>,
+    /// Whether nothing is followed here.
+    is_own: bool,
     /// Whether what wanders here was flown as long as where a case has one place.
     in_full: bool,
-}
-
-impl Spot {
-    fn place(self) -> (f64, Motions) {
-        (self.at, self.motions)
-    }
-
-    /// Motions with impacts.
-    fn moving(&self) -> impl Iterator<Item = &Motion> {
-        self.motions.iter().filter(|motion| motion.rest().is_none())
-    }
-
-    /// Whether a motion that wanders was told from a transient.
-    fn has_waited(&self) -> bool {
-        self.moving().any(|one| matches!(one.kind, MotionKind::Wanders) && one.settled())
-    }
-
-    /// Largest peak of one; 0 without one.
-    fn peak(&self) -> f64 {
-        self.moving().map(|motion| motion.facts().peak.value).fold(0.0, f64::max)
-    }
-
-    /// The worst of a number of motions with impacts, its sign turned where the smallest is; none where there is none.
-    fn worst(&self, of: Extreme) -> Option<f64> {
-        let all = self.moving().filter_map(|one| of.of.of(one));
-        all.map(|one| of.sign() * one.value).max_by(f64::total_cmp)
-    }
-
-    /// The motion that it may be worst in, with its error, and what it is there at the worst.
-    fn reach(&self, of: Extreme) -> Option<(f64, &Motion)> {
-        let value = |one: &Motion| of.of.of(one).map(|of_it| of.sign() * of_it.value + of_it.error);
-        let all = self.motions.iter().filter_map(|one| Some((value(one)?, one)));
-        all.max_by(|a, b| a.0.total_cmp(&b.0))
-    }
-
-    /// Whether all that was found is solved for, whose largest peak is known without places.
-    fn is_exact(&self) -> bool {
-        let exact = |motion: &Motion| motion.is_solved();
-        self.moving().next().is_some() && self.moving().all(exact)
-    }
-
-    /// States on the largest motions whose peaks exceed `least`, the largest first.
-    fn states(&self, least: f64) -> Vec<State> {
-        let mut larger: Vec<&Motion> =
-            self.moving().filter(|one| one.facts().peak.value > least).collect();
-        larger.sort_by(|a, b| b.facts().peak.value.total_cmp(&a.facts().peak.value));
-        larger.into_iter().take(MOST_FOLLOWED).map(Motion::state).collect()
-    }
 }
 
 /// The patience that is left where others may have waited.
@@ -164,188 +126,257 @@ const fn patience(waited: bool) -> f64 {
     if waited { WAITED } else { 1.0 }
 }
 
-/// The worst of a number at all places; none where nothing moves.
-fn worst_of(spots: &[Spot], of: Extreme) -> Option<f64> {
-    spots.iter().filter_map(|one| one.worst(of)).max_by(f64::total_cmp)
+/// By which relative amount a motion is worse at least that is followed.
+fn beyond(known: f64) -> f64 {
+    if known.is_finite() { known + FOLLOWED * known.abs() } else { known }
 }
 
-pub(super) struct Sampler<'a> {
-    band: &'a Band,
-    effort: &'a Effort,
-    on: &'a dyn Executor,
+struct Sampler<'a, L: Line> {
+    line: &'a L,
     finest: f64,
-    /// The numbers whose worst value is looked for, the peak first.
-    worst: Vec<Extreme>,
+    worst: Vec<L::Wanted>,
+    most: usize,
+    tolerance: f64,
+    most_in_full: usize,
+    are_dear: bool,
+    /// Ascending.
+    spots: Vec<Spot<L>>,
 }
 
-impl<'a> Sampler<'a> {
-    pub(super) fn new(
-        band: &'a Band,
-        effort: &'a Effort,
-        on: &'a dyn Executor,
-        worst: Vec<Extreme>,
-    ) -> Self {
-        Self { band, effort, on, finest: finest(band), worst }
+impl<L: Line> Sampler<'_, L> {
+    /// Motions with impacts.
+    fn moving<'s>(&'s self, spot: &'s Spot<L>) -> impl Iterator<Item = &'s L::Motion> {
+        self.line.motions(&spot.motions).into_iter().filter(|motion| L::moves(motion))
     }
 
-    /// The places of a band with their motions, and by how much each number that is asked for may be worse between them.
-    /// The first are even ones, those that the ends of stability ask for, and these `extremes`.
-    pub(super) fn sampled(
-        &self,
-        stability: &[Stretch<bool>],
-        extremes: Vec<f64>,
-        own: Option<&Motions>,
-    ) -> Result<Sampled, StartError> {
-        let at = self.band.own();
-        let mut spots = Vec::new();
-        if self.band.holds_own() {
-            let motions = match own {
-                Some(own) => own.clone(),
-                None => {
-                    let place = Place::new(&self.band.base, self.effort.starts);
-                    motions(&[place], self.effort, self.on)?.remove(0)
+    /// Whether a motion that wanders was told from a transient.
+    fn has_waited(&self, spot: &Spot<L>) -> bool {
+        self.moving(spot).any(|one| L::wanders(one) && L::has_settled(one))
+    }
+
+    /// Whether a motion that has not settled decides.
+    fn is_open(&self, spot: &Spot<L>) -> bool {
+        self.are_dear && self.moving(spot).any(|one| !L::has_settled(one))
+    }
+
+    /// The worst of a number of motions with impacts; none where there is none.
+    fn worst_at(&self, spot: &Spot<L>, of: L::Wanted) -> Option<f64> {
+        let all = self.moving(spot).filter_map(|one| self.line.value(one, of));
+        all.map(|one| one.value).max_by(f64::total_cmp)
+    }
+
+    /// The worst of a number at all places; none where nothing moves.
+    fn worst_of(&self, of: L::Wanted) -> Option<f64> {
+        self.spots.iter().filter_map(|one| self.worst_at(one, of)).max_by(f64::total_cmp)
+    }
+
+    /// The motion that it may be worst in, with its error, and what it is there at the worst.
+    fn reach<'s>(&'s self, spot: &'s Spot<L>, of: L::Wanted) -> Option<(f64, &'s L::Motion)> {
+        let all = self.line.motions(&spot.motions).into_iter();
+        let all = all.filter_map(|one| {
+            let found = self.line.value(one, of)?;
+            Some((found.value + found.error, one))
+        });
+        all.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Whether all that was found is solved for, whose extremes are known without places.
+    fn is_exact(&self, spot: &Spot<L>) -> bool {
+        self.moving(spot).next().is_some() && self.moving(spot).all(L::is_solved)
+    }
+
+    /// States on the motions in which one of the numbers that are followed is worse than it need be, the worst first.
+    fn states(&self, spot: &Spot<L>, least: &[f64]) -> Vec<L::State> {
+        let mut chosen: Vec<&L::Motion> = Vec::new();
+        let mut states = Vec::new();
+        for (of, least) in self.line.followed().into_iter().zip(least) {
+            let value = |one: &L::Motion| self.line.value(one, of).map(|one| one.value);
+            let worse = self.moving(spot).filter_map(|one| Some((value(one)?, one)));
+            let mut worse: Vec<_> = worse.filter(|one| one.0 > *least).collect();
+            worse.sort_by(|a, b| b.0.total_cmp(&a.0));
+            for (_, motion) in worse.into_iter().take(MOST_FOLLOWED) {
+                if !chosen.iter().any(|one| std::ptr::eq(*one, motion)) {
+                    chosen.push(motion);
+                    states.extend(L::state(motion));
                 }
-            };
-            // Nobody adds to what every command has there.
-            spots.push(Spot { at, motions, followed: f64::INFINITY, in_full: true });
+            }
         }
-        if self.band.is_point() {
-            return Ok((spots.into_iter().map(Spot::place).collect(), Vec::new()));
-        }
-        let mut first = first_places(self.band, stability, &self.effort.band);
-        first.extend(extremes);
-        first.retain(|place| *place != at || spots.is_empty());
-        first.sort_by(f64::total_cmp);
-        first.dedup();
+        states
+    }
+
+    /// The worst of each number that is followed, at a place; 0 and none where nothing moves.
+    fn followed_at(&self, spot: &Spot<L>) -> Vec<f64> {
+        let of = |of: L::Wanted| {
+            let nothing = if L::is_least(of) { f64::NEG_INFINITY } else { 0.0 };
+            self.worst_at(spot, of).unwrap_or(nothing)
+        };
+        self.line.followed().into_iter().map(of).collect()
+    }
+
+    fn add(&mut self, new: Vec<Spot<L>>) {
+        self.spots.extend(new);
+        self.spots.sort_by(|a, b| a.at.total_cmp(&b.at));
+    }
+
+    /// The first places: some of them before those between.
+    fn begin(&mut self, first: &[f64]) -> Result<(), L::Error> {
         let last = first.len().saturating_sub(1);
         let sparse = |k: usize| k.is_multiple_of(SPARSE) || k == last;
         for round in [true, false] {
             let places = first.iter().enumerate().filter(|(k, _)| sparse(*k) == round);
-            let new = self.at(places.map(|(_, at)| *at).collect(), &spots, true)?;
-            spots.extend(new);
-            spots.sort_by(|a, b| a.at.total_cmp(&b.at));
+            let new = self.at(places.map(|(_, at)| *at).collect(), Purpose::First)?;
+            self.add(new);
         }
+        Ok(())
+    }
+
+    /// Further places, until the worst of each number is known.
+    fn refine(&mut self) -> Result<(), L::Error> {
         loop {
-            let room = self.effort.band.most.saturating_sub(spots.len());
+            let room = self.most.saturating_sub(self.spots.len());
             let mut between: Vec<f64> = Vec::new();
             for of in &self.worst {
-                let worst = worst_of(&spots, *of).unwrap_or_default();
-                let limit = worst + self.effort.band.tolerance * worst.abs();
-                let wide = self.gaps(&spots, *of).into_iter().filter(|gap| gap.1 > limit);
+                let worst = self.worst_of(*of).unwrap_or_default();
+                let limit = worst + self.tolerance * worst.abs();
+                let wide = self.gaps(*of).into_iter().filter(|gap| gap.1 > limit);
                 let wide = wide.map(|gap| gap.0).take(room.min(TOGETHER));
                 between.extend(wide.filter(|at| !between.contains(at)).collect::<Vec<_>>());
             }
             between.truncate(room.min(TOGETHER));
-            let followed = self.follow(&mut spots)?;
-            if between.is_empty() && !followed && !self.fly_in_full(&mut spots)? {
-                break;
+            let followed = (between.is_empty() || !self.are_dear) && self.follow()?;
+            if between.is_empty() && !followed && !self.fly_in_full()? {
+                return Ok(());
             }
-            let new = self.at(between, &spots, false)?;
-            spots.extend(new);
-            spots.sort_by(|a, b| a.at.total_cmp(&b.at));
+            let new = self.at(between, Purpose::Between)?;
+            self.add(new);
         }
-        // What is within the tolerance is an error as well.
-        let between = |of: &Extreme| {
-            let worst = worst_of(&spots, *of)?;
-            let gaps = self.gaps(&spots, *of).into_iter().map(|gap| gap.1);
-            let narrow = (1..spots.len()).filter_map(|right| self.beyond(&spots, right, *of));
-            Some((*of, gaps.chain(narrow).fold(worst, f64::max) - worst))
-        };
-        let unresolved = self.worst.iter().filter_map(between).collect();
-        Ok((spots.into_iter().map(Spot::place).collect(), unresolved))
     }
 
     /// Searches places again, each start for at least as long as in a case with one place, while what wanders there, and was not
-    /// flown for as long, sets how bad a number may be along the band: it may be a transient. Whether there were any.
-    fn fly_in_full(&self, spots: &mut [Spot]) -> Result<bool, StartError> {
-        if self.effort.patience < 1.0 || self.effort.band.even < BandEffort::FULL.even {
-            return Ok(false);
-        }
+    /// flown for as long, sets how bad a number may be along the range, or has not settled: it may be a transient. Whether there
+    /// were any.
+    fn fly_in_full(&mut self) -> Result<bool, L::Error> {
         let mut chosen: Vec<usize> = Vec::new();
         for of in &self.worst {
-            let each = spots.iter().enumerate().filter_map(|(k, spot)| Some((k, spot.reach(*of)?)));
+            let each = self.spots.iter().enumerate();
+            let each = each.filter_map(|(k, spot)| Some((k, self.reach(spot, *of)?)));
             let worst = each.max_by(|a, b| a.1.0.total_cmp(&b.1.0));
-            let open = worst.filter(|(k, (_, motion))| {
-                !spots[*k].in_full && matches!(motion.kind, MotionKind::Wanders)
-            });
+            let open =
+                worst.filter(|(k, (_, motion))| !self.spots[*k].in_full && L::wanders(motion));
             chosen.extend(open.map(|one| one.0).filter(|k| !chosen.contains(k)));
         }
-        let place = |k: &usize| {
-            let system = self.band.system(spots[*k].at).ok()?;
-            let further = spots[*k].moving().map(Motion::state).collect();
-            let place = Place::new(&system, self.effort.band.starts_between);
-            Some((*k, Place { further, in_full: true, ..place }))
+        let open = |k: &usize| !self.spots[*k].in_full && self.is_open(&self.spots[*k]);
+        let open = (0..self.spots.len()).filter(|k| !chosen.contains(k) && open(k));
+        let open: Vec<usize> = open.collect();
+        chosen.extend(open);
+        chosen.truncate(self.most_in_full);
+        self.most_in_full -= chosen.len();
+        let site = |k: &usize| {
+            let spot = &self.spots[*k];
+            let further = self.moving(spot).filter_map(L::state).collect();
+            Site { at: spot.at, purpose: Purpose::InFull, further, known: None, patience: 1.0 }
         };
-        let (chosen, places): (Vec<usize>, Vec<Place>) = chosen.iter().filter_map(place).unzip();
-        let found = motions(&places, &self.effort.in_full(), self.on)?;
-        for (k, found) in chosen.iter().zip(found) {
-            (spots[*k].motions, spots[*k].in_full) = (found, true);
+        let sites: Vec<Site<L>> = chosen.iter().map(site).collect();
+        let found = self.line.search(&sites)?;
+        for (k, found) in found {
+            let spot = &mut self.spots[chosen[k]];
+            (spot.motions, spot.in_full) = (found, true);
         }
+        // One at which nothing can be flown is not looked at again.
+        chosen.iter().for_each(|k| self.spots[*k].in_full = true);
         Ok(!chosen.is_empty())
     }
 
-    /// The motions at new places: from the usual starts at the first, else also from what `known` places beside them have.
-    fn at(
-        &self,
-        mut places: Vec<f64>,
-        known: &[Spot],
-        first: bool,
-    ) -> Result<Vec<Spot>, StartError> {
+    /// The motions at new places: from the usual starts at the first, else also from what places beside them have.
+    fn at(&self, mut places: Vec<f64>, purpose: Purpose) -> Result<Vec<Spot<L>>, L::Error> {
         places.sort_by(f64::total_cmp);
         places.dedup();
-        // Between known places the motions beside are the starts that matter.
-        let BandEffort { starts, starts_between, .. } = self.effort.band;
-        let starts = if first { starts } else { starts_between };
-        let place = |at: f64| {
-            let system = self.band.system(at).ok()?;
-            let right = known.partition_point(|place| place.at < at);
-            let beside = &known[right.saturating_sub(1)..known.len().min(right + 1)];
-            let further = match first {
-                true => Vec::new(),
-                false => beside.iter().flat_map(|place| place.states(0.0)).collect(),
+        let site = |at: &f64| {
+            let right = self.spots.partition_point(|spot| spot.at < *at);
+            let beside = &self.spots[right.saturating_sub(1)..self.spots.len().min(right + 1)];
+            let least: Vec<f64> = self
+                .line
+                .followed()
+                .into_iter()
+                .map(|of| if L::is_least(of) { f64::NEG_INFINITY } else { 0.0 })
+                .collect();
+            let further = match purpose {
+                Purpose::First => Vec::new(),
+                _ => beside.iter().flat_map(|spot| self.states(spot, &least)).collect(),
             };
             // Both have waited for what may be the same transient.
-            let patience = patience(beside.len() == 2 && beside.iter().all(Spot::has_waited));
-            Some((at, Place { further, patience, ..Place::new(&system, starts) }))
+            let waited = beside.len() == 2 && beside.iter().all(|spot| self.has_waited(spot));
+            Site { at: *at, purpose, further, known: None, patience: patience(waited) }
         };
-        let (at, places): (Vec<f64>, Vec<Place>) = places.into_iter().filter_map(place).unzip();
-        let found = motions(&places, &self.effort.between(), self.on)?;
-        let spot = |(at, motions)| Spot { at, motions, followed: 0.0, in_full: false };
-        Ok(at.into_iter().zip(found).map(spot).collect())
+        let sites: Vec<Site<L>> = places.iter().map(site).collect();
+        let found = self.line.search(&sites)?.into_iter();
+        let spot = |(k, motions): (usize, L::Motions)| {
+            let (at, followed) = (places[k], Vec::new());
+            Spot { at, motions, followed, is_own: false, in_full: false }
+        };
+        Ok(found.map(spot).collect())
     }
 
-    /// Follows larger motions to the places beside them; whether there were any.
-    fn follow(&self, spots: &mut [Spot]) -> Result<bool, StartError> {
-        let mut chosen = Vec::new();
-        let mut places = Vec::new();
-        for k in 0..spots.len() {
-            let known = (1.0 + FOLLOWED) * spots[k].peak().max(spots[k].followed);
+    /// Follows worse motions to the places beside them; whether there were any.
+    fn follow(&mut self) -> Result<bool, L::Error> {
+        let mut chosen: Vec<(usize, Vec<f64>)> = Vec::new();
+        let mut sites: Vec<Site<L>> = Vec::new();
+        // What is small beside the worst of all places is not what a place beside it lacks.
+        let least = |of: L::Wanted| match self.worst_of(of).filter(|_| self.are_dear) {
+            Some(worst) if worst > 0.0 => NOT_SMALL * worst,
+            Some(worst) => worst / NOT_SMALL,
+            None => f64::NEG_INFINITY,
+        };
+        let least: Vec<f64> = self.line.followed().into_iter().map(least).collect();
+        for (k, spot) in self.spots.iter().enumerate().filter(|one| !one.1.is_own) {
+            let own = self.followed_at(spot);
+            let before = |n: usize| spot.followed.get(n).copied().unwrap_or(f64::NEG_INFINITY);
+            let known = own.iter().enumerate().map(|(n, own)| beyond(own.max(before(n))));
+            let known: Vec<f64> =
+                known.zip(&least).map(|(known, least)| known.max(*least)).collect();
             let beside = [k.checked_sub(1), Some(k + 1)];
-            let beside = beside.into_iter().flatten().filter_map(|beside| spots.get(beside));
-            let further: Vec<State> = beside.clone().flat_map(|spot| spot.states(known)).collect();
-            if let (false, Ok(system)) = (further.is_empty(), self.band.system(spots[k].at)) {
-                chosen.push((k, beside.map(Spot::peak).fold(0.0, f64::max)));
-                let known = spots[k].motions.iter().cloned().collect();
-                let patience = patience(spots[k].has_waited());
-                places.push(Place { further, known, patience, ..Place::with(&system, Vec::new()) });
+            let beside = beside.into_iter().flatten().filter_map(|beside| self.spots.get(beside));
+            let further: Vec<L::State> =
+                beside.clone().flat_map(|spot| self.states(spot, &known)).collect();
+            if further.is_empty() {
+                continue;
             }
+            let worst = beside
+                .map(|spot| self.followed_at(spot))
+                .reduce(|a, b| a.iter().zip(&b).map(|(a, b)| a.max(*b)).collect());
+            chosen.push((k, worst.unwrap_or_default()));
+            let (at, purpose, known) = (spot.at, Purpose::Followed, Some(&spot.motions));
+            sites.push(Site {
+                at,
+                purpose,
+                further,
+                known,
+                patience: patience(self.has_waited(spot)),
+            });
         }
-        let found = motions(&places, &self.effort.between(), self.on)?;
-        for ((k, peak), found) in chosen.iter().zip(found) {
-            spots[*k].followed = *peak;
-            spots[*k].motions.join(&found);
+        let found = self.line.search(&sites)?;
+        drop(sites);
+        let any = !found.is_empty();
+        for (n, found) in found {
+            let k = chosen[n].0;
+            self.line.join(&mut self.spots[k].motions, found);
+            self.spots[k].in_full &= !self.is_open(&self.spots[k]);
         }
-        Ok(!places.is_empty())
+        for (k, worst) in chosen {
+            self.spots[k].followed = worst;
+        }
+        Ok(any)
     }
 
     /// The middles of gaps that may be halved, with how bad a number may be in them; the worst first.
-    fn gaps(&self, spots: &[Spot], of: Extreme) -> Vec<(f64, f64)> {
+    fn gaps(&self, of: L::Wanted) -> Vec<(f64, f64)> {
+        let spots = &self.spots;
         let mut gaps: Vec<(f64, f64)> = (1..spots.len())
             .filter(|right| spots[*right].at - spots[right - 1].at > self.finest)
-            .filter(|right| !(spots[right - 1].is_exact() && spots[*right].is_exact()))
+            .filter(|right| !(self.is_exact(&spots[right - 1]) && self.is_exact(&spots[*right])))
             .filter_map(|right| {
                 let [left, at] = [spots[right - 1].at, spots[right].at];
-                Some((0.5 * (left + at), possible(spots, right, of)?))
+                Some((0.5 * (left + at), self.possible(right, of)?))
             })
             .collect();
         gaps.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
@@ -354,57 +385,42 @@ impl<'a> Sampler<'a> {
 
     /// How bad a number may be in a gap that is never halved, by how it rises towards it on either side; no worse than in any
     /// other. None of what scatters, which is chaos with an error of its own, and of what is solved for.
-    fn beyond(&self, spots: &[Spot], right: usize, of: Extreme) -> Option<f64> {
+    fn beyond(&self, right: usize, of: L::Wanted) -> Option<f64> {
+        let spots = &self.spots;
         let [one, other] = [&spots[right - 1], &spots[right]];
         let width = other.at - one.at;
-        let wanders =
-            |spot: &Spot| spot.moving().any(|one| matches!(one.kind, MotionKind::Wanders));
+        let wanders = |spot: &Spot<L>| self.moving(spot).any(L::wanders);
         let around = &spots[right.saturating_sub(2)..spots.len().min(right + 2)];
-        if width > self.finest || one.is_exact() && other.is_exact() || around.iter().any(wanders) {
+        let exact = self.is_exact(one) && self.is_exact(other);
+        if width > self.finest || exact || around.iter().any(wanders) {
             return None;
         }
-        let rises = |from: &Spot, before: Option<&Spot>| {
+        let rises = |from: &Spot<L>, before: Option<&Spot<L>>| {
             let before = before?;
-            let (value, earlier) = (from.worst(of)?, before.worst(of)?);
+            let (value, earlier) = (self.worst_at(from, of)?, self.worst_at(before, of)?);
             Some(value + ((value - earlier) / (from.at - before.at).abs() * width).max(0.0))
         };
         let left = rises(one, right.checked_sub(2).map(|k| &spots[k]));
         let most = left.into_iter().chain(rises(other, spots.get(right + 1)));
         let most = most.max_by(f64::total_cmp)?;
-        Some(most.min(possible(spots, right, of)?))
+        Some(most.min(self.possible(right, of)?))
     }
-}
 
-/// Places with their motions, and by how much each number that was asked for may be worse between them.
-pub(super) type Sampled = (Vec<(f64, Motions)>, Vec<(Extreme, f64)>);
-
-impl Motions {
-    /// Takes over what another search of the same place has found beyond these, which it was given.
-    fn join(&mut self, other: &Self) {
-        let is_known = |one: &Motion| {
-            let same = |known: &Motion| known.kind.is_same(&one.kind) || known.facts == one.facts;
-            self.iter().any(same)
-        };
-        let new: Vec<Motion> = other.iter().filter(|one| !is_known(one)).cloned().collect();
-        let all = std::mem::take(&mut self.all).into_iter().chain(new).collect();
-        *self =
-            Self { operations: self.operations, ..Self::ordered(all, self.of_starts, Vec::new()) };
+    /// The worst that a number may be between two neighbouring places.
+    fn possible(&self, right: usize, of: L::Wanted) -> Option<f64> {
+        let spots = &self.spots;
+        // Where nothing moves nothing is large; how small it is is not known.
+        let value = |spot: &Spot<L>| self.worst_at(spot, of).or((!L::is_least(of)).then_some(0.0));
+        let place = |spot: &Spot<L>| Some([spot.at, value(spot)?]);
+        let [one, other] = [&spots[right - 1], &spots[right]];
+        // An end at which nothing is known is taken for as bad as the other.
+        let left_end = [one.at, value(one).or_else(|| value(other))?];
+        let right_end = [other.at, value(other).or_else(|| value(one))?];
+        let before = right.checked_sub(2).and_then(|k| place(&spots[k]));
+        let after = spots.get(right + 1).and_then(place);
+        let gap = 1 + usize::from(before.is_some());
+        let around: Vec<[f64; 2]> =
+            before.into_iter().chain([left_end, right_end]).chain(after).collect();
+        Some(worst_between(&around, gap))
     }
-}
-
-/// The worst that a number may be between two neighbouring places.
-fn possible(spots: &[Spot], right: usize, of: Extreme) -> Option<f64> {
-    // Where nothing moves nothing is large; how small it is is not known.
-    let value = |spot: &Spot| spot.worst(of).or((!of.least).then_some(0.0));
-    let place = |spot: &Spot| Some([spot.at, value(spot)?]);
-    let [one, other] = [&spots[right - 1], &spots[right]];
-    // An end at which nothing is known is taken for as bad as the other.
-    let left_end = [one.at, value(one).or_else(|| value(other))?];
-    let right_end = [other.at, value(other).or_else(|| value(one))?];
-    let before = right.checked_sub(2).and_then(|k| place(&spots[k]));
-    let after = spots.get(right + 1).and_then(place);
-    let gap = 1 + usize::from(before.is_some());
-    let around: Vec<[f64; 2]> =
-        before.into_iter().chain([left_end, right_end]).chain(after).collect();
-    Some(worst_between(&around, gap))
 }

@@ -87,6 +87,9 @@ pub struct Extreme {
 }
 
 impl Extreme {
+    /// The largest displacement.
+    pub(super) const PEAK: Self = Self { of: Fact::Peak, least: false };
+
     /// -1 where the smallest is meant.
     pub(super) const fn sign(self) -> f64 {
         if self.least { -1.0 } else { 1.0 }

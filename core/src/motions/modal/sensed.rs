@@ -56,9 +56,10 @@ fn shortest_window(system: &ModalSystem) -> u64 {
     of_decay.max(RECOGNITION)
 }
 
-/// Excitation periods that a start is flown for at most, where at least so many are measured and no other of its place settles.
+/// Excitation periods that a start is flown for about, where at least so many are measured, then twice as many, and no other of its
+/// place settles.
 pub fn longest_flight(system: &ModalSystem, periods: u64) -> f64 {
-    f64::from(DECAYS) * decay(system) as f64 + window(system, periods) as f64
+    f64::from(DECAYS) * decay(system) as f64 + 3.0 * window(system, periods) as f64
 }
 
 /// Most impacts in a period of a start, of all absorbers.
