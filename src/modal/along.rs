@@ -8,8 +8,8 @@ use crate::case::{Load, ModalCase, StructuralMode};
 use crate::executor::{Executor, map};
 use crate::linear::carried_frequencies;
 use crate::motions::{
-    Line, ModalEffort, ModalMotion, Purpose, Sampling, Site, Value, longest_flight, modal_motions,
-    sampled,
+    Line, ModalEffort, ModalMotion, NEGLIGIBLE, Purpose, Sampling, Site, Value, longest_flight,
+    modal_motions, sampled,
 };
 use crate::numerics::scan;
 use crate::system::ModalState;
@@ -45,6 +45,8 @@ const MOST: usize = 28;
 const TOLERANCE: f64 = 0.05;
 /// Most frequencies that are searched in full, as what wanders there sets how bad something may be or has not settled.
 const MOST_IN_FULL: usize = 4;
+/// By how much a motion may grow on the way to a wall that no frequency beside it has.
+const MOST_GROWTH: f64 = 1.5;
 /// Least distance of frequencies over the narrower of a mode's width and what its absorbers add, and over the range.
 const FINEST: f64 = 0.25;
 const NARROWEST: f64 = 1.0 / 4096.0;
@@ -107,17 +109,17 @@ impl Line for OfLoad<'_> {
         let Self { case, load, .. } = *self;
         let [from, to] = load.range_hz;
         let system = case.system(load, load.centre(case));
-        let width = |(k, mode): (usize, &StructuralMode)| {
+        let scale = |(k, mode): (usize, &StructuralMode)| {
             let added = system.as_ref().map_or(0.0, |system| {
                 let of = &system.modes()[k];
                 (0..case.absorbers.len()).map(|j| system.modal_mass_ratio(of, j)).sum()
             });
-            mode.frequency_hz * mode.damping_ratio.min(added)
+            let own = mode.frequency_hz;
+            // What a resonance does beside it changes over its distance.
+            (own * mode.damping_ratio.min(added)).max((own - own.clamp(from, to)).abs())
         };
-        let near = |mode: &&(usize, &StructuralMode)| (from..=to).contains(&mode.1.frequency_hz);
-        let modes: Vec<(usize, &StructuralMode)> = case.modes.iter().enumerate().collect();
-        let widths = modes.iter().filter(near).map(|one| width(*one));
-        let narrowest = widths.filter(|width| *width > 0.0).fold(f64::INFINITY, f64::min);
+        let scales = case.modes.iter().enumerate().map(scale);
+        let narrowest = scales.filter(|one| *one > 0.0).fold(f64::INFINITY, f64::min);
         (FINEST * narrowest.min(to - from)).max(NARROWEST * (to - from))
     }
 
@@ -186,6 +188,21 @@ impl Line for OfLoad<'_> {
     fn value(&self, motion: &ModalMotion, of: Look) -> Option<Value> {
         let [value, error] = of.measured(self.case, motion)?;
         Some(Value { value, error })
+    }
+
+    /// Where absorbers rest while others impact, the motion counts up to where a wall leaves one of them a hundredth of its places: on the
+    /// way there all of it grows as the displacement of that absorber does. What would have to grow much more ends otherwise.
+    fn at_its_end(&self, motion: &ModalMotion, beside: &AtFrequency, of: Look) -> Option<f64> {
+        let rests =
+            |one: &ModalMotion| -> Vec<bool> { one.resting.iter().map(Option::is_some).collect() };
+        let own = rests(motion);
+        if !own.contains(&true) || beside.counting().any(|one| rests(one) == own) {
+            return None;
+        }
+        let room = motion.resting.iter().flatten().map(|share| (1.0 - NEGLIGIBLE) / (1.0 - share));
+        let grows = room.fold(f64::INFINITY, f64::min).max(1.0);
+        let value = self.value(motion, of)?.value;
+        (!of.least && grows <= MOST_GROWTH).then_some(grows * value)
     }
 
     fn is_least(of: Look) -> bool {

@@ -44,6 +44,14 @@ pub trait Line {
     fn state(motion: &Self::Motion) -> Option<Self::State>;
     /// A number of it, its sign turned where the smallest is the worst, and by how much it may be worse.
     fn value(&self, motion: &Self::Motion, of: Self::Wanted) -> Option<Value>;
+    /// How bad a number may become of a motion before it ends, where it has no counterpart at the place beside it and where it ends is
+    /// known.
+    fn at_its_end(
+        &self,
+        motion: &Self::Motion,
+        beside: &Self::Motions,
+        of: Self::Wanted,
+    ) -> Option<f64>;
     /// Whether the smallest of a number is the worst.
     fn is_least(of: Self::Wanted) -> bool;
 }

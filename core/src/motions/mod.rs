@@ -70,7 +70,7 @@ use crate::simulation::Stop;
 use crate::system::{State, System};
 
 /// Share of the resting places below which nobody will meet an absorber that stays at rest.
-const NEGLIGIBLE: f64 = 0.01;
+pub const NEGLIGIBLE: f64 = 0.01;
 
 /// How thoroughly motions are searched. The same for every command on a case.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -161,6 +161,11 @@ impl Line for OfBand<'_> {
         Some(Value { value: of.sign() * value, error })
     }
 
+    /// Where the absorber at rest moves farthest is a place.
+    fn at_its_end(&self, _: &Motion, _: &Motions, _: Extreme) -> Option<f64> {
+        None
+    }
+
     fn is_least(of: Extreme) -> bool {
         of.least
     }

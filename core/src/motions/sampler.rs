@@ -102,7 +102,9 @@ pub fn sampled<L: Line>(line: &L, sampling: Sampling<L>) -> Result<Sampled<L>, L
     let between = |of: &L::Wanted| {
         let worst = sampler.worst_of(*of)?;
         let gaps = sampler.gaps(*of).into_iter().map(|gap| gap.1);
-        let narrow = (1..sampler.spots.len()).filter_map(|right| sampler.beyond(right, *of));
+        let narrow = (1..sampler.spots.len()).flat_map(|right| {
+            [sampler.beyond(right, *of), sampler.at_ends(right, *of)].into_iter().flatten()
+        });
         Some((*of, gaps.chain(narrow).fold(worst, f64::max) - worst))
     };
     let unresolved = sampler.worst.iter().filter_map(between).collect();
@@ -421,6 +423,17 @@ impl<L: Line> Sampler<'_, L> {
         let gap = 1 + usize::from(before.is_some());
         let around: Vec<[f64; 2]> =
             before.into_iter().chain([left_end, right_end]).chain(after).collect();
-        Some(worst_between(&around, gap))
+        let between = worst_between(&around, gap);
+        Some(self.at_ends(right, of).map_or(between, |ends| ends.max(between)))
+    }
+
+    /// How bad a number may become of motions that end between two neighbouring places; none where none does.
+    fn at_ends(&self, right: usize, of: L::Wanted) -> Option<f64> {
+        let [one, other] = [&self.spots[right - 1], &self.spots[right]];
+        let ends = [(one, other), (other, one)].into_iter().flat_map(|(here, beside)| {
+            let end = |motion| self.line.at_its_end(motion, &beside.motions, of);
+            self.moving(here).filter_map(end)
+        });
+        ends.max_by(f64::total_cmp)
     }
 }
