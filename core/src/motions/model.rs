@@ -159,7 +159,7 @@ impl Averages {
 }
 
 /// What a trajectory that was seen to repeat is.
-pub(super) enum Proof<M: Model + ?Sized> {
+pub(super) enum Proof<M: Model> {
     /// A motion that attracts, with what is seen of it.
     Is(M::Kind, Box<M::Sample>),
     /// It is on its way to one, and not there yet.
