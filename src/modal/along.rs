@@ -38,12 +38,16 @@ pub struct AtFrequency {
     pub count_rest: bool,
 }
 
-/// Even frequencies along a load, and most frequencies of all.
+const IN_FULL: f64 = ModalEffort::IN_FULL;
+const OF_MANY: f64 = ModalEffort::OF_MANY;
+
+/// Even frequencies along a load, and most further ones for each mode in its range.
 const EVEN: u32 = 13;
-const MOST: usize = 28;
+const FURTHER: usize = 15;
 /// Relative error to which the worst of what is looked at is to be known.
 const TOLERANCE: f64 = 0.05;
-/// Most frequencies that are searched in full, as what wanders there sets how bad something may be or has not settled.
+/// Most frequencies for each mode in its range that are searched in full, as what wanders there sets how bad something may be or has not
+/// settled.
 const MOST_IN_FULL: usize = 4;
 /// By how much a motion may grow on the way to a wall that no frequency beside it has.
 const MOST_GROWTH: f64 = 1.5;
@@ -62,7 +66,7 @@ pub fn seconds(case: &ModalCase) -> f64 {
     let size = (case.modes.len() * case.absorbers.len()) as f64;
     let of_load = |load: &Load| {
         let [from, to] = load.range_hz;
-        let places = if from < to { 0.5 * MOST as f64 } else { 1.0 };
+        let places = if from < to { 0.5 * most(case, load) as f64 } else { 1.0 };
         let Ok(system) = case.system(load, load.centre(case)) else { return 0.0 };
         f64::from(case.starts_of(load)) * places * longest_flight(&system, case.periods)
     };
@@ -84,12 +88,11 @@ impl OfLoad<'_> {
         let Self { case, load, .. } = *self;
         let [from, to] = load.range_hz;
         // An undamped mode has no steady motion at its own frequency.
-        let steady = |at: f64| if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) };
         let damped = case.modes.iter().filter(|mode| mode.damping_ratio > 0.0);
         let resonances = damped.map(|mode| mode.frequency_hz);
         let resonances = resonances.filter(|at| from < *at && *at < to);
         let even = scan::places([from, to], EVEN - 1).chain(resonances);
-        let even = even.chain(close(case, load)).chain(carried(case, load)).map(steady);
+        let even = even.chain(close(case, load)).chain(carried(case, load));
         let at_rest = farthest_at_rest(case, load).into_iter().map(|one| one.0);
         let mut first: Vec<f64> = even.chain(at_rest).collect();
         first.sort_by(f64::total_cmp);
@@ -115,11 +118,13 @@ impl Line for OfLoad<'_> {
                 (0..case.absorbers.len()).map(|j| system.modal_mass_ratio(of, j)).sum()
             });
             let own = mode.frequency_hz;
+            // An undamped mode is as wide as absorbers make it, one at whose nodes they are as its damping does.
+            let widths = [mode.damping_ratio, added].into_iter().filter(|width| *width > 0.0);
+            let width = widths.reduce(f64::min).unwrap_or_default();
             // What a resonance does beside it changes over its distance.
-            (own * mode.damping_ratio.min(added)).max((own - own.clamp(from, to)).abs())
+            (own * width).max((own - own.clamp(from, to)).abs())
         };
-        let scales = case.modes.iter().enumerate().map(scale);
-        let narrowest = scales.filter(|one| *one > 0.0).fold(f64::INFINITY, f64::min);
+        let narrowest = case.modes.iter().enumerate().map(scale).fold(f64::INFINITY, f64::min);
         (FINEST * narrowest.min(to - from)).max(NARROWEST * (to - from))
     }
 
@@ -127,25 +132,25 @@ impl Line for OfLoad<'_> {
         self.looks.clone()
     }
 
-    fn search(&self, sites: &[Site<'_, Self>]) -> Result<Vec<(usize, AtFrequency)>, ModalError> {
+    fn search(
+        &self,
+        purpose: Purpose,
+        sites: &[Site<'_, Self>],
+    ) -> Result<Vec<(usize, AtFrequency)>, ModalError> {
         let Self { case, load, .. } = *self;
-        let what = match sites.first().map(|site| site.purpose) {
-            Some(Purpose::InFull) => "motions that decide",
-            Some(Purpose::Followed) => "motions that are followed",
-            _ => "motions along the loads",
+        let (what, starts, full) = match purpose {
+            Purpose::First => ("motions along the loads", case.starts.div_ceil(2), OF_MANY),
+            // Between known places the motions beside are the starts that matter.
+            Purpose::Between => ("motions along the loads", case.starts.div_ceil(4), OF_MANY),
+            Purpose::Followed => ("motions that are followed", 0, OF_MANY),
+            Purpose::InFull => ("motions that decide", case.starts, IN_FULL),
         };
+        // An undamped mode has no steady motion at its own frequency.
+        let steady = |at: f64| if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) };
         let look = |k: usize| {
-            let site = &sites[k];
-            let (starts, patience) = match site.purpose {
-                Purpose::First => (case.starts.div_ceil(2), ModalEffort::OF_MANY),
-                // Between known places the motions beside are the starts that matter.
-                Purpose::Between => (case.starts.div_ceil(4), ModalEffort::OF_MANY),
-                Purpose::Followed => (0, ModalEffort::OF_MANY),
-                Purpose::InFull => (case.starts, ModalEffort::IN_FULL),
-            };
-            let patience = site.patience * patience;
-            let effort = ModalEffort { starts, periods: case.periods, patience };
-            AtFrequency::of(case, load, site.at, effort, &site.further).map(|found| (k, found))
+            let Site { at, further, patience, .. } = &sites[k];
+            let effort = ModalEffort { starts, periods: case.periods, patience: patience * full };
+            AtFrequency::of(case, load, steady(*at), effort, further).map(|found| (k, found))
         };
         map(self.on, what, sites.len(), look).into_iter().collect()
     }
@@ -216,11 +221,11 @@ impl AlongLoad {
         let line = OfLoad { case, load, looks: Look::all(case), on };
         let (places, between) = if from < to {
             let (first, worst) = (line.first(), line.looks.clone());
-            let (own, most, tolerance) = (None, MOST, TOLERANCE);
-            let (most_in_full, are_dear) = (MOST_IN_FULL, true);
+            let (own, most, tolerance) = (None, most(case, load), TOLERANCE);
+            let (most_in_full, are_dear) = (MOST_IN_FULL * modes_within(case, load), true);
             sampled(&line, Sampling { first, own, worst, most, tolerance, most_in_full, are_dear })?
         } else {
-            let (starts, patience) = (case.starts_at_one, ModalEffort::IN_FULL);
+            let (starts, patience) = (case.starts_at_one, IN_FULL);
             let effort = ModalEffort { starts, periods: case.periods, patience };
             let found = map(on, "motions along the loads", 1, |_| {
                 AtFrequency::of(case, load, from, effort, &[])
@@ -268,6 +273,16 @@ impl AtFrequency {
     pub fn counting(&self) -> impl Iterator<Item = &ModalMotion> {
         self.motions.iter().filter(|one| one.counts(self.count_rest))
     }
+}
+
+/// How many modes are in the range of a load, at least one.
+fn modes_within(case: &ModalCase, load: &Load) -> usize {
+    within(case, load).len().max(1)
+}
+
+/// Most frequencies that are searched along a load.
+fn most(case: &ModalCase, load: &Load) -> usize {
+    EVEN as usize + FURTHER * modes_within(case, load)
 }
 
 /// Natural frequencies in the range of a load, in Hz.

@@ -2,14 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::model::Proof;
+use super::model::{Proof, states_from};
 use super::repetition::{Polished, Repetition};
 use super::watch::WindowSample;
 use super::{Facts, Measured, Motion, MotionKind, Reached};
 use crate::orbits::newton::solve;
 use crate::orbits::{AfterImpact, Closure, Cycle, ONE_ORBIT, Orbit, Origin, Wall};
 use crate::regimes::{Periodicity, Regime};
-use crate::simulation::{Impact, Side, Simulation, Stop};
+use crate::simulation::{Impact, Side, Stop};
 use crate::system::{State, System};
 
 /// Distance in state, over the clearance and radians, below which the halves of a simulated cycle count as mirror images:
@@ -166,50 +166,33 @@ fn cycle(system: &System, impacts: &[Impact], periods: u32) -> Option<Cycle> {
     })
 }
 
-/// States at the ends of the periods of a motion that attracts, and of its mirror image; none of one that is known by averages.
-pub(super) fn states_of(system: &System, motion: &Motion) -> Vec<State> {
+/// States of a motion that attracts, and of its mirror image, with their phases, and after how many periods it repeats; none of one
+/// that is known by averages.
+pub(super) fn begins(system: &System, motion: &Motion) -> (Vec<(State, f64)>, u32) {
     match &motion.kind {
-        MotionKind::Orbit(orbit) => states(system, orbit),
+        MotionKind::Orbit(orbit) => (on(system, orbit), orbit.cycle.periods()),
         MotionKind::Repeats(Repetition { periods, multiplier: Some(_), .. }) => {
             let State { x, x_velocity, y, y_velocity } = motion.state;
             let turned = State { x: -x, x_velocity: -x_velocity, y: -y, y_velocity: -y_velocity };
             let twin = system.cavity().is_symmetric().then_some((turned, PI));
-            states_from(system, [(motion.state, 0.0)].into_iter().chain(twin), *periods)
+            ([(motion.state, 0.0)].into_iter().chain(twin).collect(), *periods)
         }
-        _ => Vec::new(),
+        _ => (Vec::new(), 0),
     }
 }
 
-/// States on an orbit, and on its mirror image where that is a motion of its own, at the ends of the excitation periods.
-fn states(system: &System, orbit: &Orbit) -> Vec<State> {
+/// States after an impact of an orbit, and on its mirror image where that is a motion of its own, with their phases.
+fn on(system: &System, orbit: &Orbit) -> Vec<(State, f64)> {
     let first = orbit.cycle.impacts[0];
     let twin =
         matches!(orbit.cycle.closure, Closure::Repeats { .. }) && system.cavity().is_symmetric();
     let begins = std::iter::once(first).chain(twin.then(|| first.mirrored(1.0)));
-    let begins = begins.map(|begin| (begin.state(), begin.phase));
-    states_from(system, begins, orbit.cycle.periods())
-}
-
-/// States at the ends of so many excitation periods from states at phases.
-fn states_from(
-    system: &System,
-    begins: impl Iterator<Item = (State, f64)>,
-    periods: u32,
-) -> Vec<State> {
-    let mut found = Vec::new();
-    for (state, phase) in begins {
-        let Ok(mut simulation) = Simulation::new(system, state, phase) else { continue };
-        for _ in 0..periods {
-            simulation.run(1, u64::MAX, &mut ());
-            found.push(simulation.state());
-        }
-    }
-    found
+    begins.map(|begin| (begin.state(), begin.phase)).collect()
 }
 
 /// A state of an orbit at phase 0.
 pub(super) fn state_of(system: &System, orbit: &Orbit) -> Option<State> {
-    states(system, orbit).first().copied()
+    states_from(system, &on(system, orbit), orbit.cycle.periods()).first().copied()
 }
 
 /// What an orbit's impacts do.

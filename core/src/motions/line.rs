@@ -26,7 +26,11 @@ pub trait Line {
     ///
     /// # Errors
     /// Where one cannot be flown.
-    fn search(&self, sites: &[Site<'_, Self>]) -> Result<Vec<(usize, Self::Motions)>, Self::Error>;
+    fn search(
+        &self,
+        purpose: Purpose,
+        sites: &[Site<'_, Self>],
+    ) -> Result<Vec<(usize, Self::Motions)>, Self::Error>;
     /// Adds motions that were followed to a place.
     fn join(&self, known: &mut Self::Motions, found: Self::Motions);
 
@@ -61,8 +65,6 @@ pub trait Line {
 pub struct Site<'a, L: Line + ?Sized> {
     /// Where.
     pub at: f64,
-    /// Why.
-    pub purpose: Purpose,
     /// States where starts begin that are not counted.
     pub further: Vec<L::State>,
     /// The motions that are known there.

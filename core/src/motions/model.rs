@@ -5,6 +5,13 @@ use super::{Reached, Value};
 use crate::simulation::Stop;
 use crate::simulation::batch::Extent;
 
+/// Excitation periods over which a start is measured at least, where it does not repeat; several times the slowest modulation.
+pub(super) const RECOGNITION: u64 = 200;
+/// Push off an orbit that does not attract, over the size of the motion: far above what a repetition leaves open.
+pub(super) const PUSH: f64 = 1e-3;
+/// Flights of an absorber from wall to wall in a window in which it is slow: enough for extremes.
+pub(super) const FLIGHTS: f64 = 16.0;
+
 /// What moves under an excitation, and how it is flown, watched and proven.
 pub(super) trait Model: Clone + PartialEq + Send + Sync {
     /// A state at excitation phase 0.
@@ -39,8 +46,8 @@ pub(super) trait Model: Clone + PartialEq + Send + Sync {
     /// Whether whatever moves comes to rest.
     fn comes_to_rest(&self) -> bool;
 
-    /// A trajectory from a state.
-    fn begin(&self, state: &Self::State) -> Result<Self::Flight, Self::StartError>;
+    /// A trajectory from a state at an excitation phase.
+    fn begin(&self, state: &Self::State, phase: f64) -> Result<Self::Flight, Self::StartError>;
     /// A trajectory beside a state, in no direction that a symmetry has.
     fn pushed(&self, state: &Self::State) -> Option<Self::Flight>;
     /// Of what a trajectory is.
@@ -92,8 +99,9 @@ pub(super) trait Model: Clone + PartialEq + Send + Sync {
     /// The motion that wanders of some samples, in a case with a window of so many periods.
     fn wandering(&self, samples: &[Self::Sample], periods: u64) -> Self::Motion;
 
-    /// States at the ends of the periods of a motion that attracts, and of its mirror image; none of one that is known by averages.
-    fn states(&self, motion: &Self::Motion) -> Vec<Self::State>;
+    /// States of a motion that attracts, and of its mirror image, with their phases, and after how many periods it repeats; none of one
+    /// that is known by averages.
+    fn begins(&self, motion: &Self::Motion) -> (Vec<(Self::State, f64)>, u32);
     /// How far apart two states are, and the size of a motion with some, in one unit.
     fn distance(of: &Self::State, other: &Self::State) -> f64;
     /// See [`Self::distance`].
@@ -192,7 +200,8 @@ impl<M: Model> Clone for KnownMotion<M> {
 impl<M: Model> KnownMotion<M> {
     /// A motion with where it stands at phase 0, if it repeats and is known to attract.
     pub fn new(model: &M, motion: M::Motion) -> Self {
-        let states = model.states(&motion);
+        let (begins, periods) = model.begins(&motion);
+        let states = states_from(model, &begins, periods);
         let size = M::size(&states);
         Self { motion, states, size }
     }
@@ -210,4 +219,22 @@ impl<M: Model> KnownMotion<M> {
         let room = CAPTURED * (1.0 - multiplier);
         near / (room * self.size).max(f64::MIN_POSITIVE)
     }
+}
+
+/// States at the ends of so many excitation periods from states at phases.
+pub(super) fn states_from<M: Model>(
+    model: &M,
+    begins: &[(M::State, f64)],
+    periods: u32,
+) -> Vec<M::State> {
+    let mut found = Vec::new();
+    for (state, phase) in begins {
+        let Ok(mut flight) = model.begin(state, *phase) else { continue };
+        for _ in 0..periods {
+            let far = [Extent { periods: 1, impacts: u64::MAX }];
+            M::run(&mut [&mut flight], &far, None);
+            found.push(M::state(&flight));
+        }
+    }
+    found
 }

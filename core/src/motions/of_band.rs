@@ -106,25 +106,28 @@ impl Line for OfBand<'_> {
         vec![Extreme::PEAK]
     }
 
-    fn search(&self, sites: &[Site<'_, Self>]) -> Result<Vec<(usize, Motions)>, StartError> {
+    fn search(
+        &self,
+        purpose: Purpose,
+        sites: &[Site<'_, Self>],
+    ) -> Result<Vec<(usize, Motions)>, StartError> {
         let BandEffort { starts, starts_between, .. } = self.effort.band;
+        // Between known places the motions beside are the starts that matter.
+        let starts = match purpose {
+            Purpose::First => starts,
+            Purpose::Between | Purpose::InFull => starts_between,
+            Purpose::Followed => 0,
+        };
+        let in_full = purpose == Purpose::InFull;
         let place = |(k, site): (usize, &Site<'_, Self>)| {
             let system = self.band.system(site.at).ok()?;
-            // Between known places the motions beside are the starts that matter.
-            let starts = match site.purpose {
-                Purpose::First => starts,
-                Purpose::Between | Purpose::InFull => starts_between,
-                Purpose::Followed => 0,
-            };
             let known = site.known.into_iter().flat_map(Motions::iter).cloned().collect();
-            let in_full = site.purpose == Purpose::InFull;
             let (further, patience) = (site.further.clone(), site.patience);
             Some((k, Place { further, known, patience, in_full, ..Place::new(&system, starts) }))
         };
         let places = sites.iter().enumerate().filter_map(place);
         let (of, places): (Vec<usize>, Vec<Place>) = places.unzip();
-        let decides = sites.first().is_some_and(|site| site.purpose == Purpose::InFull);
-        let effort = if decides { self.effort.in_full() } else { self.effort.between() };
+        let effort = if in_full { self.effort.in_full() } else { self.effort.between() };
         Ok(of.into_iter().zip(motions(&places, &effort, self.on)?).collect())
     }
 

@@ -1,7 +1,9 @@
 //! Of one mode with one absorber, what a search must know: many trajectories fly side by side.
 
-use super::identity::states_of;
-use super::model::{Averages, KnownMotion, LongTerm, Model, Proof, Sample};
+use super::identity::begins;
+use super::model::{
+    Averages, FLIGHTS, KnownMotion, LongTerm, Model, PUSH, Proof, RECOGNITION, Sample,
+};
 use super::rest::Rest;
 use super::watch::{Watch, WindowSample};
 use super::{Facts, Motion, MotionKind, Reached, Value, settling, solved};
@@ -13,13 +15,6 @@ use crate::system::{State, System};
 
 /// Share of its steady amplitude within which a structure vibrates as if alone.
 const STEADY: f64 = 1e-6;
-/// Push off an orbit that does not attract, over the size of the motion: far above what a repetition leaves open.
-const PUSH: f64 = 1e-3;
-/// Excitation periods over which a start is measured at least, where it does not repeat; several times the slowest
-/// modulation.
-const RECOGNITION: u64 = 200;
-/// Flights of the absorber from wall to wall in a window in which it is slow: enough for extremes.
-const FLIGHTS: u32 = 16;
 /// Trajectories up to which each flies alone: most lanes of a batch would be empty.
 const FEW: usize = 3;
 
@@ -59,8 +54,8 @@ impl Model for System {
         settling::comes_to_rest(self)
     }
 
-    fn begin(&self, state: &State) -> Result<Simulation, StartError> {
-        Simulation::new(self, *state, 0.0)
+    fn begin(&self, state: &State, phase: f64) -> Result<Simulation, StartError> {
+        Simulation::new(self, *state, phase)
     }
 
     fn pushed(&self, state: &State) -> Option<Simulation> {
@@ -113,7 +108,7 @@ impl Model for System {
 
     fn periods_of_flights(flight: &Simulation) -> u64 {
         let speed = flight.state().y_velocity.abs();
-        let duration = f64::from(FLIGHTS) * 2.0 / speed;
+        let duration = FLIGHTS * 2.0 / speed;
         if speed > 0.0 { (duration / flight.system().period()) as u64 } else { 0 }
     }
 
@@ -202,8 +197,8 @@ impl Model for System {
         }
     }
 
-    fn states(&self, motion: &Motion) -> Vec<State> {
-        states_of(self, motion)
+    fn begins(&self, motion: &Motion) -> (Vec<(State, f64)>, u32) {
+        begins(self, motion)
     }
 
     fn distance(of: &State, other: &State) -> f64 {

@@ -276,10 +276,10 @@ impl<L: Line> Sampler<'_, L> {
         let site = |k: &usize| {
             let spot = &self.spots[*k];
             let further = self.moving(spot).filter_map(L::state).collect();
-            Site { at: spot.at, purpose: Purpose::InFull, further, known: None, patience: 1.0 }
+            Site { at: spot.at, further, known: None, patience: 1.0 }
         };
         let sites: Vec<Site<L>> = chosen.iter().map(site).collect();
-        let found = self.line.search(&sites)?;
+        let found = self.line.search(Purpose::InFull, &sites)?;
         for (k, found) in found {
             let spot = &mut self.spots[chosen[k]];
             (spot.motions, spot.in_full) = (found, true);
@@ -308,10 +308,10 @@ impl<L: Line> Sampler<'_, L> {
             };
             // Both have waited for what may be the same transient.
             let waited = beside.len() == 2 && beside.iter().all(|spot| self.has_waited(spot));
-            Site { at: *at, purpose, further, known: None, patience: patience(waited) }
+            Site { at: *at, further, known: None, patience: patience(waited) }
         };
         let sites: Vec<Site<L>> = places.iter().map(site).collect();
-        let found = self.line.search(&sites)?.into_iter();
+        let found = self.line.search(purpose, &sites)?.into_iter();
         let spot = |(k, motions): (usize, L::Motions)| {
             let (at, followed) = (places[k], Vec::new());
             Spot { at, motions, followed, is_own: false, in_full: false }
@@ -347,16 +347,10 @@ impl<L: Line> Sampler<'_, L> {
                 .map(|spot| self.followed_at(spot))
                 .reduce(|a, b| a.iter().zip(&b).map(|(a, b)| a.max(*b)).collect());
             chosen.push((k, worst.unwrap_or_default()));
-            let (at, purpose, known) = (spot.at, Purpose::Followed, Some(&spot.motions));
-            sites.push(Site {
-                at,
-                purpose,
-                further,
-                known,
-                patience: patience(self.has_waited(spot)),
-            });
+            let (at, known) = (spot.at, Some(&spot.motions));
+            sites.push(Site { at, further, known, patience: patience(self.has_waited(spot)) });
         }
-        let found = self.line.search(&sites)?;
+        let found = self.line.search(Purpose::Followed, &sites)?;
         drop(sites);
         let any = !found.is_empty();
         for (n, found) in found {

@@ -132,7 +132,7 @@ pub(super) fn searched<M: Model>(
         }
         let mut ground = Ground::of(place, &solved, effort, of_place.len());
         for start in place.counted.iter().chain(&place.further) {
-            let flight = place.model.begin(start)?;
+            let flight = place.model.begin(start, 0.0)?;
             let left_out = ground.left_out;
             let index = of_place.len();
             flights.push(StartFlight { index, flight, before: 0, left_out, window: 0 });

@@ -118,7 +118,7 @@ impl Search<'_> {
         };
         let model = Sensed::new(system, self.without(rest));
         // Its place may be just outside of a cavity here.
-        let begins = |state: &&ModalState| model.begin(state).is_ok();
+        let begins = |state: &&ModalState| model.begin(state, 0.0).is_ok();
         let further = further.iter().chain(&carried).filter(begins).copied().collect();
         let (known, in_full) = (Vec::new(), false);
         let place = Starts { model, counted, further, known, patience, in_full };

@@ -7,24 +7,21 @@ use super::at_rest::modal_at_rest;
 use super::motion::ModalMotion;
 use super::proven::{Near, attracting, near, seen};
 use super::watch::{MOST_IMPACTS, ModalSample, ModalWatch, SAME_STATE, apart, size};
-use crate::motions::model::{Averages, KnownMotion, LongTerm, Model, Proof};
+use crate::motions::model::{
+    Averages, FLIGHTS, KnownMotion, LongTerm, Model, PUSH, Proof, RECOGNITION,
+};
 use crate::motions::{Reached, Value};
 use crate::simulation::batch::Extent;
 use crate::simulation::{ModalSimulation, ModalStartError, Reading, Sensor, Stop};
-use crate::system::{ModalState, ModalSystem};
+use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
 
 /// Times in which the slowest mode decays to `1/e` that a start is left alone, and fewest and most excitation periods of such a time.
 const DECAYS: u32 = 8;
 const QUICKEST: f64 = 32.0;
 const LONGEST: f64 = 8192.0;
-/// Such times of the shortest window, and its excitation periods at least; those of the starts of a place together.
+/// Such times of the shortest window, and the fewest excitation periods of the windows of a place together.
 const DECAYS_OF_WINDOW: f64 = 2.0;
-const RECOGNITION: u64 = 200;
 const SHORTEST: u64 = 1024;
-/// Push off an orbit that does not attract, over the size of the motion: far above what a repetition leaves open.
-const PUSH: f64 = 1e-3;
-/// Flights of an absorber from wall to wall in a window in which it is slow: enough for extremes.
-const FLIGHTS: f64 = 16.0;
 /// Most impacts of a start until its slowest mode has died out, and fewest in a period of each absorber: one that chatters on is given up.
 const MOST_OF_START: u64 = 400_000;
 const FEWEST_IMPACTS: u64 = 16;
@@ -137,8 +134,8 @@ impl Model for Sensed {
         still && system.modes().iter().all(|mode| mode.damping_ratio > 0.0)
     }
 
-    fn begin(&self, state: &ModalState) -> Result<SensedFlight, ModalStartError> {
-        let simulation = ModalSimulation::new(self.system(), state, 0.0)?;
+    fn begin(&self, state: &ModalState, phase: f64) -> Result<SensedFlight, ModalStartError> {
+        let simulation = ModalSimulation::new(self.system(), state, phase)?;
         Ok(SensedFlight { of: self.clone(), simulation })
     }
 
@@ -152,7 +149,7 @@ impl Model for Sensed {
             let inwards = if place > state.absorbers[j][0] { 1.0 } else { -1.0 };
             beside.absorbers[j][0] += inwards * push.min(0.1 * one.clearance);
         }
-        self.begin(&beside).ok()
+        self.begin(&beside, 0.0).ok()
     }
 
     fn of(flight: &SensedFlight) -> &Self {
@@ -205,7 +202,7 @@ impl Model for Sensed {
     fn at_rest(flight: &SensedFlight) -> Option<ModalState> {
         let (system, state) = (flight.of.system(), flight.simulation.state());
         let mut steady = state;
-        let mut free = [0.0; crate::system::MOST_MODES];
+        let mut free = [0.0; MOST_MODES];
         for (k, mode) in system.modes().iter().enumerate() {
             let of = system.steady_motion(k);
             steady.modes[k] = [of.cosine, system.frequency_ratio() * of.sine];
@@ -215,7 +212,7 @@ impl Model for Sensed {
             free[k] = libm::hypot(off[0], off[1] / mode.frequency) / ringing;
         }
         let damped = system.modes().iter().all(|mode| mode.damping_ratio > 0.0);
-        let stays = |(j, one): (usize, &crate::system::ModalAbsorber)| {
+        let stays = |(j, one): (usize, &ModalAbsorber)| {
             let [y, velocity] = state.absorbers[j];
             let modes = system.modes().iter().zip(&free);
             let free: f64 = modes.map(|(mode, free)| mode.shape[j].abs() * free).sum();
@@ -269,26 +266,19 @@ impl Model for Sensed {
     }
 
     fn proof(&self, sample: &ModalSample) -> Proof<Self> {
-        let Some(after) = sample
-            .repeats
-            .nearly
-            .iter()
-            .chain(&sample.repeats.roughly)
-            .find_map(|after| near(self, &sample.end, *after))
-        else {
-            let Some(after) = sample.repeats.exactly else { return Proof::Open };
-            // What still changes in a period adds up until the slowest mode has died out.
-            let left = SAME_STATE * decay(self.system()) as f64;
-            return match seen(self, &sample.end, after) {
-                Some(motion) => Proof::Is(Box::new(motion.within(left)), Box::new(sample.clone())),
-                None => Proof::Open,
-            };
-        };
-        let sample = Box::new(sample.clone());
-        match after {
-            Near::On(motion) => Proof::Is(motion, sample),
-            Near::Beside(motion) => Proof::Nears(motion, sample),
-            Near::Leaves => Proof::Leaves,
+        let (repeats, seen_as) = (&sample.repeats, || Box::new(sample.clone()));
+        let mut periods = repeats.nearly.iter().chain(&repeats.roughly);
+        match periods.find_map(|after| near(self, &sample.end, *after)) {
+            Some(Near::On(motion)) => Proof::Is(motion, seen_as()),
+            Some(Near::Beside(motion)) => Proof::Nears(motion, seen_as()),
+            Some(Near::Leaves) => Proof::Leaves,
+            None => {
+                let motion = repeats.exactly.and_then(|after| seen(self, &sample.end, after));
+                // What still changes in a period adds up until the slowest mode has died out.
+                let left = SAME_STATE * decay(self.system()) as f64;
+                let is = |motion: ModalMotion| Proof::Is(Box::new(motion.within(left)), seen_as());
+                motion.map_or(Proof::Open, is)
+            }
         }
     }
 
@@ -308,27 +298,17 @@ impl Model for Sensed {
         ModalMotion { state: Some(samples[0].begin), ..motion }
     }
 
-    fn states(&self, motion: &ModalMotion) -> Vec<ModalState> {
+    fn begins(&self, motion: &ModalMotion) -> (Vec<(ModalState, f64)>, u32) {
         let (Some(_), Some(begin), Some(periods)) =
             (motion.largest_multiplier, motion.state, motion.repeats_after)
         else {
-            return Vec::new();
+            return (Vec::new(), 0);
         };
         let turned = ModalState {
             modes: begin.modes.map(|pair| pair.map(|one| -one)),
             absorbers: begin.absorbers.map(|pair| pair.map(|one| -one)),
         };
-        let mut states = Vec::new();
-        for (state, phase) in [(begin, 0.0), (turned, PI)] {
-            let Ok(mut simulation) = ModalSimulation::new(self.system(), &state, phase) else {
-                continue;
-            };
-            for _ in 0..periods {
-                simulation.run(1, MOST_IMPACTS, &mut ());
-                states.push(simulation.state());
-            }
-        }
-        states
+        (vec![(begin, 0.0), (turned, PI)], periods)
     }
 
     fn distance(of: &ModalState, other: &ModalState) -> f64 {
