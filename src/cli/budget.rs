@@ -29,6 +29,9 @@ const COMBINED: u64 = 2 * 16;
 /// minute and a half on two.
 const ORDINARY_SWEEP: f64 = 3600.0;
 
+/// What ranges are called where they are left out.
+const RANGES: &str = "the ranges over which the criteria hold are";
+
 /// Whether more than the ordinary is asked for.
 #[derive(Debug, Clone, Copy, Args)]
 pub struct Long {
@@ -54,15 +57,7 @@ impl Long {
         let own = seconds(work);
         let allowed_in = |ordinary: f64, what: &str, variants: u64| {
             let seconds = seconds(&Work::variants(case, variants));
-            let allowed = self.long || own + seconds <= ordinary;
-            if !allowed {
-                output::complain(&format!(
-                    "{}: {what} left out, which would take about {}; add --long for them",
-                    path.display(),
-                    duration(seconds)
-                ));
-            }
-            allowed
+            self.affords(path, own + seconds <= ordinary, seconds, what)
         };
         let allowed = |what: &str, variants: u64| allowed_in(ORDINARY, what, variants);
         Decided {
@@ -70,9 +65,7 @@ impl Long {
                 && allowed("the tuned mass dampers beside the absorber are", DRIFTS),
             ranges: match variants(case, asked) {
                 0 => &[],
-                some if allowed("the ranges over which the criteria hold are", some) => {
-                    asked.ranges
-                }
+                some if allowed(RANGES, some) => asked.ranges,
                 _ => &[],
             },
             until: asked.until,
@@ -87,6 +80,24 @@ impl Long {
                     drawn(case),
                 ),
         }
+    }
+
+    /// Whether ranges that take so many seconds are looked for beside other work; they are left out, and that is said, where it
+    /// is too long.
+    pub fn affords_ranges(self, path: &Path, own: f64, seconds: f64) -> bool {
+        self.affords(path, own + seconds <= ORDINARY, seconds, RANGES)
+    }
+
+    fn affords(self, path: &Path, is_ordinary: bool, seconds: f64, what: &str) -> bool {
+        let affords = self.long || is_ordinary;
+        if !affords {
+            output::complain(&format!(
+                "{}: {what} left out, which would take about {}; add --long for them",
+                path.display(),
+                duration(seconds)
+            ));
+        }
+        affords
     }
 
     /// The same of a whole sweep, so many seconds on all processors, which was measured or is `what`.

@@ -119,7 +119,10 @@ fn judged(path: &Path, place: &str, stem: &str, arguments: &Arguments) -> Result
             Ok(Checked::judged(place, stem, &case, &answer))
         }
         AnyCase::Several(case) => {
-            let answer = several::answered(path, &case, arguments.long)?;
+            let (answer, told) =
+                (several::answered(path, &case, arguments.long)?, told(arguments).1);
+            let Decided { ranges, until, .. } = told;
+            let answer = several::ranged(path, &case, answer, ranges, until, arguments.long)?;
             without_criteria(path, case.criteria.is_empty());
             Ok(modal::checked(place, stem, &case, &answer))
         }
@@ -132,17 +135,20 @@ fn without_criteria(path: &Path, none: bool) {
     }
 }
 
-fn answered(path: &Path, case: &Case, arguments: &Arguments) -> Result<Answer> {
-    let long = &arguments.long;
-    // What no format tells is not looked for.
-    let (asked, told) = match arguments.format {
+/// What is asked of a case, and looked at beside it: what no format tells is not looked for.
+fn told(arguments: &Arguments) -> (Asked, Decided) {
+    match arguments.format {
         CheckFormat::Json if !arguments.criteria_only => (Asked::Decision, Decided::CHECKED),
         CheckFormat::Text | CheckFormat::Markdown if !arguments.criteria_only => {
             let (ranges, until) = (&Varied::FIRST, Together::Hold);
             (Asked::Decision, Decided { ranges, until, ..Decided::CHECKED })
         }
         _ => (Asked::Criteria, Decided::NOTHING),
-    };
+    }
+}
+
+fn answered(path: &Path, case: &Case, arguments: &Arguments) -> Result<Answer> {
+    let (long, (asked, told)) = (&arguments.long, told(arguments));
     let work = Work::of(case, asked, None);
     long.allows(path, case, &work)?;
     let decides = long.decides(path, case, &work, told);

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::case::ModalCase;
-use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, checks, orbits, seconds};
+use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, checks, looks, orbits, seconds};
+use vinesink::operating_range::{Together, Varied};
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
 use vinesink::report::modal::{
@@ -33,9 +34,29 @@ pub fn answered(path: &Path, case: &ModalCase, long: Long) -> Result<ModalAnswer
     ModalAnswer::of(case, &Parallel).into_diagnostic()
 }
 
+/// The same with how far these numbers may change, to where no criterion comes to less than `until`; where that is not too long.
+pub fn ranged(
+    path: &Path,
+    case: &ModalCase,
+    answer: ModalAnswer,
+    numbers: &[Varied],
+    until: Together,
+    long: Long,
+) -> Result<ModalAnswer> {
+    let own = seconds(case);
+    // Where a criterion fails there is no range.
+    let may_fail = Together::of(&answer.judged) == Together::Fail || answer.judged.is_empty();
+    let besides = own * looks(case, numbers);
+    if numbers.is_empty() || may_fail || !long.affords_ranges(path, own, besides) {
+        return Ok(answer);
+    }
+    answer.ranged(case, numbers, until, &Parallel).into_diagnostic()
+}
+
 /// The files of its report.
 pub fn report(path: &Path, name: &str, case: &ModalCase, long: Long) -> Result<Files> {
     let answer = answered(path, case, long)?;
+    let answer = ranged(path, case, answer, &Varied::ALL, Together::Undecided, long)?;
     let beside = Beside::of(case, &answer, &Parallel).into_diagnostic()?;
     files(name, case, &answer, &beside).into_diagnostic()
 }

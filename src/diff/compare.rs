@@ -57,10 +57,10 @@ const NATURAL_KEYS: [(&str, &[&str]); 12] = [
     ("derived", &["name"]),
     ("doubts", &["kind"]),
     ("figures", &["name"]),
-    ("holds_for", &["parameter"]),
+    ("holds_for", &["parameter", "load", "absorber"]),
     ("motions", &["regime"]),
     ("notes", &["kind", "limit", "message"]),
-    ("ranges", &["parameter"]),
+    ("ranges", &["parameter", "load", "absorber"]),
     ("rows", &["deviation"]),
 ];
 
@@ -455,7 +455,9 @@ fn named<'v>(list: &str, items: &'v [Value]) -> BTreeMap<String, &'v Value> {
         let words = natural.map(|(_, keys)| {
             let words = keys.iter().filter_map(|key| match &item[*key] {
                 Value::String(text) => Some(without_numbers(text)),
-                // The only number that names an element is a share.
+                // Of several loads or absorbers which.
+                Value::Number(number) if number.is_u64() => Some(format!("{key} {number}")),
+                // Any other number that names an element is a share.
                 other => {
                     let percent = other.as_f64().map(|share| (1e5 * share).round() / 1e3);
                     percent.filter(|it| *it != 0.0).map(|it| format!("±{it} %"))

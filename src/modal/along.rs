@@ -41,14 +41,48 @@ pub struct AtFrequency {
 const IN_FULL: f64 = ModalEffort::IN_FULL;
 const OF_MANY: f64 = ModalEffort::OF_MANY;
 
-/// Even frequencies along a load, and most further ones for each mode in its range.
+/// Even frequencies along a load.
 const EVEN: u32 = 13;
-const FURTHER: usize = 15;
-/// Relative error to which the worst of what is looked at is to be known.
-const TOLERANCE: f64 = 0.05;
-/// Most frequencies for each mode in its range that are searched in full, as what wanders there sets how bad something may be or has not
-/// settled.
-const MOST_IN_FULL: usize = 4;
+
+/// How closely a load is looked along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct AlongEffort {
+    /// Most frequencies beside the first ones, for each mode in its range.
+    further: usize,
+    /// Relative error to which the worst of what is looked at is to be known.
+    tolerance: f64,
+    /// Parts of the starts at each of the first frequencies, and at each between these, beside the motions of its neighbours.
+    parts: [u32; 2],
+    /// Most starts under a load of one frequency.
+    at_one: u32,
+    /// The patience with what wanders at one of many frequencies, and at the only one.
+    patience: [f64; 2],
+    /// Most frequencies for each mode in its range that are searched in full, as what wanders there sets how bad something may be or has
+    /// not settled.
+    most_in_full: usize,
+}
+
+impl AlongEffort {
+    /// What decides.
+    pub const FULL: Self = Self {
+        further: 15,
+        tolerance: 0.05,
+        parts: [2, 4],
+        at_one: u32::MAX,
+        patience: [OF_MANY, IN_FULL],
+        most_in_full: 4,
+    };
+    /// Enough to see where a limit may be missed, before that is looked at in full.
+    pub const SCREENING: Self = Self {
+        further: 4,
+        tolerance: 0.1,
+        parts: [3, 6],
+        at_one: 8,
+        patience: [0.0, 0.0],
+        most_in_full: 0,
+    };
+}
+
 /// By how much a motion may grow on the way to a wall that no frequency beside it has.
 const MOST_GROWTH: f64 = 1.5;
 /// Least distance of frequencies over the narrower of a mode's width and what its absorbers add, and over the range.
@@ -66,7 +100,8 @@ pub fn seconds(case: &ModalCase) -> f64 {
     let size = (case.modes.len() * case.absorbers.len()) as f64;
     let of_load = |load: &Load| {
         let [from, to] = load.range_hz;
-        let places = if from < to { 0.5 * most(case, load) as f64 } else { 1.0 };
+        let most = first_and(AlongEffort::FULL.further, case, load);
+        let places = if from < to { 0.5 * most as f64 } else { 1.0 };
         let Ok(system) = case.system(load, load.centre(case)) else { return 0.0 };
         f64::from(case.starts_of(load)) * places * longest_flight(&system, case.periods)
     };
@@ -78,6 +113,7 @@ pub fn seconds(case: &ModalCase) -> f64 {
 struct OfLoad<'a> {
     case: &'a ModalCase,
     load: &'a Load,
+    effort: &'a AlongEffort,
     looks: Vec<Look>,
     on: &'a dyn Executor,
 }
@@ -138,11 +174,12 @@ impl Line for OfLoad<'_> {
         sites: &[Site<'_, Self>],
     ) -> Result<Vec<(usize, AtFrequency)>, ModalError> {
         let Self { case, load, .. } = *self;
+        let AlongEffort { parts: [first, between], patience: [of_many, _], .. } = *self.effort;
         let (what, starts, full) = match purpose {
-            Purpose::First => ("motions along the loads", case.starts.div_ceil(2), OF_MANY),
+            Purpose::First => ("motions along the loads", case.starts.div_ceil(first), of_many),
             // Between known places the motions beside are the starts that matter.
-            Purpose::Between => ("motions along the loads", case.starts.div_ceil(4), OF_MANY),
-            Purpose::Followed => ("motions that are followed", 0, OF_MANY),
+            Purpose::Between => ("motions along the loads", case.starts.div_ceil(between), of_many),
+            Purpose::Followed => ("motions that are followed", 0, of_many),
             Purpose::InFull => ("motions that decide", case.starts, IN_FULL),
         };
         // An undamped mode has no steady motion at its own frequency.
@@ -216,16 +253,23 @@ impl Line for OfLoad<'_> {
 }
 
 impl AlongLoad {
-    pub(super) fn of(case: &ModalCase, load: &Load, on: &dyn Executor) -> Result<Self, ModalError> {
+    pub(super) fn of(
+        case: &ModalCase,
+        load: &Load,
+        effort: &AlongEffort,
+        on: &dyn Executor,
+    ) -> Result<Self, ModalError> {
         let [from, to] = load.range_hz;
-        let line = OfLoad { case, load, looks: Look::all(case), on };
+        let line = OfLoad { case, load, effort, looks: Look::all(case), on };
         let (places, between) = if from < to {
             let (first, worst) = (line.first(), line.looks.clone());
-            let (own, most, tolerance) = (None, most(case, load), TOLERANCE);
-            let (most_in_full, are_dear) = (MOST_IN_FULL * modes_within(case, load), true);
+            let most = first_and(effort.further, case, load);
+            let most_in_full = effort.most_in_full * modes_within(case, load);
+            let (own, tolerance, are_dear) = (None, effort.tolerance, true);
             sampled(&line, Sampling { first, own, worst, most, tolerance, most_in_full, are_dear })?
         } else {
-            let (starts, patience) = (case.starts_at_one, IN_FULL);
+            let starts = case.starts_at_one.min(effort.at_one);
+            let patience = effort.patience[1];
             let effort = ModalEffort { starts, periods: case.periods, patience };
             let found = map(on, "motions along the loads", 1, |_| {
                 AtFrequency::of(case, load, from, effort, &[])
@@ -280,9 +324,9 @@ fn modes_within(case: &ModalCase, load: &Load) -> usize {
     within(case, load).len().max(1)
 }
 
-/// Most frequencies that are searched along a load.
-fn most(case: &ModalCase, load: &Load) -> usize {
-    EVEN as usize + FURTHER * modes_within(case, load)
+/// Even frequencies along a load, and so many further ones for each mode in its range.
+fn first_and(further: usize, case: &ModalCase, load: &Load) -> usize {
+    EVEN as usize + further * modes_within(case, load)
 }
 
 /// Natural frequencies in the range of a load, in Hz.

@@ -3,7 +3,7 @@
 use super::dampers::DamperChoice;
 use super::linear::largest_peak;
 use super::{ModalAnswer, ModalError};
-use crate::case::{ModalCase, StructuralMode};
+use crate::case::ModalCase;
 use crate::criteria::{Judged, Worst};
 use crate::executor::Executor;
 use crate::linear::ModalDamper;
@@ -45,14 +45,10 @@ impl OffStructure {
         choices: &[DamperChoice],
         on: &dyn Executor,
     ) -> Result<Self, ModalError> {
-        let mode = |mode: &StructuralMode| StructuralMode {
-            frequency_hz: (1.0 + off) * mode.frequency_hz,
-            ..mode.clone()
-        };
-        let modes = case.modes.iter().map(mode).collect();
         let [starts, starts_at_one] =
             [case.starts, case.starts_at_one].map(|starts| starts.div_ceil(2));
-        let case = &ModalCase { modes, starts, starts_at_one, periods: 0, ..case.clone() };
+        let there = case.with_frequencies(1.0 + off);
+        let case = &ModalCase { starts, starts_at_one, periods: 0, ..there };
         let answer = ModalAnswer::of(case, on)?;
         let linear = |dampers: &[ModalDamper]| {
             case.loads.iter().map(|load| largest_peak(case, load, dampers)).fold(0.0, f64::max)

@@ -13,6 +13,7 @@ mod judge;
 mod linear;
 mod optimum;
 mod orbits;
+mod ranges;
 mod rest;
 mod sensors;
 mod theory;
@@ -22,8 +23,11 @@ use crate::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
 use crate::method::Method;
+use crate::operating_range::{HoldsFor, Together, Varied, holds_for};
 use crate::simulation::ModalStartError;
 use crate::system::{InvalidModalSystem, ModalSystem};
+use along::AlongEffort;
+use ranges::Known;
 
 pub use along::{AlongLoad, AtFrequency, seconds};
 pub use beside::Beside;
@@ -33,6 +37,7 @@ pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
 pub use orbits::{LoadOrbits, Stretches, at_resonances, orbits};
+pub use ranges::looks;
 pub use sensors::sensors;
 pub use theory::{GroupTheory, LoadTheory};
 
@@ -57,6 +62,8 @@ pub struct ModalAnswer {
     pub along: Vec<AlongLoad>,
     /// Its criteria.
     pub judged: Vec<Judged>,
+    /// How far its numbers may change before a criterion fails; empty where one does, or nobody asked.
+    pub holds_for: Vec<HoldsFor>,
 }
 
 impl ModalAnswer {
@@ -65,7 +72,34 @@ impl ModalAnswer {
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
     pub fn of(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
-        Self::in_no_time(case, on)?.in_contact(case, |shifted| Self::in_no_time(shifted, on))
+        Self::with(case, &AlongEffort::FULL, &[], on)
+    }
+
+    /// The same with another effort, where these loads are known of the same structure with the same absorbers.
+    fn with(
+        case: &ModalCase,
+        effort: &AlongEffort,
+        known: &[AlongLoad],
+        on: &dyn Executor,
+    ) -> Result<Self, ModalError> {
+        let own = Self::in_no_time(case, effort, known, on)?;
+        own.in_contact(case, |shifted| Self::in_no_time(shifted, effort, &[], on))
+    }
+
+    /// The same with how far these numbers may change, to where no criterion comes to less than `least`.
+    ///
+    /// # Errors
+    /// As [`ModalAnswer::of`].
+    pub fn ranged(
+        self,
+        case: &ModalCase,
+        numbers: &[Varied],
+        least: Together,
+        on: &dyn Executor,
+    ) -> Result<Self, ModalError> {
+        let known = Known { case: case.clone(), along: self.along };
+        let holds_for = holds_for(case, &self.judged, numbers, least, &known, on)?;
+        Ok(Self { along: known.along, holds_for, ..self })
     }
 
     /// The same with what it makes of the criteria that impacts take time: `again` looks at another case in the same way.
@@ -85,7 +119,7 @@ impl ModalAnswer {
             }
         };
         let judged = self.judged.into_iter().zip(&there.judged).map(in_contact);
-        Ok(Self { judged: judged.collect(), along: self.along })
+        Ok(Self { judged: judged.collect(), ..self })
     }
 
     /// The structure where criteria are worst, of these places that with the fastest impact; none where absorbers rest.
@@ -102,14 +136,22 @@ impl ModalAnswer {
     }
 
     /// The same where impacts take no time.
-    fn in_no_time(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
-        let along = case.loads.iter().map(|load| AlongLoad::of(case, load, on));
+    fn in_no_time(
+        case: &ModalCase,
+        effort: &AlongEffort,
+        known: &[AlongLoad],
+        on: &dyn Executor,
+    ) -> Result<Self, ModalError> {
+        let along = case.loads.iter().map(|load| {
+            let known = known.iter().find(|one| one.load == *load).cloned();
+            known.map_or_else(|| AlongLoad::of(case, load, effort, on), Ok)
+        });
         Ok(Self::judged(case, along.collect::<Result<_, _>>()?))
     }
 
     /// Of what is known along the loads of a case.
     fn judged(case: &ModalCase, along: Vec<AlongLoad>) -> Self {
-        let mut answer = Self { along, judged: Vec::new() };
+        let mut answer = Self { along, judged: Vec::new(), holds_for: Vec::new() };
         answer.judged = case.criteria.iter().map(|one| answer.judge(case, one)).collect();
         answer
     }
@@ -164,8 +206,9 @@ pub fn modes_alone(
             loads: vec![load],
             ..case.clone()
         };
-        let along = vec![AlongLoad::of(&alone, &load, on)?];
-        let worst = ModalAnswer { along, judged: Vec::new() }.worst(&alone, None);
+        let along = vec![AlongLoad::of(&alone, &load, &AlongEffort::FULL, on)?];
+        let worst =
+            ModalAnswer { along, judged: Vec::new(), holds_for: Vec::new() }.worst(&alone, None);
         Ok(worst.map(|worst| [worst.found.value, worst.found.error]))
     });
     each.collect()

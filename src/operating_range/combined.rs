@@ -1,6 +1,6 @@
 //! The excitation's amplitude and the natural frequency changed at once: what holds for each alone may fail for both.
 
-use super::{HoldsFor, Look, Together, Varied, judge};
+use super::{HoldsFor, Look, Together, Varied, Varies};
 use crate::case::{Case, Relation};
 use crate::executor::{Executor, map};
 use crate::flights::DrivenError;
@@ -44,7 +44,7 @@ pub fn combined(
         let outcome = match there.and_then(|case| case.varied(frequency.0, f.value)) {
             Some(there) => {
                 let how = if promised { Look::AsCheck } else { Look::OnTheWay };
-                Together::of(&judge(&there, effort, how)?)
+                Together::of(&there.judge(effort, how)?)
             }
             None => Together::Fail,
         };

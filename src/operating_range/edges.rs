@@ -1,7 +1,7 @@
 //! Edges: numbers of a case that nobody holds as closely as a criterion, or an absorber that wakes, asks for.
 
 use super::varied::Varied;
-use super::{Look, Number, Together, judge};
+use super::{Look, Number, Together, Varies};
 use crate::case::{Case, Criterion};
 use crate::criteria::{Judged, Outcome};
 use crate::executor::{Executor, map};
@@ -46,7 +46,7 @@ pub fn edges(
     let (mut case, asked) = (case.clone(), case.criteria.len());
     // No displacement is at most 0, which does not matter yet: the worst of all is found, whatever the limit.
     case.criteria.extend(watched.and_then(|measure| Criterion::at_most(measure, 0.0)));
-    let own = judge(&case, effort, Look::AsCheck)?;
+    let own = case.judge(effort, Look::AsCheck)?;
     if own.is_empty() || Together::of(&own[..asked.min(own.len())]) == Together::Fail {
         return Ok(Vec::new());
     }
@@ -58,7 +58,7 @@ pub fn edges(
     Ok(sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
-impl Number<'_> {
+impl Number<'_, Case> {
     /// The first step that is no further than an edge at which a criterion fails.
     fn edge(&self, up: bool, own: &[Judged]) -> Result<Option<Edge>, DrivenError> {
         for at in self.varied.steps(self.own, up) {

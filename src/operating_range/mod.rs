@@ -9,20 +9,13 @@
 mod combined;
 mod edges;
 mod reliability;
+mod steady;
 mod varied;
 
 use serde::Serialize;
 
-use crate::band::{Band, Survey, SurveySettings};
-use crate::case::Case;
-use crate::criteria::contact::{judge_in_contact, judge_transient_in_contact};
-use crate::criteria::{self, Judged, Outcome};
-use crate::excitation::Transient;
-use crate::executor::{Executor, Serial, map};
-use crate::flights::{DrivenError, Places};
-use crate::motions::{BandEffort, Effort};
-use crate::system::Parameter;
-use crate::transient::Study;
+use crate::criteria::{Judged, Outcome};
+use crate::executor::{Executor, map};
 
 pub use combined::{Combined, combined};
 pub use edges::{Edge, edges};
@@ -42,7 +35,8 @@ pub enum Together {
 }
 
 impl Together {
-    fn of(judged: &[Judged]) -> Self {
+    /// Of all criteria of a case.
+    pub fn of(judged: &[Judged]) -> Self {
         let any = |of: &[Outcome]| judged.iter().any(|one| of.contains(&one.outcome()));
         if any(&[Outcome::Fails, Outcome::NotMeasured]) {
             Self::Fail
@@ -54,11 +48,60 @@ impl Together {
     }
 }
 
+/// How thoroughly a case is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    /// With fewer starts and places, and short windows.
+    OnTheWay,
+    /// As `check` does.
+    AsCheck,
+}
+
+impl Look {
+    /// How a case is looked at: one that does not take long always as `check` does.
+    fn of(self, case: &impl Varies) -> Self {
+        if case.is_short() { Self::AsCheck } else { self }
+    }
+}
+
+/// A case as a search for ranges sees it: numbers, the same case with others, and what its criteria come to there. A number is of the
+/// case, or of one of its parts, by index: a clearance and a restitution of an absorber, an amplitude of a load.
+pub trait Varies: Sync + Sized {
+    /// How thoroughly `check` searches it.
+    type Effort: Sync;
+    /// Why a motion cannot be followed.
+    type Error: Send + Sync;
+
+    /// The parts that have a number, none as the only one where it is of the whole case; empty where the case has no such number.
+    fn parts(&self, number: Varied) -> Vec<Option<usize>>;
+    /// The case's own value, in SI or the units of a reduced case.
+    fn value(&self, number: Varied, of: Option<usize>) -> Option<f64>;
+    /// The same case with another value; none where that is no case.
+    fn with(&self, number: Varied, of: Option<usize>, value: f64) -> Option<Self>;
+    /// The tolerance that the case states, and how many times that the number is likely to be off by at the most.
+    fn tolerance(&self, number: Varied) -> Option<(f64, f64)>;
+    /// Whether what is level and has ends alike does the mirrored thing at the mirrored value.
+    fn mirrors(&self, number: Varied) -> bool;
+    /// Whether a look as `check` has it takes no long.
+    fn is_short(&self) -> bool;
+    /// Whether it is driven steadily at single excitations.
+    fn is_point(&self) -> bool;
+    /// Its criteria.
+    ///
+    /// # Errors
+    /// Where a motion cannot be followed.
+    fn judge(&self, effort: &Self::Effort, how: Look) -> Result<Vec<Judged>, Self::Error>;
+    /// Whether the structure alone keeps the limits of its motion too.
+    fn kept_without_absorber(&self) -> bool;
+}
+
 /// A number of a case, and the stretch on which no criterion fails.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HoldsFor {
     /// What varies, all else as it is.
     pub parameter: Varied,
+    /// Of which absorber, or of an amplitude which load, where a case has a list of them.
+    pub of: Option<usize>,
     /// Its value in the case, in SI or the units of a reduced case.
     pub value: f64,
     /// The stretch.
@@ -83,30 +126,21 @@ pub struct HoldsFor {
 const FINEST: f64 = 8.0;
 /// Steps before the first of the usual ones, over that.
 const BEFORE: [f64; 2] = [0.25, 0.5];
-/// How thoroughly a band is looked at on the way, and starts of a place.
-const BAND: BandEffort =
-    BandEffort { even: 9, starts: 3, starts_between: 2, most: 24, tolerance: 0.1 };
-const STARTS: u32 = 8;
-/// Places that are searched again at a time, the worst first.
-const AT_A_TIME: usize = 8;
-/// Places of the absorber in a sweep, and under a record, each of which is long.
-const PLACES_OF_SWEEP: u64 = 16;
-const PLACES_OF_RECORD: u64 = 4;
 
 /// The ranges of these numbers of a case and what is known of it; none where a criterion fails at the case itself, or it has none.
 /// They go to where no criterion comes to less than `least`; where all are to hold that is not asked of a case that is not
 /// decided itself.
 ///
 /// # Errors
-/// [`DrivenError`] where a motion cannot be followed.
-pub fn holds_for(
-    case: &Case,
+/// Where a motion cannot be followed.
+pub fn holds_for<C: Varies>(
+    case: &C,
     judged: &[Judged],
     numbers: &[Varied],
     least: Together,
-    effort: &Effort,
+    effort: &C::Effort,
     on: &dyn Executor,
-) -> Result<Vec<HoldsFor>, DrivenError> {
+) -> Result<Vec<HoldsFor>, C::Error> {
     if judged.is_empty() || Together::of(judged) == Together::Fail {
         return Ok(Vec::new());
     }
@@ -114,10 +148,8 @@ pub fn holds_for(
     let all = Number::all(case, numbers, effort);
     let side = |k: usize| {
         let (number, up) = (&all[k / 2], k % 2 == 1);
-        // What is level and has ends alike does the mirrored thing at the mirrored inclination; its starts are not mirrored, so
-        // that it is looked at where that is short.
-        let mirrored = number.varied == Varied::Inclination && !up && case.has_ideal_walls();
-        if mirrored && Look::OnTheWay.of(case) == Look::OnTheWay {
+        // Its starts are not mirrored, so that it is looked at where that is short.
+        if case.mirrors(number.varied) && !up && !case.is_short() {
             Ok(None)
         } else {
             number.search(own, least, up).map(Some)
@@ -126,7 +158,7 @@ pub fn holds_for(
     let sides = map(on, "ranges", 2 * all.len(), side);
     let mut sides = sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter();
     let mut found = Vec::new();
-    for Number { varied: parameter, own: value, .. } in all {
+    for Number { varied: parameter, of, own: value, .. } in all {
         let (Some(below), Some(Some(above))) = (sides.next(), sides.next()) else { break };
         let below = below.unwrap_or_else(|| above.mirrored());
         let mut undecided: Vec<[f64; 2]> =
@@ -151,11 +183,11 @@ pub fn holds_for(
         let range = [below.end, above.end];
         let holds = (own == Together::Hold).then_some([below.holds, above.holds]);
         let kept_alone = holds.unwrap_or(range).map(|end| {
-            let there = parameter.parameter(case).and_then(|one| case.varied(one, end));
-            there.is_some_and(|case| criteria::kept_without_absorber(&case))
+            case.with(parameter, of, end).is_some_and(|case| case.kept_without_absorber())
         });
         found.push(HoldsFor {
             parameter,
+            of,
             value,
             range,
             open: [below.open, above.open],
@@ -170,12 +202,11 @@ pub fn holds_for(
 }
 
 /// A number of a case that varies.
-#[derive(Clone, Copy)]
-struct Number<'a> {
-    case: &'a Case,
-    effort: &'a Effort,
+struct Number<'a, C: Varies> {
+    case: &'a C,
+    effort: &'a C::Effort,
     varied: Varied,
-    parameter: Parameter,
+    of: Option<usize>,
     own: f64,
 }
 
@@ -205,22 +236,28 @@ impl Reach {
     }
 }
 
-impl<'a> Number<'a> {
+impl<'a, C: Varies> Number<'a, C> {
     /// Those that a case has.
-    fn all(case: &'a Case, of: &[Varied], effort: &'a Effort) -> Vec<Self> {
-        let number = |varied: &Varied| {
-            let parameter = varied.parameter(case)?;
-            let own = case.design.value(parameter)?;
-            Some(Self { case, effort, varied: *varied, parameter, own })
+    fn all(case: &'a C, of: &[Varied], effort: &'a C::Effort) -> Vec<Self> {
+        let parts = |varied: &Varied| {
+            let varied = *varied;
+            case.parts(varied).into_iter().filter_map(move |of| {
+                Some(Self { case, effort, varied, of, own: case.value(varied, of)? })
+            })
         };
-        of.iter().filter_map(number).collect()
+        of.iter().flat_map(parts).collect()
+    }
+
+    /// The case with another value.
+    fn with(&self, value: f64) -> Option<C> {
+        self.case.with(self.varied, self.of, value)
     }
 
     /// Goes outwards to where all criteria hold, if they do in the case itself, and unless that is all that is asked for on to
     /// where one fails.
-    fn search(&self, own: Together, least: Together, up: bool) -> Result<Reach, DrivenError> {
+    fn search(&self, own: Together, least: Together, up: bool) -> Result<Reach, C::Error> {
         let case = Looked { at: self.own, outcome: own, full: true, blurred: false, step: 0.0 };
-        let near = self.varied.near(self.case, self.own, up);
+        let near = self.varied.near(self.case.tolerance(self.varied), self.own, up);
         let steps = self.steps(&near, up);
         let (looked, reached) = (vec![case], Vec::new());
         let mut search = Outwards { number: self, near, steps, looked, reached };
@@ -250,10 +287,10 @@ impl<'a> Number<'a> {
     /// the first of these, and at a single excitation between them.
     fn steps(&self, near: &[f64], up: bool) -> Vec<f64> {
         let mut all = self.varied.steps(self.own, up);
-        if Look::OnTheWay.of(self.case) == Look::AsCheck {
+        if self.case.is_short() {
             let before = all.first().map_or(0.0, |first| first - self.own);
             let more = BEFORE.map(|part| self.own + part * before);
-            let is_point = self.case.design.transient().is_none();
+            let is_point = self.case.is_point();
             let between = all.windows(2).filter(|_| is_point).map(|two| 0.5 * (two[0] + two[1]));
             let more: Vec<f64> = more.into_iter().chain(between).collect();
             all.extend(more);
@@ -265,9 +302,8 @@ impl<'a> Number<'a> {
     }
 
     /// The criteria at a value.
-    fn judged(&self, value: f64, how: Look) -> Result<Option<Vec<Judged>>, DrivenError> {
-        let case = self.case.varied(self.parameter, value);
-        case.map(|case| judge(&case, self.effort, how)).transpose()
+    fn judged(&self, value: f64, how: Look) -> Result<Option<Vec<Judged>>, C::Error> {
+        self.with(value).map(|case| case.judge(self.effort, how)).transpose()
     }
 }
 
@@ -284,8 +320,8 @@ struct Looked {
 }
 
 /// A search in one direction.
-struct Outwards<'a> {
-    number: &'a Number<'a>,
+struct Outwards<'a, C: Varies> {
+    number: &'a Number<'a, C>,
     /// Steps that are so near to the case's own that each is judged as `check` does.
     near: Vec<f64>,
     steps: Vec<f64>,
@@ -294,10 +330,10 @@ struct Outwards<'a> {
     reached: Vec<[f64; 2]>,
 }
 
-impl Outwards<'_> {
+impl<C: Varies> Outwards<'_, C> {
     /// The last place up to which every one comes to no less than this, as `check` says it there; and whether the search ended
     /// before one did.
-    fn until(&mut self, least: Together) -> Result<(f64, bool), DrivenError> {
+    fn until(&mut self, least: Together) -> Result<(f64, bool), C::Error> {
         let open = self.go_out(least)?;
         // With fewer starts something may have been missed.
         let outermost = self.end(least) - 1;
@@ -326,7 +362,7 @@ impl Outwards<'_> {
     }
 
     /// Whether one of the places comes to no less than this as `check` says it; so it is looked at, if it was not.
-    fn comes_to(&mut self, k: usize, least: Together) -> Result<bool, DrivenError> {
+    fn comes_to(&mut self, k: usize, least: Together) -> Result<bool, C::Error> {
         if !self.looked[k].full {
             self.looked[k] = self.look(self.looked[k].at, self.looked[k].step, Look::AsCheck)?;
         }
@@ -334,7 +370,7 @@ impl Outwards<'_> {
     }
 
     /// Steps outwards to the first place that comes to less, and halves the step before it; whether there was none.
-    fn go_out(&mut self, least: Together) -> Result<bool, DrivenError> {
+    fn go_out(&mut self, least: Together) -> Result<bool, C::Error> {
         loop {
             let outside = self.end(least);
             if outside == self.looked.len() {
@@ -362,12 +398,12 @@ impl Outwards<'_> {
     }
 
     /// Looks at the next step; whether there is one.
-    fn step_out(&mut self) -> Result<bool, DrivenError> {
+    fn step_out(&mut self) -> Result<bool, C::Error> {
         let own = self.number.own;
         let last = self.looked.last().map_or(own, |last| last.at);
         let next = self.steps.iter().find(|next| (*next - own).abs() > (last - own).abs());
         let Some(next) = next.copied() else { return Ok(false) };
-        if self.number.case.varied(self.number.parameter, next).is_none() {
+        if self.number.with(next).is_none() {
             return Ok(false);
         }
         let how = if self.near.contains(&next) { Look::AsCheck } else { Look::OnTheWay };
@@ -383,7 +419,7 @@ impl Outwards<'_> {
     }
 
     /// The criteria at a value, which is reached then; where there is no such case they fail.
-    fn look(&mut self, at: f64, step: f64, how: Look) -> Result<Looked, DrivenError> {
+    fn look(&mut self, at: f64, step: f64, how: Look) -> Result<Looked, C::Error> {
         let judged = self.number.judged(at, how)?.unwrap_or_default();
         // A place that is looked at again is known better then.
         self.reached.retain(|one| one[0] != at);
@@ -398,78 +434,4 @@ impl Outwards<'_> {
 fn is_blurred(judged: &[Judged]) -> bool {
     let mut fails = judged.iter().filter(|one| one.outcome() == Outcome::Fails).peekable();
     fails.peek().is_some() && fails.all(Judged::fails_within_its_error)
-}
-
-/// How thoroughly a case is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Look {
-    /// With fewer starts and places, and short windows.
-    OnTheWay,
-    /// As `check` does.
-    AsCheck,
-}
-
-impl Look {
-    /// How a case is looked at: one that does not take long always as `check` does, which is that of a single excitation, or of
-    /// a release.
-    fn of(self, case: &Case) -> Self {
-        let short = match case.design.transient() {
-            None => case.range().is_point(),
-            Some(transient) => matches!(transient, Transient::Release(_)),
-        };
-        if short { Self::AsCheck } else { self }
-    }
-}
-
-/// The criteria of a case.
-fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
-    let how = how.of(case);
-    let Some(transient) = case.design.transient() else {
-        return judge_band(case, effort, how);
-    };
-    let even = case.absorber_places().unwrap_or_default();
-    let in_full = how != Look::OnTheWay;
-    let most = match transient {
-        _ if in_full => even,
-        Transient::Release(_) => even,
-        Transient::Sweep(_) => PLACES_OF_SWEEP,
-        Transient::Record(_) => PLACES_OF_RECORD,
-    };
-    let shaking = case.asks_for_shaking();
-    let places = Places { even: even.min(most), closer: in_full, shaking, executor: &Serial };
-    let Some(study) = Study::brief_of_case(case, places) else { return Ok(Vec::new()) };
-    let study = study?;
-    let again = |case: &Case| match Study::brief_of_case(case, places) {
-        Some(found) => found,
-        None => Ok(study.clone()),
-    };
-    judge_transient_in_contact(case, &study, again)
-}
-
-/// Those of a case that is driven steadily.
-fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
-    let survey = |effort: Effort| {
-        let settings = criteria::settings(case);
-        let settings = SurveySettings { effort: settings.effort.map(|_| effort), ..settings };
-        Survey::of(&case.range(), &settings, None, &Serial)
-    };
-    let again = |band: &Band, settings: &SurveySettings| Survey::of(band, settings, None, &Serial);
-    if how == Look::AsCheck {
-        return Ok(judge_in_contact(case, &survey(*effort)?, *effort, again)?);
-    }
-    // Most of a search goes into telling a long transient from a motion: first it counts as one, and then places that do not
-    // hold by what only a window shows are searched with patience.
-    let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
-    let mut found = survey(few.short())?;
-    let mut known: Vec<f64> = Vec::new();
-    loop {
-        let judged = criteria::judge(case, &found);
-        let mut open = criteria::open(case, &found, &judged, &known);
-        if open.is_empty() {
-            return Ok(judge_in_contact(case, &found, few.short(), again)?);
-        }
-        open.truncate(AT_A_TIME);
-        found.motions.look_again(&open, &few, &Serial)?;
-        known.extend(open);
-    }
 }

@@ -4,7 +4,7 @@
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
-use super::{Look, Together, judge};
+use super::{Look, Together, Varies};
 use crate::case::{Case, Distribution};
 use crate::criteria;
 use crate::executor::{Executor, map};
@@ -55,7 +55,7 @@ impl Reliability {
             if fails_unflown(&case)? {
                 return Ok(Together::Fail);
             }
-            judge(&case, effort, how).map(|judged| Together::of(&judged))
+            case.judge(effort, how).map(|judged| Together::of(&judged))
         };
         let found = map(on, "designs", drawn.len(), |k| come_to(&drawn[k], Look::AsCheck));
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -111,7 +111,7 @@ fn fails_unflown(case: &Case) -> Result<bool, DrivenError> {
     if unflown.criteria.is_empty() || !criteria::needs_simulation(&case.criteria) {
         return Ok(false);
     }
-    Ok(Together::of(&judge(&unflown, &case.effort(), Look::AsCheck)?) == Together::Fail)
+    Ok(Together::of(&unflown.judge(&case.effort(), Look::AsCheck)?) == Together::Fail)
 }
 
 /// Errors of some designs, by a Latin hypercube (McKay, Beckman and Conover 1979): each number is drawn once from each of

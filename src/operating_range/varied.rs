@@ -83,7 +83,7 @@ impl Varied {
     }
 
     /// The tolerance that the case states, and how many times that it is likely to be off by at the most.
-    fn tolerance(self, case: &Case) -> Option<(f64, f64)> {
+    pub(super) fn tolerance(self, case: &Case) -> Option<(f64, f64)> {
         let parameter = self.parameter(case)?;
         let own = case.design.value(parameter)?;
         let stated = |of: Parameter| case.uncertainty.parameters().find(|(one, _)| *one == of);
@@ -102,8 +102,8 @@ impl Varied {
 
     /// Values close to the case's own, outwards: in steps of half of the tolerance that the case states, up to the largest error
     /// or two standard deviations; none without one.
-    pub(super) fn near(self, case: &Case, own: f64, up: bool) -> Vec<f64> {
-        let Some((tolerance, times)) = self.tolerance(case) else { return Vec::new() };
+    pub(super) fn near(self, tolerance: Option<(f64, f64)>, own: f64, up: bool) -> Vec<f64> {
+        let Some((tolerance, times)) = tolerance else { return Vec::new() };
         let half = if up { 0.5 } else { -0.5 } * tolerance;
         let steps = (1..=(2.0 * times) as u32).map(|k| own + f64::from(k) * half);
         steps.filter(|at| self.may_be(*at)).collect()

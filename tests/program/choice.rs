@@ -8,7 +8,7 @@ use vinesink::operating_range::{HoldsFor, Reliability, Together, Varied, holds_f
 
 use super::run::vinesink;
 
-fn checked(path: &str, more: &[&str]) -> Value {
+pub fn checked(path: &str, more: &[&str]) -> Value {
     let arguments = [&["check", path, "--format", "json"], more].concat();
     let output = vinesink(&arguments);
     let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
@@ -16,7 +16,7 @@ fn checked(path: &str, more: &[&str]) -> Value {
 }
 
 /// Whether a criterion fails by what was found, and not by its error alone.
-fn fails(checked: &Value) -> bool {
+pub fn fails(checked: &Value) -> bool {
     let criteria = checked["criteria"].as_array().expect("criteria");
     criteria
         .iter()
@@ -24,7 +24,7 @@ fn fails(checked: &Value) -> bool {
 }
 
 /// The text with another number behind the first of some keys that it has.
-fn with(text: &str, keys: &[&str], value: f64, unit: &str) -> String {
+pub fn with(text: &str, keys: &[&str], value: f64, unit: &str) -> String {
     let key = keys.iter().find(|key| text.contains(&format!("\n{key} = "))).expect("a key");
     let line = text.lines().find(|line| line.starts_with(&format!("{key} = "))).expect("a line");
     let quoted = if unit == "1" { format!("{value:?}") } else { format!("\"{value:?} {unit}\"") };

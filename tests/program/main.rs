@@ -36,6 +36,7 @@ mod modal;
 mod modal_criteria;
 mod modal_files;
 mod modal_orbits;
+mod modal_ranges;
 mod modal_reduced;
 mod modal_sweep;
 mod modal_theory;

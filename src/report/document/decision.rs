@@ -68,7 +68,9 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     let rows = |of: &Alternatives| of.rows.iter().map(|row| told(case, of, row)).collect();
     document["alternatives"] = found.map_or(Value::Null, rows);
     document["choice"] = found.map_or(Value::Null, |found| choice(case, found));
-    let ranges = answer.holds_for.iter().map(|one| range(case, one));
+    let physical = case.units().physical;
+    let ranges = answer.holds_for.iter();
+    let ranges = ranges.map(|one| range(one, kind_of(case, one.parameter), physical));
     let (rows, ranges): (Vec<Value>, Vec<Value>) = ranges.unzip();
     document["holds_for"] = json!(rows);
     document["combined"] = answer.combined.iter().map(|one| together(case, one)).collect();
@@ -242,14 +244,13 @@ fn together(case: &Case, found: &Combined) -> Value {
 }
 
 /// How far the promise holds for a number: its row as CONTRACT.md has it, and quantities for a page.
-fn range(case: &Case, found: &HoldsFor) -> (Value, Value) {
-    let kind = kind_of(case, found.parameter);
+pub fn range(found: &HoldsFor, kind: &'static Kind, physical: bool) -> (Value, Value) {
     let quantity = |value: f64| Quantity::new(kind, value, Method::Simulation);
     let change =
         |end: f64| Quantity::new(&of::RELATIVE_CHANGE, end / found.value - 1.0, Method::Simulation);
     let row = json!({
         "parameter": found.parameter,
-        "unit": kind.dimension.symbol(case.units().physical),
+        "unit": kind.dimension.symbol(physical),
         "value": found.value,
         "from": found.range[0],
         "to": found.range[1],

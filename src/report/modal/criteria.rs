@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Beside, along, closed, given, units, warnings};
+use super::{Beside, along, closed, given, ranges, units, warnings};
 use crate::case::{ModalCase, Of};
 use crate::criteria::Judged;
 use crate::measure::{Device, Part};
@@ -99,9 +99,13 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
     if !case.warnings.is_empty() {
         document["warnings"] = json!(warnings(case));
     }
+    let (rows, ranges) = ranges::rows(case, answer);
+    if !rows.is_empty() {
+        document["holds_for"] = json!(rows);
+    }
     let page = json!({
         "path": path, "case": name, "warnings": warnings(case), "criteria": criteria(case, answer), "outside": null, "choice": null,
-        "alternatives": null, "ranges": null, "combined": null, "reliability": null,
+        "alternatives": null, "ranges": ranges, "combined": [], "reliability": null,
         "modes_from": case.modes_from,
     });
     Checked::of(document, page, units)

@@ -7,6 +7,7 @@ mod figure;
 mod listing;
 mod live;
 mod optimum;
+mod ranges;
 mod theory;
 
 use serde_json::{Value, json};
@@ -382,11 +383,15 @@ pub fn document(
         "off": beside.off.iter().map(|one| off_row(case, one)).collect::<Vec<_>>(),
         "worst_off": worst_off(&beside.off),
         "starts": starts(case),
-        "ranges": case.loads.iter().any(|load| load.range_hz[0] < load.range_hz[1]),
+        "over_frequencies": case.loads.iter().any(|load| load.range_hz[0] < load.range_hz[1]),
         "figures": [],
     });
     let heading = [&case.title, &case.source, &case.text_hash].map(String::as_str);
     let mut document = headed(heading, units(case).name(), content, fields);
+    let (rows, told) = ranges::rows(case, answer);
+    if !rows.is_empty() {
+        (document["holds_for"], document["ranges"]) = (json!(rows), json!(told));
+    }
     if content == Content::Report {
         keep_case(&mut document, case.written(), case.files());
     }

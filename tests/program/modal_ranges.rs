@@ -1,0 +1,109 @@
+//! How far numbers of a structure of several modes may change before a criterion fails.
+
+use serde_json::Value;
+use vinesink::answer::{Answer, Asked};
+use vinesink::case::{Case, ModalCase};
+use vinesink::executor::Serial;
+use vinesink::modal::ModalAnswer;
+use vinesink::operating_range::{HoldsFor, Together, Varied, holds_for};
+
+use super::choice::{checked, fails, with};
+
+/// A board with two modes that hardly shakes where its absorber works.
+fn board(limit: &str, excitation: &str) -> String {
+    format!(
+        "title = 't'\nsource = 's'\n[[mode]]\nfrequency = '180 Hz'\ndamping_ratio = 0.012\nmass = '120 g'\n\
+         shape = {{ centre = 1, edge = 0.3 }}\n[[mode]]\nfrequency = '410 Hz'\ndamping_ratio = 0.01\nmass = '90 g'\n\
+         shape = {{ centre = -0.4, edge = 1 }}\n[[absorber]]\nplace = 'centre'\nmass = '5 g'\nclearance = \"0.25 mm\"\n\
+         restitution = 0.6\n[[excitation]]\nkind = 'force'\nplace = 'centre'\namplitude = \"1 N\"\n{excitation}\n\
+         [criteria]\npeak_displacement = {{ limit = '<= {limit}', place = 'centre' }}\n"
+    )
+}
+
+fn ranges(text: &str, numbers: &[Varied], least: Together) -> Vec<HoldsFor> {
+    let case = ModalCase::parse("case.toml", text).expect("a case");
+    let answer = ModalAnswer::of(&case, &Serial).expect("flown");
+    answer.ranged(&case, numbers, least, &Serial).expect("flown").holds_for
+}
+
+/// At each end of a range `check` finds nothing that fails, beyond it, by a fifth of the way from the case, it does, and at each
+/// design that is said to have been tried all criteria hold.
+fn ends_where_check_says_so(text: &str, numbers: &[(Varied, &str, &str)], least: [usize; 2]) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    let path = path.to_str().expect("UTF-8");
+    let (mut ends, mut held) = (0, 0);
+    for (number, key, unit) in numbers {
+        let found = ranges(text, &[*number], Together::Undecided);
+        let [range] = &found[..] else { panic!("{found:?}") };
+        let there = |value: f64| -> Value {
+            std::fs::write(path, with(text, &[key], value, unit)).expect("written");
+            checked(path, &["--criteria-only"])
+        };
+        for (end, at) in range.range.into_iter().enumerate() {
+            assert!(!fails(&there(at)), "{key}: fails at {at}, {range:?}");
+            if !range.open[end] {
+                let own = range.value;
+                let beyond = at + 0.2 * (at - own) + 0.02 * (at - own).signum() * own;
+                assert!(fails(&there(beyond)), "{key}: holds at {beyond}, {range:?}");
+                ends += 1;
+            }
+        }
+        if range.holds.is_some() {
+            for at in &range.tried {
+                assert_eq!(there(*at)["holds"], true, "{key}: not at {at}, {range:?}");
+                held += 1;
+            }
+        }
+    }
+    println!("{ends} ends, {held} designs that hold");
+    assert!(ends >= least[0] && held >= least[1], "{ends} ends, {held} designs that hold");
+}
+
+const NUMBERS: [(Varied, &str, &str); 3] = [
+    (Varied::Amplitude, "amplitude", "N"),
+    (Varied::Clearance, "clearance", "m"),
+    (Varied::Restitution, "restitution", "1"),
+];
+
+#[test]
+fn ranges_of_a_load_over_frequencies_end_where_check_says_so() {
+    let text = board("0.3 mm", "from = '165 Hz'\nto = '195 Hz'");
+    ends_where_check_says_so(&text, &NUMBERS[..1], [1, 2]);
+}
+
+#[test]
+#[ignore = "deep"]
+fn all_ranges_of_a_board_end_where_check_says_so() {
+    ends_where_check_says_so(&board("0.3 mm", "from = '165 Hz'\nto = '195 Hz'"), &NUMBERS, [1, 6]);
+    ends_where_check_says_so(&board("0.3 mm", "frequency = '182 Hz'"), &NUMBERS, [1, 12]);
+}
+
+/// A mode that takes no part leaves the ranges of the one mode and its engine: what varies, every value that is tried, and where all hold.
+#[test]
+fn a_mode_that_takes_no_part_leaves_the_ranges() {
+    let one = "title = 't'\nsource = 's'\n[oscillator]\nmass = '1 kg'\nfrequency = '5 Hz'\ndamping_ratio = 0.02\n\
+               [absorber]\nmass = '30 g'\nclearance = '2 mm'\nrestitution = 0.5\n\
+               [excitation]\nkind = 'force'\namplitude = '0.1 N'\nfrequency = '5 Hz'\n\
+               [criteria]\npeak_displacement = '<= 2.2 mm'\n";
+    let two = "title = 't'\nsource = 's'\n[[mode]]\nmass = '1 kg'\nfrequency = '5 Hz'\ndamping_ratio = 0.02\nshape = { a = 1, b = 0 }\n\
+               [[mode]]\nmass = '1 kg'\nfrequency = '17 Hz'\ndamping_ratio = 0.02\nshape = { a = 0, b = 1 }\n\
+               [[absorber]]\nplace = 'a'\nmass = '30 g'\nclearance = '2 mm'\nrestitution = 0.5\n\
+               [[excitation]]\nkind = 'force'\nplace = 'a'\namplitude = '0.1 N'\nfrequency = '5 Hz'\n\
+               [criteria]\npeak_displacement = { limit = '<= 2.2 mm', place = 'a' }\n";
+    let numbers = [Varied::Amplitude, Varied::NaturalFrequency, Varied::Mass, Varied::Clearance];
+    let several = ranges(two, &numbers, Together::Hold);
+    let case = Case::parse("case.toml", one).expect("a case");
+    let judged = Answer::of(&case, Asked::Criteria, None, &Serial).expect("judged").judged;
+    let single = holds_for(&case, &judged, &numbers, Together::Hold, &case.effort(), &Serial);
+    let single = single.expect("ranges");
+    assert_eq!(several.len(), numbers.len());
+    for (several, single) in several.iter().zip(&single) {
+        println!("{:?}: {:?} {:?}", several.parameter, several.holds, single.holds);
+        assert_eq!(several.parameter, single.parameter);
+        let (several, single) = (several.holds.expect("holds"), single.holds.expect("holds"));
+        for (a, b) in several.into_iter().zip(single) {
+            assert!((a / b - 1.0).abs() < 1e-12, "{several:?} {single:?}");
+        }
+    }
+}
