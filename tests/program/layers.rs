@@ -82,6 +82,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "method",
             "motions",
             "numerics",
+            "operating_range",
             "optimize",
             "orbits",
             "quantity",
