@@ -88,6 +88,8 @@ const MOST_GROWTH: f64 = 1.5;
 /// Least distance of frequencies over the narrower of a mode's width and what its absorbers add, and over the range.
 const FINEST: f64 = 0.25;
 const NARROWEST: f64 = 1.0 / 4096.0;
+/// Relative distance up to which two frequencies are one.
+const SAME: f64 = 1e-12;
 /// How far beside the frequency of an undamped mode it is looked at, over it.
 const BESIDE: f64 = 1e-6;
 /// Even steps that are longer than this, over a mode's frequency, may step over its resonance: it is then looked at beside it as well.
@@ -125,9 +127,14 @@ impl OfLoad<'_> {
         let [from, to] = load.range_hz;
         // An undamped mode has no steady motion at its own frequency.
         let damped = case.modes.iter().filter(|mode| mode.damping_ratio > 0.0);
-        let resonances = damped.map(|mode| mode.frequency_hz);
-        let resonances = resonances.filter(|at| from < *at && *at < to);
-        let even = scan::places([from, to], EVEN - 1).chain(resonances);
+        let resonances: Vec<f64> = damped.map(|mode| mode.frequency_hz).collect();
+        // An even one may be that of a mode, but for rounding.
+        let own = |at: f64| {
+            let near = resonances.iter().find(|one| (at / *one - 1.0).abs() <= SAME);
+            near.map_or(at, |one| *one)
+        };
+        let within = resonances.iter().copied().filter(|at| from < *at && *at < to);
+        let even = scan::places([from, to], EVEN - 1).map(own).chain(within);
         let even = even.chain(close(case, load)).chain(carried(case, load));
         let at_rest = farthest_at_rest(case, load).into_iter().map(|one| one.0);
         let mut first: Vec<f64> = even.chain(at_rest).collect();

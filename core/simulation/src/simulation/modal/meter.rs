@@ -88,9 +88,11 @@ pub struct SensorRecord {
     pub mean_square: f64,
 }
 
-/// Reads sensors.
+/// Reads sensors; those that are alike once.
 #[derive(Debug, Clone)]
 pub struct ModalMeter {
+    /// Which of those that differ each sensor is.
+    each: Vec<usize>,
     /// What each reads in flights, as the order of a derivative, and how it sees the motion.
     views: Vec<(Option<usize>, View<MOST>)>,
     /// What each reads of the velocity that an impact gives an absorber; nothing of impacts of others.
@@ -109,6 +111,15 @@ impl ModalMeter {
     pub fn new(system: &ModalSystem, sensors: &[Sensor]) -> Self {
         let all = All::of(system);
         let frequency = all.constants.frequency;
+        let mut differ: Vec<&Sensor> = Vec::new();
+        let number = |sensor| {
+            differ.iter().position(|one| *one == sensor).unwrap_or_else(|| {
+                differ.push(sensor);
+                differ.len() - 1
+            })
+        };
+        let each = sensors.iter().map(number).collect();
+        let sensors = differ;
         let views = sensors.iter().map(|Sensor { shape, reads, scale }| {
             let shape = &shape[..shape.len().min(all.modes)];
             let base = LinearResponse { sine: all.base, cosine: 0.0 };
@@ -133,8 +144,9 @@ impl ModalMeter {
             Some((absorber, scale * yields * all.absorber_masses[absorber]))
         };
         Self {
+            each,
             views: views.collect(),
-            jumps: sensors.iter().map(jump).collect(),
+            jumps: sensors.iter().copied().map(jump).collect(),
             rule: gauss::uniform(NODES),
             peaks: vec![0.0; sensors.len()],
             squares: vec![0.0; sensors.len()],
@@ -144,11 +156,11 @@ impl ModalMeter {
 
     /// What each has read since the meter was made.
     pub fn records(&self) -> Vec<SensorRecord> {
-        let of = |(peak, square): (&f64, &f64)| SensorRecord {
-            peak: *peak,
-            mean_square: if self.time > 0.0 { square / self.time } else { 0.0 },
+        let of = |n: &usize| SensorRecord {
+            peak: self.peaks[*n],
+            mean_square: if self.time > 0.0 { self.squares[*n] / self.time } else { 0.0 },
         };
-        self.peaks.iter().zip(&self.squares).map(of).collect()
+        self.each.iter().map(of).collect()
     }
 
     /// The same, after which it begins anew.
