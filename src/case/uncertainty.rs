@@ -22,6 +22,19 @@ pub enum Distribution {
     Uniform(f64),
 }
 
+/// Standard deviations of a normal error up to which a number is off, of 19 in 20.
+const DEVIATIONS: f64 = 2.0;
+
+impl Distribution {
+    /// A standard deviation or the largest error, and how many times that a number is likely to be off by at the most.
+    pub const fn tolerance(self) -> (f64, f64) {
+        match self {
+            Self::Normal(deviation) => (deviation, DEVIATIONS),
+            Self::Uniform(largest) => (largest, 1.0),
+        }
+    }
+}
+
 /// By how much a built design, and what drives it, may differ from the case. A value is the standard
 /// deviation of a normally distributed error; one behind ± (or +-, in quotes) is the largest of a
 /// uniformly distributed one. Each key may be left out.
@@ -81,6 +94,63 @@ pub struct Uncertainty {
     #[schemars(extend("minimum" = 20, "maximum" = 100_000), example = 200)]
     pub samples: Option<u32>,
 }
+
+/// By how much a structure of several modes or absorbers may differ from the case, written as of one: an error of an absorber or of an
+/// excitation is each one's own, one of a mode is the first one's, and all others change in proportion. Each key may be left out.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+pub(super) struct UncertaintyOfSeveral {
+    /// Of each absorber's clearance.
+    #[schemars(with = "Option<Value>", extend("x-signed" = "clearance", "x-plain" = [0.02], "minimum" = 0))]
+    #[schemars(example = "0.2 mm", example = "± 0.2 mm")]
+    clearance: Option<Distribution>,
+    /// Of each absorber's restitution.
+    #[schemars(with = "Option<Value>", extend("x-signed" = "restitution", "anyOf" = plain_errors(), "minimum" = 0))]
+    #[schemars(example = 0.05, example = "± 0.05")]
+    restitution: Option<Distribution>,
+    /// Of each excitation's amplitude; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "amplitude", "minimum" = 0))]
+    #[schemars(example = "2 N", example = "± 5 N")]
+    amplitude: Option<Distribution>,
+    /// Of the first mode's modal mass, stiffness as it is; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "mass", "minimum" = 0))]
+    #[schemars(example = "0.1 kg", example = "± 0.2 kg")]
+    oscillator_mass: Option<Distribution>,
+    /// Of the first mode's natural frequency, by its stiffness; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "natural_frequency", "minimum" = 0))]
+    #[schemars(example = "0.1 Hz", example = "± 0.3 Hz")]
+    natural_frequency: Option<Distribution>,
+    /// Of the first mode's damping ratio, which stays at 0 or more.
+    #[schemars(with = "Option<Value>", extend("x-signed" = "damping_ratio", "minimum" = 0))]
+    #[schemars(example = "0.1 %", example = "± 0.2 %")]
+    damping_ratio: Option<Distribution>,
+    /// Of each absorber's mass; not beside [reduced].
+    #[schemars(with = "Option<Value>", extend("x-signed" = "absorber_mass", "minimum" = 0))]
+    #[schemars(example = "2 g", example = "± 5 g")]
+    absorber_mass: Option<Distribution>,
+    /// Designs that are drawn at random for the probability that all criteria hold, from 20 to 100,000.
+    #[schemars(extend("minimum" = 20, "maximum" = 100_000), example = 200)]
+    samples: Option<u32>,
+}
+
+impl From<UncertaintyOfSeveral> for Uncertainty {
+    fn from(of: UncertaintyOfSeveral) -> Self {
+        Self {
+            clearance: of.clearance,
+            restitution: of.restitution,
+            amplitude: of.amplitude,
+            oscillator_mass: of.oscillator_mass,
+            natural_frequency: of.natural_frequency,
+            damping_ratio: of.damping_ratio,
+            absorber_mass: of.absorber_mass,
+            samples: of.samples,
+            ..Self::default()
+        }
+    }
+}
+
+/// What may be uncertain of a reduced one, whose other numbers are units.
+const OF_REDUCED: [&str; 4] = ["clearance", "restitution", "damping_ratio", "samples"];
 
 /// A number, or text with a sign and a number.
 fn plain_errors() -> Value {
@@ -170,4 +240,38 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Uncertainty {
         );
     }
     read
+}
+
+/// Reads the table of a structure of several modes or absorbers, which may be missing; `moves_base` tells of each excitation whether the
+/// base moves.
+pub(super) fn read_of_several(
+    reader: &mut Reader,
+    root: &Table,
+    is_reduced: bool,
+    moves_base: &[bool],
+) -> Uncertainty {
+    // Amplitudes are written as those of the first one.
+    let before = reader.of_several;
+    reader.of_several = moves_base.first().copied().or(before);
+    let table = reader.optional::<UncertaintyOfSeveral>(root, "uncertainty");
+    reader.of_several = before;
+    let Some((table, read)) = table else { return Uncertainty::default() };
+    let keys = table.keys.clone();
+    for key in keys.into_iter().filter(|key| table.has(key)) {
+        let (message, help) = if is_reduced && !OF_REDUCED.contains(&key) {
+            (
+                format!("`{key}` cannot be uncertain beside [reduced]"),
+                "remove the line, or write the structure with units",
+            )
+        } else if key == "amplitude" && moves_base.windows(2).any(|two| two[0] != two[1]) {
+            (
+                "one error cannot be that of a force and of a base".to_owned(),
+                "remove the line, or write a case for each excitation",
+            )
+        } else {
+            continue;
+        };
+        reader.report(table.span_of(key), message, "expected a number that all have alike", help);
+    }
+    read.into()
 }

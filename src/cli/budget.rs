@@ -29,8 +29,9 @@ const COMBINED: u64 = 2 * 16;
 /// minute and a half on two.
 const ORDINARY_SWEEP: f64 = 3600.0;
 
-/// What ranges are called where they are left out.
+/// What is left out, where it is.
 const RANGES: &str = "the ranges over which the criteria hold are";
+const PROBABILITY: &str = "the probability that the criteria hold is";
 
 /// Whether more than the ordinary is asked for.
 #[derive(Debug, Clone, Copy, Args)]
@@ -74,11 +75,7 @@ impl Long {
                 && allowed("the combinations of amplitude and frequency are", COMBINED),
             reliability: asked.reliability
                 && drawn(case) > 0
-                && allowed_in(
-                    ORDINARY_PROBABILITY,
-                    "the probability that the criteria hold is",
-                    drawn(case),
-                ),
+                && allowed_in(ORDINARY_PROBABILITY, PROBABILITY, drawn(case)),
         }
     }
 
@@ -86,6 +83,11 @@ impl Long {
     /// is too long.
     pub fn affords_ranges(self, path: &Path, own: f64, seconds: f64) -> bool {
         self.affords(path, own + seconds <= ORDINARY, seconds, RANGES)
+    }
+
+    /// The same of a probability.
+    pub fn affords_draws(self, path: &Path, own: f64, seconds: f64) -> bool {
+        self.affords(path, own + seconds <= ORDINARY_PROBABILITY, seconds, PROBABILITY)
     }
 
     fn affords(self, path: &Path, is_ordinary: bool, seconds: f64, what: &str) -> bool {

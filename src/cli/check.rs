@@ -119,10 +119,9 @@ fn judged(path: &Path, place: &str, stem: &str, arguments: &Arguments) -> Result
             Ok(Checked::judged(place, stem, &case, &answer))
         }
         AnyCase::Several(case) => {
-            let (answer, told) =
-                (several::answered(path, &case, arguments.long)?, told(arguments).1);
-            let Decided { ranges, until, .. } = told;
-            let answer = several::ranged(path, &case, answer, ranges, until, arguments.long)?;
+            let answer = several::answered(path, &case, arguments.long)?;
+            let (_, told) = told(arguments);
+            let answer = several::decided(path, &case, answer, told, arguments.long)?;
             without_criteria(path, case.criteria.is_empty());
             Ok(modal::checked(place, stem, &case, &answer))
         }

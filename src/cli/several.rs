@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use miette::{IntoDiagnostic, Result, miette};
+use vinesink::answer::Decided;
 use vinesink::case::ModalCase;
 use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, checks, looks, orbits, seconds};
-use vinesink::operating_range::{Together, Varied};
+use vinesink::operating_range::{Reliability, Together};
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
 use vinesink::report::modal::{
@@ -34,29 +35,30 @@ pub fn answered(path: &Path, case: &ModalCase, long: Long) -> Result<ModalAnswer
     ModalAnswer::of(case, &Parallel).into_diagnostic()
 }
 
-/// The same with how far these numbers may change, to where no criterion comes to less than `until`; where that is not too long.
-pub fn ranged(
+/// The same with what `told` says beside the criteria: how far numbers may change, and with which probability all hold where some are
+/// uncertain; each where that is not too long.
+pub fn decided(
     path: &Path,
     case: &ModalCase,
     answer: ModalAnswer,
-    numbers: &[Varied],
-    until: Together,
+    told: Decided,
     long: Long,
 ) -> Result<ModalAnswer> {
     let own = seconds(case);
     // Where a criterion fails there is no range.
-    let may_fail = Together::of(&answer.judged) == Together::Fail || answer.judged.is_empty();
-    let besides = own * looks(case, numbers);
-    if numbers.is_empty() || may_fail || !long.affords_ranges(path, own, besides) {
-        return Ok(answer);
-    }
-    answer.ranged(case, numbers, until, &Parallel).into_diagnostic()
+    let may_hold = !answer.judged.is_empty() && Together::of(&answer.judged) != Together::Fail;
+    let ranged = may_hold && !told.ranges.is_empty();
+    let ranged = ranged && long.affords_ranges(path, own, own * looks(case, told.ranges));
+    let numbers = if ranged { told.ranges } else { &[] };
+    let designs = if told.reliability { Reliability::samples(case) } else { 0 };
+    let draws = designs > 0 && long.affords_draws(path, own, own * f64::from(designs));
+    answer.decided(case, numbers, told.until, draws, &Parallel).into_diagnostic()
 }
 
 /// The files of its report.
 pub fn report(path: &Path, name: &str, case: &ModalCase, long: Long) -> Result<Files> {
     let answer = answered(path, case, long)?;
-    let answer = ranged(path, case, answer, &Varied::ALL, Together::Undecided, long)?;
+    let answer = decided(path, case, answer, Decided::ALL, long)?;
     let beside = Beside::of(case, &answer, &Parallel).into_diagnostic()?;
     files(name, case, &answer, &beside).into_diagnostic()
 }

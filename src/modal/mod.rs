@@ -23,7 +23,7 @@ use crate::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
 use crate::method::Method;
-use crate::operating_range::{HoldsFor, Together, Varied, holds_for};
+use crate::operating_range::{HoldsFor, Reliability, Together, Varied, holds_for};
 use crate::simulation::ModalStartError;
 use crate::system::{InvalidModalSystem, ModalSystem};
 use along::AlongEffort;
@@ -37,7 +37,7 @@ pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
 pub use orbits::{LoadOrbits, Stretches, at_resonances, orbits};
-pub use ranges::looks;
+pub use ranges::{looks, parameter};
 pub use sensors::sensors;
 pub use theory::{GroupTheory, LoadTheory};
 
@@ -64,6 +64,8 @@ pub struct ModalAnswer {
     pub judged: Vec<Judged>,
     /// How far its numbers may change before a criterion fails; empty where one does, or nobody asked.
     pub holds_for: Vec<HoldsFor>,
+    /// With which probability its criteria hold; none where nothing is uncertain, or nobody asked.
+    pub reliability: Option<Reliability>,
 }
 
 impl ModalAnswer {
@@ -86,20 +88,23 @@ impl ModalAnswer {
         own.in_contact(case, |shifted| Self::in_no_time(shifted, effort, &[], on))
     }
 
-    /// The same with how far these numbers may change, to where no criterion comes to less than `least`.
+    /// The same with how far these numbers may change, to where no criterion comes to less than `least`, and if `draws` with which
+    /// probability all hold where numbers are uncertain.
     ///
     /// # Errors
     /// As [`ModalAnswer::of`].
-    pub fn ranged(
+    pub fn decided(
         self,
         case: &ModalCase,
         numbers: &[Varied],
         least: Together,
+        draws: bool,
         on: &dyn Executor,
     ) -> Result<Self, ModalError> {
         let known = Known { case: case.clone(), along: self.along };
         let holds_for = holds_for(case, &self.judged, numbers, least, &known, on)?;
-        Ok(Self { along: known.along, holds_for, ..self })
+        let reliability = if draws { Reliability::of(case, &known, on)? } else { None };
+        Ok(Self { along: known.along, holds_for, reliability, ..self })
     }
 
     /// The same with what it makes of the criteria that impacts take time: `again` looks at another case in the same way.
@@ -149,9 +154,14 @@ impl ModalAnswer {
         Ok(Self::judged(case, along.collect::<Result<_, _>>()?))
     }
 
+    /// Of what is known along loads, and nothing else.
+    const fn of_loads(along: Vec<AlongLoad>) -> Self {
+        Self { along, judged: Vec::new(), holds_for: Vec::new(), reliability: None }
+    }
+
     /// Of what is known along the loads of a case.
     fn judged(case: &ModalCase, along: Vec<AlongLoad>) -> Self {
-        let mut answer = Self { along, judged: Vec::new(), holds_for: Vec::new() };
+        let mut answer = Self::of_loads(along);
         answer.judged = case.criteria.iter().map(|one| answer.judge(case, one)).collect();
         answer
     }
@@ -207,8 +217,7 @@ pub fn modes_alone(
             ..case.clone()
         };
         let along = vec![AlongLoad::of(&alone, &load, &AlongEffort::FULL, on)?];
-        let worst =
-            ModalAnswer { along, judged: Vec::new(), holds_for: Vec::new() }.worst(&alone, None);
+        let worst = ModalAnswer::of_loads(along).worst(&alone, None);
         Ok(worst.map(|worst| [worst.found.value, worst.found.error]))
     });
     each.collect()

@@ -19,7 +19,7 @@ use crate::executor::{Executor, map};
 
 pub use combined::{Combined, combined};
 pub use edges::{Edge, edges};
-pub use reliability::Reliability;
+pub use reliability::{Reliability, Uncertain};
 pub use varied::Varied;
 
 /// What all criteria together come to, the worst first.
@@ -93,6 +93,20 @@ pub trait Varies: Sync + Sized {
     fn judge(&self, effort: &Self::Effort, how: Look) -> Result<Vec<Judged>, Self::Error>;
     /// Whether the structure alone keeps the limits of its motion too.
     fn kept_without_absorber(&self) -> bool;
+
+    /// Whether anything is asked of it.
+    fn has_criteria(&self) -> bool;
+    /// How many designs are drawn at random, where the case says so.
+    fn samples(&self) -> Option<u32>;
+    /// What is uncertain.
+    fn uncertain(&self) -> Vec<Uncertain>;
+    /// The same with errors added to some of that; none where that is no case.
+    fn deviating(&self, errors: &[(Uncertain, f64)]) -> Option<Self>;
+    /// Whether a criterion fails that needs no simulation: whatever motions there are, all together fail then.
+    ///
+    /// # Errors
+    /// Where a motion cannot be followed.
+    fn fails_unflown(&self) -> Result<bool, Self::Error>;
 }
 
 /// A number of a case, and the stretch on which no criterion fails.

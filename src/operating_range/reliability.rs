@@ -5,12 +5,21 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
 use super::{Look, Together, Varies};
-use crate::case::{Case, Distribution};
-use crate::criteria;
+use crate::case::Distribution;
 use crate::executor::{Executor, map};
-use crate::flights::DrivenError;
-use crate::motions::{Effort, wilson};
+use crate::motions::wilson;
 use crate::system::Parameter;
+
+/// A number that is uncertain: of a case, or of one of its parts, as [`Varies`] has them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Uncertain {
+    /// What it is.
+    pub parameter: Parameter,
+    /// Of which absorber, or of an amplitude which load, where a case has a list of them.
+    pub of: Option<usize>,
+    /// How its error is distributed.
+    pub errors: Distribution,
+}
 
 /// Designs drawn where the case does not say how many: their probability is known to 7 % at worst.
 const SAMPLES: u32 = 200;
@@ -31,35 +40,36 @@ pub struct Reliability {
     pub examined: u32,
     /// For how many of these a number alone, back at its value, would have met all criteria, by a look with fewer starts; the
     /// most frequent first, and none that never would.
-    pub causes: Vec<(Parameter, u32)>,
+    pub causes: Vec<(Uncertain, u32)>,
 }
 
 impl Reliability {
     /// Of a case whose numbers are uncertain; none where nothing is, or it has no criteria.
     ///
     /// # Errors
-    /// [`DrivenError`] where a motion cannot be followed.
-    pub fn of(
-        case: &Case,
-        effort: &Effort,
+    /// Where a motion cannot be followed.
+    pub fn of<C: Varies>(
+        case: &C,
+        effort: &C::Effort,
         on: &dyn Executor,
-    ) -> Result<Option<Self>, DrivenError> {
-        let uncertain: Vec<(Parameter, Distribution)> = case.uncertainty.parameters().collect();
-        if uncertain.is_empty() || case.criteria.is_empty() {
+    ) -> Result<Option<Self>, C::Error> {
+        let uncertain = case.uncertain();
+        let count = Self::samples(case);
+        if count == 0 {
             return Ok(None);
         }
-        let drawn = drawn(&uncertain, Self::samples(case));
-        let come_to = |errors: &[(Parameter, f64)], how: Look| {
+        let drawn = drawn(&uncertain, count);
+        let come_to = |errors: &[(Uncertain, f64)], how: Look| {
             // What leaves no system meets nothing.
             let Some(case) = case.deviating(errors) else { return Ok(Together::Fail) };
-            if fails_unflown(&case)? {
+            if case.fails_unflown()? {
                 return Ok(Together::Fail);
             }
             case.judge(effort, how).map(|judged| Together::of(&judged))
         };
         let found = map(on, "designs", drawn.len(), |k| come_to(&drawn[k], Look::AsCheck));
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let failed: Vec<&Vec<(Parameter, f64)>> = drawn
+        let failed: Vec<&Vec<(Uncertain, f64)>> = drawn
             .iter()
             .zip(&found)
             .filter_map(|(errors, found)| (*found == Together::Fail).then_some(errors))
@@ -73,7 +83,7 @@ impl Reliability {
         });
         let saved = saved.into_iter().collect::<Result<Vec<_>, _>>()?;
         let times = |k: usize| saved.iter().skip(k).step_by(count).filter(|saved| **saved).count();
-        let causes = uncertain.iter().enumerate().map(|(k, (one, _))| (*one, times(k) as u32));
+        let causes = uncertain.iter().enumerate().map(|(k, one)| (*one, times(k) as u32));
         let mut causes: Vec<_> = causes.filter(|(_, times)| *times > 0).collect();
         causes.sort_by_key(|(_, times)| std::cmp::Reverse(*times));
         let number = |of: Together| found.iter().filter(|found| **found == of).count() as u32;
@@ -87,11 +97,9 @@ impl Reliability {
     }
 
     /// Designs that are drawn for a case; 0 where nothing is uncertain.
-    pub fn samples(case: &Case) -> u32 {
-        match case.uncertainty.is_any() && !case.criteria.is_empty() {
-            true => case.uncertainty.samples.unwrap_or(SAMPLES),
-            false => 0,
-        }
+    pub fn samples(case: &impl Varies) -> u32 {
+        let is_drawn = case.has_criteria() && !case.uncertain().is_empty();
+        if is_drawn { case.samples().unwrap_or(SAMPLES) } else { 0 }
     }
 
     /// The share of the designs drawn that hold, and between which probabilities that of the criteria lies: from none of those
@@ -104,23 +112,13 @@ impl Reliability {
     }
 }
 
-/// Whether a criterion fails that needs no simulation: whatever motions there are, all together fail then.
-fn fails_unflown(case: &Case) -> Result<bool, DrivenError> {
-    let mut unflown = case.clone();
-    unflown.criteria.retain(|one| !one.measure.is_of_motions());
-    if unflown.criteria.is_empty() || !criteria::needs_simulation(&case.criteria) {
-        return Ok(false);
-    }
-    Ok(Together::of(&unflown.judge(&case.effort(), Look::AsCheck)?) == Together::Fail)
-}
-
 /// Errors of some designs, by a Latin hypercube (McKay, Beckman and Conover 1979): each number is drawn once from each of
 /// as many equally probable strata, in an order of its own.
-fn drawn(uncertain: &[(Parameter, Distribution)], count: u32) -> Vec<Vec<(Parameter, f64)>> {
+fn drawn(uncertain: &[Uncertain], count: u32) -> Vec<Vec<(Uncertain, f64)>> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let mut uniform = || ((random.next_u64() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
     let mut designs = vec![Vec::new(); count as usize];
-    for (parameter, of) in uncertain {
+    for one in uncertain {
         let mut strata: Vec<u32> = (0..count).collect();
         // Each from those that are left (Fisher and Yates).
         for last in (1..strata.len()).rev() {
@@ -128,11 +126,11 @@ fn drawn(uncertain: &[(Parameter, Distribution)], count: u32) -> Vec<Vec<(Parame
         }
         for (design, stratum) in designs.iter_mut().zip(strata) {
             let probability = (f64::from(stratum) + uniform()) / f64::from(count);
-            let error = match of {
+            let error = match one.errors {
                 Distribution::Normal(deviation) => deviation * normal_quantile(probability),
                 Distribution::Uniform(largest) => largest * (2.0 * probability - 1.0),
             };
-            design.push((*parameter, error));
+            design.push((*one, error));
         }
     }
     designs
@@ -158,9 +156,10 @@ mod tests {
     /// errors; the moments of each are far closer, as every stratum is drawn from once.
     #[test]
     fn errors_are_distributed_as_they_are_written() {
+        let of = |parameter, errors| Uncertain { parameter, of: None, errors };
         let uncertain = [
-            (Parameter::Clearance, Distribution::Normal(0.1)),
-            (Parameter::Amplitude, Distribution::Uniform(0.3)),
+            of(Parameter::Clearance, Distribution::Normal(0.1)),
+            of(Parameter::Amplitude, Distribution::Uniform(0.3)),
         ];
         let count = 10_000;
         let drawn = drawn(&uncertain, count);

@@ -1,6 +1,6 @@
 //! Cases of one mode with one absorber as a search for ranges sees them.
 
-use super::{Look, Varied, Varies};
+use super::{Look, Together, Uncertain, Varied, Varies};
 use crate::band::{Band, Survey, SurveySettings};
 use crate::case::Case;
 use crate::criteria::contact::{judge_in_contact, judge_transient_in_contact};
@@ -62,6 +62,33 @@ impl Varies for Case {
 
     fn kept_without_absorber(&self) -> bool {
         criteria::kept_without_absorber(self)
+    }
+
+    fn has_criteria(&self) -> bool {
+        !self.criteria.is_empty()
+    }
+
+    fn samples(&self) -> Option<u32> {
+        self.uncertainty.samples
+    }
+
+    fn uncertain(&self) -> Vec<Uncertain> {
+        let all = self.uncertainty.parameters();
+        all.map(|(parameter, errors)| Uncertain { parameter, of: None, errors }).collect()
+    }
+
+    fn deviating(&self, errors: &[(Uncertain, f64)]) -> Option<Self> {
+        let errors: Vec<_> = errors.iter().map(|(one, error)| (one.parameter, *error)).collect();
+        Self::deviating(self, &errors)
+    }
+
+    fn fails_unflown(&self) -> Result<bool, DrivenError> {
+        let mut unflown = self.clone();
+        unflown.criteria.retain(|one| !one.measure.is_of_motions());
+        if unflown.criteria.is_empty() || !criteria::needs_simulation(&self.criteria) {
+            return Ok(false);
+        }
+        Ok(Together::of(&unflown.judge(&self.effort(), Look::AsCheck)?) == Together::Fail)
     }
 }
 

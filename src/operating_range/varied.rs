@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::case::{Case, Distribution};
+use crate::case::Case;
 use crate::system::Parameter;
 
 /// What varies.
@@ -39,8 +39,6 @@ const OF_FREQUENCY: [f64; 9] = [1.005, 1.01, 1.02, 1.035, 1.055, 1.08, 1.12, 1.1
 const OF_RESTITUTION: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6];
 const OF_INCLINATION: [f64; 5] = [0.001_745, 0.005_236, 0.017_453, 0.052_36, 0.174_533];
 const OF_FRICTION: [f64; 5] = [0.002, 0.005, 0.02, 0.05, 0.2];
-/// Standard deviations of a normal error up to which a number is off, of 19 in 20.
-const DEVIATIONS: f64 = 2.0;
 impl Varied {
     /// Every one.
     pub const ALL: [Self; 8] = [
@@ -94,10 +92,8 @@ impl Varied {
             (None, Self::Damping) => stated(Parameter::DampingRatio).and_then(ratio)?,
             (None, _) => return None,
         };
-        Some(match error {
-            Distribution::Normal(deviation) => (scale * deviation, DEVIATIONS),
-            Distribution::Uniform(largest) => (scale * largest, 1.0),
-        })
+        let (error, times) = error.tolerance();
+        Some((scale * error, times))
     }
 
     /// Values close to the case's own, outwards: in steps of half of the tolerance that the case states, up to the largest error

@@ -5,7 +5,7 @@ use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, ModalCase};
 use vinesink::executor::Serial;
 use vinesink::modal::ModalAnswer;
-use vinesink::operating_range::{HoldsFor, Together, Varied, holds_for};
+use vinesink::operating_range::{HoldsFor, Reliability, Together, Varied, holds_for};
 
 use super::choice::{checked, fails, with};
 
@@ -23,7 +23,7 @@ fn board(limit: &str, excitation: &str) -> String {
 fn ranges(text: &str, numbers: &[Varied], least: Together) -> Vec<HoldsFor> {
     let case = ModalCase::parse("case.toml", text).expect("a case");
     let answer = ModalAnswer::of(&case, &Serial).expect("flown");
-    answer.ranged(&case, numbers, least, &Serial).expect("flown").holds_for
+    answer.decided(&case, numbers, least, false, &Serial).expect("flown").holds_for
 }
 
 /// At each end of a range `check` finds nothing that fails, beyond it, by a fifth of the way from the case, it does, and at each
@@ -82,18 +82,13 @@ fn all_ranges_of_a_board_end_where_check_says_so() {
 /// A mode that takes no part leaves the ranges of the one mode and its engine: what varies, every value that is tried, and where all hold.
 #[test]
 fn a_mode_that_takes_no_part_leaves_the_ranges() {
-    let one = "title = 't'\nsource = 's'\n[oscillator]\nmass = '1 kg'\nfrequency = '5 Hz'\ndamping_ratio = 0.02\n\
-               [absorber]\nmass = '30 g'\nclearance = '2 mm'\nrestitution = 0.5\n\
-               [excitation]\nkind = 'force'\namplitude = '0.1 N'\nfrequency = '5 Hz'\n\
-               [criteria]\npeak_displacement = '<= 2.2 mm'\n";
-    let two = "title = 't'\nsource = 's'\n[[mode]]\nmass = '1 kg'\nfrequency = '5 Hz'\ndamping_ratio = 0.02\nshape = { a = 1, b = 0 }\n\
-               [[mode]]\nmass = '1 kg'\nfrequency = '17 Hz'\ndamping_ratio = 0.02\nshape = { a = 0, b = 1 }\n\
-               [[absorber]]\nplace = 'a'\nmass = '30 g'\nclearance = '2 mm'\nrestitution = 0.5\n\
-               [[excitation]]\nkind = 'force'\nplace = 'a'\namplitude = '0.1 N'\nfrequency = '5 Hz'\n\
-               [criteria]\npeak_displacement = { limit = '<= 2.2 mm', place = 'a' }\n";
+    let one = format!(
+        "title = 't'\nsource = 's'\n[oscillator]\n{SPRING}[absorber]\n{ABSORBER}[excitation]\n{EXCITATION}\
+         [criteria]\npeak_displacement = '<= 2.2 mm'\n"
+    );
     let numbers = [Varied::Amplitude, Varied::NaturalFrequency, Varied::Mass, Varied::Clearance];
-    let several = ranges(two, &numbers, Together::Hold);
-    let case = Case::parse("case.toml", one).expect("a case");
+    let several = ranges(&with_idle_mode(""), &numbers, Together::Hold);
+    let case = Case::parse("case.toml", &one).expect("a case");
     let judged = Answer::of(&case, Asked::Criteria, None, &Serial).expect("judged").judged;
     let single = holds_for(&case, &judged, &numbers, Together::Hold, &case.effort(), &Serial);
     let single = single.expect("ranges");
@@ -106,4 +101,78 @@ fn a_mode_that_takes_no_part_leaves_the_ranges() {
             assert!((a / b - 1.0).abs() < 1e-12, "{several:?} {single:?}");
         }
     }
+}
+
+const SPRING: &str = "mass = '1 kg'\nfrequency = '5 Hz'\ndamping_ratio = 0.02\n";
+const ABSORBER: &str = "mass = '30 g'\nclearance = '2 mm'\nrestitution = 0.5\n";
+const EXCITATION: &str = "kind = 'force'\namplitude = '0.1 N'\nfrequency = '5 Hz'\n";
+const UNCERTAIN: &str = "[uncertainty]\nclearance = '± 0.8 mm'\nrestitution = 0.05\namplitude = '60 mN'\noscillator_mass = '30 g'\n\
+                         natural_frequency = '0.1 Hz'\ndamping_ratio = '± 0.5 %'\nabsorber_mass = '2 g'\nsamples = 40\n";
+
+/// A structure with a mode that takes no part.
+fn with_idle_mode(more: &str) -> String {
+    format!(
+        "title = 't'\nsource = 's'\n[[mode]]\n{SPRING}shape = {{ a = 1, b = 0 }}\n\
+         [[mode]]\nmass = '1 kg'\nfrequency = '17 Hz'\ndamping_ratio = 0.02\nshape = {{ a = 0, b = 1 }}\n\
+         [[absorber]]\nplace = 'a'\n{ABSORBER}[[excitation]]\nplace = 'a'\n{EXCITATION}\
+         [criteria]\npeak_displacement = {{ limit = '<= 2.2 mm', place = 'a' }}\n{more}"
+    )
+}
+
+/// The same designs are drawn of a structure with a mode that takes no part as of the one mode, and as many fail, by the engine of
+/// several modes and that of one.
+#[test]
+fn a_mode_that_takes_no_part_leaves_the_probability() {
+    let one = format!(
+        "title = 't'\nsource = 's'\n[oscillator]\n{SPRING}[absorber]\n{ABSORBER}[excitation]\n{EXCITATION}\
+         [criteria]\npeak_displacement = '<= 2.2 mm'\n{UNCERTAIN}"
+    );
+    let two = ModalCase::parse("case.toml", &with_idle_mode(UNCERTAIN)).expect("a case");
+    let answer = ModalAnswer::of(&two, &Serial).expect("flown");
+    let answer = answer.decided(&two, &[], Together::Hold, true, &Serial).expect("flown");
+    let several = answer.reliability.expect("something is uncertain");
+    let one = Case::parse("case.toml", &one).expect("a case");
+    let single = Reliability::of(&one, &one.effort(), &Serial).expect("flown");
+    let single = single.expect("something is uncertain");
+    println!("{several:?}\n{single:?}");
+    let fail = |of: &Reliability| of.samples - of.hold - of.undecided;
+    assert_eq!([several.samples, fail(&several)], [single.samples, fail(&single)]);
+    // What wanders of several modes is given up earlier, and is not decided then.
+    assert!(several.hold.abs_diff(single.hold) <= 1, "{several:?} {single:?}");
+    // Or nothing would be told apart.
+    assert!(fail(&several) > 5 && several.hold > 5, "{several:?}");
+}
+
+/// What cannot be uncertain is refused with what to do.
+#[test]
+fn what_cannot_be_uncertain_of_several_is_refused() {
+    let base =
+        "[[excitation]]\nkind = 'base-displacement'\namplitude = '1 mm'\nfrequency = '5 Hz'\n";
+    let undamped = with_idle_mode("[uncertainty]\ndamping_ratio = '0.1 %'\n");
+    let undamped = undamped.replacen("damping_ratio = 0.02", "damping_ratio = 0", 1);
+    let undamped =
+        undamped.replacen("frequency = '5 Hz'\n[criteria]", "frequency = '4 Hz'\n[criteria]", 1);
+    let participates = |text: String| text.replace("shape =", "participation = 1\nshape =");
+    let reduced = "title = 't'\nsource = 's'\n[reduced]\nfrequency_ratio = 1.0\n[[reduced.mode]]\nfrequency_ratio = 1.0\n\
+                   damping_ratio = 0.02\nmass = 1.0\nforcing = 0.01\nshape = { a = 1 }\n[[reduced.mode]]\nfrequency_ratio = 3.0\n\
+                   damping_ratio = 0.02\nmass = 1.0\nforcing = 0.0\nshape = { a = 1 }\n[[reduced.absorber]]\nmass = 0.03\n\
+                   clearance = 1.0\nrestitution = 0.5\n[uncertainty]\nclearance = 0.1\nabsorber_mass = 0.01\n";
+    for (text, message) in [
+        (with_idle_mode("[uncertainty]\ninclination = '1 deg'\n"), "unknown key `inclination`"),
+        (with_idle_mode("[uncertainty]\nclearance = '1 kg'\n"), "kg"),
+        (with_idle_mode("[uncertainty]\namplitude = '1 mm'\n"), "mm"),
+        (
+            participates(with_idle_mode(&format!("{base}[uncertainty]\namplitude = '1 N'\n"))),
+            "one error cannot be",
+        ),
+        (undamped, "undamped first mode"),
+        (reduced.to_owned(), "`absorber_mass` cannot be uncertain beside [reduced]"),
+    ] {
+        let error = ModalCase::parse("case.toml", &text).expect_err(message);
+        let told: Vec<&str> = error.problems().map(|one| one.message.as_str()).collect();
+        assert!(told.len() == 1 && told[0].contains(message), "{message}: {told:?}");
+    }
+    let own = reduced.replace("absorber_mass = 0.01\n", "damping_ratio = 0.001\n");
+    let case = ModalCase::parse("case.toml", &own).expect("a case");
+    assert_eq!(case.uncertainty.parameters().count(), 2);
 }

@@ -80,6 +80,8 @@ pub struct ModalCase {
     pub modes_from: Option<String>,
     /// Within which bounds better absorbers are looked for.
     pub bounds: Bounds,
+    /// The table `[uncertainty]`; nothing is uncertain where there is none.
+    pub uncertainty: crate::case::Uncertainty,
     /// What `vinesink sweep` varies.
     pub sweep: Option<ModalSweep>,
     /// What is almost surely a slip, in the order of the file's lines.

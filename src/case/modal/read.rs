@@ -20,13 +20,14 @@ use super::reduced::{
 use super::sweep::{ModalSweepTable, read_sweep};
 use super::table::ModesFile;
 use super::warnings::Spans;
-use super::{AbsorberKey, ModalCase, PlacedAbsorber, StructuralMode};
+use super::{AbsorberKey, ActsOn, Load, ModalCase, PlacedAbsorber, StructuralMode};
 use crate::case::Heading;
 use crate::case::criteria::UPTO;
 use crate::case::error::CaseError;
 use crate::case::limits::{Asked, read_limits};
 use crate::case::reader::{Reader, Table, fields, kind};
 use crate::case::settings::SimulationSettings;
+use crate::case::uncertainty::{UncertaintyOfSeveral, read_of_several};
 use crate::excitation::Scene;
 use crate::system::MOST_MODES;
 
@@ -93,6 +94,7 @@ struct ModalTables {
     simulation: Option<SimulationSettings>,
     criteria: Option<ModalCriteriaTable>,
     optimize: Option<ModalOptimizeTable>,
+    uncertainty: Option<UncertaintyOfSeveral>,
     sweep: Option<ModalSweepTable>,
 }
 
@@ -261,6 +263,18 @@ pub(super) fn read(
     let count_inactive = asked.as_ref().and_then(|(_, read)| read.count_inactive).unwrap_or(true);
     read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
+    let moves_base: Vec<bool> = loads.iter().map(|load: &Load| load.on == ActsOn::Base).collect();
+    let uncertainty = read_of_several(reader, &root, reduced.is_some(), &moves_base);
+    if uncertainty.damping_ratio.is_some()
+        && modes.first().is_some_and(|one| one.damping_ratio == 0.0)
+    {
+        reader.report(
+            root.span_of("uncertainty"),
+            "the damping ratio of an undamped first mode is uncertain",
+            "expected a mode with a damping ratio above 0, to which those of the others are in proportion",
+            "give the first mode a damping ratio, or remove the line `damping_ratio`",
+        );
+    }
     let Some(heading) = heading.filter(|_| reader.problems.is_empty()) else { return Ok(None) };
     let asked = simulation.as_ref();
     let given = asked.and_then(|one| u32::try_from(one.starts?).ok());
@@ -284,6 +298,7 @@ pub(super) fn read(
         modes_from,
         contact_is_sensors,
         bounds,
+        uncertainty,
         sweep: None,
         warnings: Vec::new(),
         text: Arc::default(),

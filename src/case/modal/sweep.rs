@@ -5,6 +5,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::load::{LoadKind, LoadTable};
+use super::mode::ModeTable;
 use super::read::ModalAbsorberTable;
 use super::{ActsOn, Load, ModalCase, PlacedAbsorber};
 use crate::case::number::Form;
@@ -58,9 +59,10 @@ fn with_axes(schema: &mut Schema) {
     with_axes_of(schema, &AXES);
 }
 
-/// How the values of an axis are written: as the case's own numbers are, an amplitude as that of such a load.
+/// How the values of an axis, or errors, are written: as the case's own numbers are, an amplitude as that of such a load.
 pub(in crate::case) fn form(parameter: Parameter, moves_base: bool) -> Option<Form> {
     let absorber = |key: &str| Some(&of_table::<ModalAbsorberTable>()["properties"][key]);
+    let mode = |key: &str| Some(&of_table::<ModeTable>()["properties"][key]);
     let load = of_table::<LoadTable>();
     let kind = if moves_base { LoadKind::BaseDisplacement } else { LoadKind::Force };
     let schema: Option<&'static Value> = match parameter {
@@ -70,6 +72,9 @@ pub(in crate::case) fn form(parameter: Parameter, moves_base: bool) -> Option<Fo
             kinds.find(|one| one["kind"]["const"] == kind.name()).map(|one| &one["amplitude"])
         }
         Parameter::AbsorberMass => absorber("mass"),
+        Parameter::Mass => mode("mass"),
+        Parameter::NaturalFrequency => mode("frequency"),
+        Parameter::DampingRatio => mode("damping_ratio"),
         other => absorber(other.key()),
     };
     Form::of(schema?)

@@ -13,10 +13,9 @@ use crate::criteria::kept_without_absorber;
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method::{self, ClosedForm};
-use crate::operating_range::{Combined, Edge, HoldsFor, Reliability, Varied};
+use crate::operating_range::{Combined, Edge, HoldsFor, Reliability, Uncertain, Varied};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
-use crate::system::Parameter;
 
 /// Relative difference up to which two devices are as good as each other: half a decibel.
 const AS_GOOD: f64 = 0.05;
@@ -75,7 +74,11 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     document["holds_for"] = json!(rows);
     document["combined"] = answer.combined.iter().map(|one| together(case, one)).collect();
     document["ranges"] = json!(ranges);
-    document["reliability"] = json!(answer.reliability.as_ref().map(|one| reliability(case, one)));
+    let told = |one: &Uncertain| {
+        let value = case.design.value(one.parameter).unwrap_or_default();
+        json!({ "value": Quantity::new(case.design.kind(one.parameter), value, Method::Given) })
+    };
+    document["reliability"] = json!(answer.reliability.as_ref().map(|one| reliability(one, &told)));
 }
 
 /// Which device wins where.
@@ -178,15 +181,16 @@ fn largest_stroke(case: &Case, found: &Alternatives, which: Which) -> Option<Qua
     rows.filter_map(|row| stroke(case, row)).max_by(|a, b| a.value.total_cmp(&b.value))
 }
 
-/// With which probability all criteria hold, and what makes most designs fail.
-fn reliability(case: &Case, found: &Reliability) -> Value {
+/// With which probability all criteria hold, and what makes most designs fail: each of these as `told`, with how many.
+pub fn reliability(found: &Reliability, told: &dyn Fn(&Uncertain) -> Value) -> Value {
     let probability = |value| Quantity::new(&of::PROBABILITY, value, Method::Simulation);
     let (share, interval) = found.probability();
     let error = interval.map(|end| (end - share).abs()).into_iter().fold(0.0, f64::max);
-    let cause = |(parameter, times): &(Parameter, u32)| {
-        let value = case.design.value(*parameter).unwrap_or_default();
-        let value = Quantity::new(case.design.kind(*parameter), value, Method::Given);
-        json!({ "parameter": parameter.key(), "value": value, "failures": times })
+    let cause = |(one, times): &(Uncertain, u32)| {
+        let mut row = told(one);
+        row["parameter"] = json!(one.parameter.key());
+        row["failures"] = json!(times);
+        row
     };
     json!({
         "probability": probability(share).with_error(error),

@@ -103,9 +103,13 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
     if !rows.is_empty() {
         document["holds_for"] = json!(rows);
     }
+    let reliability = ranges::probability(case, answer);
+    if !reliability.is_null() {
+        document["reliability"] = reliability.clone();
+    }
     let page = json!({
         "path": path, "case": name, "warnings": warnings(case), "criteria": criteria(case, answer), "outside": null, "choice": null,
-        "alternatives": null, "ranges": ranges, "combined": [], "reliability": null,
+        "alternatives": null, "ranges": ranges, "combined": [], "reliability": reliability,
         "modes_from": case.modes_from,
     });
     Checked::of(document, page, units)

@@ -392,6 +392,9 @@ pub fn document(
     if !rows.is_empty() {
         (document["holds_for"], document["ranges"]) = (json!(rows), json!(told));
     }
+    if answer.reliability.is_some() {
+        document["reliability"] = ranges::probability(case, answer);
+    }
     if content == Content::Report {
         keep_case(&mut document, case.written(), case.files());
     }
