@@ -106,7 +106,7 @@ def main():
                 exceeded += 1
                 continue
             answer = json.loads(run.stdout)
-            checked = subprocess.run([vinesink, "check", str(case), "--format", "json", "--long"], capture_output=True, text=True)
+            checked = subprocess.run([vinesink, "check", str(case), "--format", "json", "--criteria-only", "--long"], capture_output=True, text=True)
             criteria = {one["name"]: one for one in json.loads(checked.stdout)["cases"][0]["criteria"]}
             most = {key: 0.0 for _, key, _, _ in READINGS}
             for k, load in enumerate(loads):
