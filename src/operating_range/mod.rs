@@ -82,7 +82,7 @@ pub trait Varies: Sync + Sized {
     fn tolerance(&self, number: Varied) -> Option<(f64, f64)>;
     /// Whether what is level and has ends alike does the mirrored thing at the mirrored value.
     fn mirrors(&self, number: Varied) -> bool;
-    /// Whether a look as `check` has it takes no long.
+    /// Whether a look as `check` has it is short.
     fn is_short(&self) -> bool;
     /// Whether it is driven steadily at single excitations.
     fn is_point(&self) -> bool;
