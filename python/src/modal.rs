@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use vinesink::answer::Decided;
+use vinesink::answer::several::{self, LeftOut};
 use vinesink::case::ModalCase as Inner;
 use vinesink::case_input;
 use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, orbits};
@@ -93,12 +95,19 @@ impl ModalCase {
     }
 
     /// As `vinesink check --format json` says it of this case.
-    fn check(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
+    fn check(
+        &self,
+        py: Python<'_>,
+        criteria_only: bool,
+        long: bool,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<String> {
         if self.inner.criteria.is_empty() {
             return Err(refused("the case has no criteria: give it a table [criteria]"));
         }
+        let told = if criteria_only { Decided::NOTHING } else { Decided::CHECKED };
         work::done(py, progress, |work| {
-            let answer = self.answer(work)?;
+            let answer = self.decided(told, long, work)?;
             json(&checked(&self.stem, &self.stem, &self.inner, &answer).document)
         })
     }
@@ -133,10 +142,11 @@ impl ModalCase {
         py: Python<'_>,
         folder: PathBuf,
         name: &str,
+        long: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<()> {
         let render = |work: &WorkState| {
-            let answer = self.answer(work)?;
+            let answer = self.decided(Decided::ALL, long, work)?;
             let beside = Beside::of(&self.inner, &answer, work).map_err(refused)?;
             files(name, &self.inner, &answer, &beside).map_err(refused)
         };
@@ -148,5 +158,12 @@ impl ModalCase {
 impl ModalCase {
     fn answer(&self, work: &WorkState) -> PyResult<ModalAnswer> {
         ModalAnswer::of(&self.inner, work).map_err(refused)
+    }
+
+    /// The same with what is told beside its criteria, as far as that is ordinary work, or any is asked for.
+    fn decided(&self, told: Decided, long: bool, work: &WorkState) -> PyResult<ModalAnswer> {
+        let affords = |_: LeftOut, _: f64, is_ordinary: bool| long || is_ordinary;
+        let answer = self.answer(work)?;
+        several::decided(&self.inner, answer, told, &affords, work).map_err(refused)
     }
 }

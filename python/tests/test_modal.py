@@ -53,6 +53,8 @@ def test_commands(path, printed):
     assert found.to_dict() == expected
     assert bool(found) == expected["holds"]
     assert list(found.to_pandas().name) == [one["name"] for one in expected["criteria"]]
+    assert {one["parameter"] for one in expected["holds_for"]} >= {"amplitude", "clearance", "natural-frequency"}
+    assert "holds_for" not in case.check(criteria_only=True).to_dict()
 
 
 def test_optimize(path, printed):

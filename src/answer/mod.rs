@@ -5,6 +5,7 @@
 //! For the program itself: this module may change at any time.
 
 pub mod branch;
+pub mod several;
 pub mod trajectory;
 
 use crate::alternatives::{Alternatives, Known};

@@ -7,6 +7,7 @@ use std::path::Path;
 use clap::Args;
 use miette::{Result, miette};
 use vinesink::answer::Decided;
+use vinesink::answer::several::{LeftOut, ORDINARY, ORDINARY_PROBABILITY};
 use vinesink::case::{Case, Problem};
 use vinesink::excitation::Scene;
 use vinesink::operating_range::Reliability;
@@ -16,10 +17,6 @@ use vinesink::program::progress::{Progress, duration};
 use work::slowness;
 pub use work::{BEST_ANSWER, Work};
 
-/// Seconds that are ordinary: every shipped case takes a few.
-const ORDINARY: f64 = 60.0;
-/// Those of a probability, which is that of 200 checks.
-const ORDINARY_PROBABILITY: f64 = 180.0;
 /// Cases beside a case: where its frequency is another, and where one of its numbers is.
 const DRIFTS: u64 = 8;
 const VARIANTS: u64 = 20;
@@ -79,15 +76,20 @@ impl Long {
         }
     }
 
-    /// Whether ranges that take so many seconds are looked for beside other work; they are left out, and that is said, where it
-    /// is too long.
-    pub fn affords_ranges(self, path: &Path, own: f64, seconds: f64) -> bool {
-        self.affords(path, own + seconds <= ORDINARY, seconds, RANGES)
-    }
-
-    /// The same of a probability.
-    pub fn affords_draws(self, path: &Path, own: f64, seconds: f64) -> bool {
-        self.affords(path, own + seconds <= ORDINARY_PROBABILITY, seconds, PROBABILITY)
+    /// Whether something that takes so many seconds is looked for beside other work; it is left out, and that is said, where it is too
+    /// long.
+    pub fn affords_beside(
+        self,
+        path: &Path,
+        what: LeftOut,
+        seconds: f64,
+        is_ordinary: bool,
+    ) -> bool {
+        let what = match what {
+            LeftOut::Ranges => RANGES,
+            LeftOut::Probability => PROBABILITY,
+        };
+        self.affords(path, is_ordinary, seconds, what)
     }
 
     fn affords(self, path: &Path, is_ordinary: bool, seconds: f64, what: &str) -> bool {

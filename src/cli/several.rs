@@ -4,9 +4,9 @@ use std::path::Path;
 
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::answer::Decided;
+use vinesink::answer::several::{self, LeftOut};
 use vinesink::case::ModalCase;
-use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, checks, looks, orbits, seconds};
-use vinesink::operating_range::{Reliability, Together};
+use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, checks, orbits, seconds};
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
 use vinesink::report::modal::{
@@ -44,15 +44,10 @@ pub fn decided(
     told: Decided,
     long: Long,
 ) -> Result<ModalAnswer> {
-    let own = seconds(case);
-    // Where a criterion fails there is no range.
-    let may_hold = !answer.judged.is_empty() && Together::of(&answer.judged) != Together::Fail;
-    let ranged = may_hold && !told.ranges.is_empty();
-    let ranged = ranged && long.affords_ranges(path, own, own * looks(case, told.ranges));
-    let numbers = if ranged { told.ranges } else { &[] };
-    let designs = if told.reliability { Reliability::samples(case) } else { 0 };
-    let draws = designs > 0 && long.affords_draws(path, own, own * f64::from(designs));
-    answer.decided(case, numbers, told.until, draws, &Parallel).into_diagnostic()
+    let affords = |what: LeftOut, seconds: f64, is_ordinary: bool| {
+        long.affords_beside(path, what, seconds, is_ordinary)
+    };
+    several::decided(case, answer, told, &affords, &Parallel).into_diagnostic()
 }
 
 /// The files of its report.

@@ -135,6 +135,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "criteria",
             "excitation",
             "executor",
+            "modal",
             "motions",
             "orbits",
             "simulation",

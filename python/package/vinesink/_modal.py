@@ -122,12 +122,15 @@ class ModalCase:
         """Every long-term motion along each load: what `vinesink simulate --format json` says; `loads` has them."""
         return Record(json.loads(self._core.simulate(_told(progress))))
 
-    def check(self, *, progress: Progress | None = None) -> Check:
+    def check(self, *, criteria_only: bool = False, long: bool = False, progress: Progress | None = None) -> Check:
         """Holds the case against its limits, along every load: what `vinesink check --format json` says of it.
 
+        Where no criterion fails, that has how far each number may change, and with a table `[uncertainty]` the probability that
+        all hold: fifteen times the work for each number, and once for each design that is drawn. Where they would take more than
+        one minute, and three, they are left out unless `long` is given; `criteria_only` leaves them out.
         Raises `RefusedError` of a case without criteria.
         """
-        return Check(json.loads(self._core.check(_told(progress))))
+        return Check(json.loads(self._core.check(criteria_only, long, _told(progress))))
 
     def optimize(self, *, progress: Progress | None = None) -> ModalOptimum:
         """The absorbers that serve the case best: what `vinesink optimize --format json` says.
@@ -147,14 +150,14 @@ class ModalCase:
         return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"}, units)
 
     def report(
-        self, folder: str | os.PathLike[str], *, name: str | None = None, progress: Progress | None = None
+        self, folder: str | os.PathLike[str], *, name: str | None = None, long: bool = False, progress: Progress | None = None
     ) -> None:
-        """Writes the design report into a folder, the same files as `vinesink report`.
+        """Writes the design report into a folder, the same files as `vinesink report`, or with `long` as with `--long`.
 
         `name` is that of the case's file, else of the folder. Raises `FileError` where the folder cannot be written.
         """
         name = name or self._core.stem or Path(folder).resolve().name
-        self._core.report(os.fspath(folder), name, _told(progress))
+        self._core.report(os.fspath(folder), name, long, _told(progress))
 
 
 def _of_text(text: str, folder: str, allow_outside: bool) -> ModalCase:

@@ -1,0 +1,46 @@
+//! The same of a case of several modes or absorbers.
+
+use super::Decided;
+use crate::case::ModalCase;
+use crate::executor::Executor;
+use crate::modal::{ModalAnswer, ModalError, looks, seconds};
+use crate::operating_range::{Reliability, Together};
+
+/// Seconds up to which a case, and a probability beside it, which is that of 200 checks, are ordinary.
+pub const ORDINARY: f64 = 60.0;
+/// See [`ORDINARY`].
+pub const ORDINARY_PROBABILITY: f64 = 180.0;
+
+/// What is left out where it would take too long.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LeftOut {
+    /// How far numbers may change.
+    Ranges,
+    /// With which probability all criteria hold.
+    Probability,
+}
+
+/// An answer with what `told` says beside the criteria: how far numbers may change, and with which probability all hold where some are
+/// uncertain. `affords` says of each, by about how many seconds it takes and whether that is ordinary, whether it is looked for.
+///
+/// # Errors
+/// [`ModalError`] where a motion cannot be flown.
+pub fn decided(
+    case: &ModalCase,
+    answer: ModalAnswer,
+    told: Decided,
+    affords: &dyn Fn(LeftOut, f64, bool) -> bool,
+    on: &dyn Executor,
+) -> Result<ModalAnswer, ModalError> {
+    let own = seconds(case);
+    let affords = |what: LeftOut, checks: f64, ordinary: f64| {
+        checks > 0.0 && affords(what, own * checks, own * (1.0 + checks) <= ordinary)
+    };
+    // Where a criterion fails there is no range.
+    let may_hold = !answer.judged.is_empty() && Together::of(&answer.judged) != Together::Fail;
+    let checks = if may_hold { looks(case, told.ranges) } else { 0.0 };
+    let ranged = affords(LeftOut::Ranges, checks, ORDINARY);
+    let designs = if told.reliability { Reliability::samples(case) } else { 0 };
+    let draws = affords(LeftOut::Probability, f64::from(designs), ORDINARY_PROBABILITY);
+    answer.decided(case, if ranged { told.ranges } else { &[] }, told.until, draws, on)
+}
