@@ -53,8 +53,19 @@ def test_commands(path, printed):
     assert found.to_dict() == expected
     assert bool(found) == expected["holds"]
     assert list(found.to_pandas().name) == [one["name"] for one in expected["criteria"]]
+
+
+def test_ranges(tmp_path, printed):
+    path = tmp_path / "floor.toml"
+    path.write_text(SHORT.replace("9 mm", "16 mm") + "[uncertainty]\nclearance = '0.1 mm'\nsamples = 20\n")
+    case = vinesink.ModalCase.from_toml(path)
+    (expected,) = printed("check", path)["cases"]
+    found = case.check()
+    assert found and found.to_dict() == expected
     assert {one["parameter"] for one in expected["holds_for"]} >= {"amplitude", "clearance", "natural-frequency"}
-    assert "holds_for" not in case.check(criteria_only=True).to_dict()
+    assert expected["reliability"]["samples"] == 20
+    alone = case.check(criteria_only=True).to_dict()
+    assert alone["holds"] and "holds_for" not in alone and "reliability" not in alone
 
 
 def test_optimize(path, printed):
