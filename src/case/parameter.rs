@@ -67,19 +67,8 @@ impl Design {
     pub fn deviating(self, errors: &[(Parameter, f64)]) -> Self {
         errors.iter().fold(self, |design, (parameter, error)| {
             let value = design.value(*parameter).unwrap_or(f64::NAN) + error;
-            let possible = match parameter {
-                Parameter::Restitution => {
-                    let half = 0.5 * design.restitution_difference().abs();
-                    value.max(half).min(1.0 - half)
-                }
-                Parameter::Inclination => value.clamp(-FRAC_PI_2, FRAC_PI_2),
-                Parameter::Amplitude
-                | Parameter::Friction
-                | Parameter::FrictionAcceleration
-                | Parameter::DampingRatio => value.max(0.0),
-                _ => value,
-            };
-            design.with(*parameter, possible)
+            let apart = design.restitution_difference().abs();
+            design.with(*parameter, possible(*parameter, value, apart))
         })
     }
 
@@ -153,6 +142,19 @@ impl Design {
             Dimension::Length => Form::free(Some(dimension), "\"5 mm\"", symbol),
             _ => Form::free(Some(dimension), "\"0.2 m/s\"", symbol),
         })
+    }
+}
+
+/// The nearest value that a parameter may have, where the restitutions of the walls are so far apart.
+pub(super) fn possible(parameter: Parameter, value: f64, apart: f64) -> f64 {
+    match parameter {
+        Parameter::Restitution => value.max(0.5 * apart).min(1.0 - 0.5 * apart),
+        Parameter::Inclination => value.clamp(-FRAC_PI_2, FRAC_PI_2),
+        Parameter::Amplitude
+        | Parameter::Friction
+        | Parameter::FrictionAcceleration
+        | Parameter::DampingRatio => value.max(0.0),
+        _ => value,
     }
 }
 

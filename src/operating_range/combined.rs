@@ -1,6 +1,6 @@
 //! The excitation's amplitude and the natural frequency changed at once: what holds for each alone may fail for both.
 
-use super::{HoldsFor, Look, Together, Varied, Varies};
+use super::{Depth, HoldsFor, Together, Varied, Varies};
 use crate::case::{Case, Relation};
 use crate::executor::{Executor, map};
 use crate::flights::DrivenError;
@@ -43,7 +43,7 @@ pub fn combined(
         let there = case.varied(amplitude.0, a.value);
         let outcome = match there.and_then(|case| case.varied(frequency.0, f.value)) {
             Some(there) => {
-                let how = if promised { Look::AsCheck } else { Look::OnTheWay };
+                let how = if promised { Depth::AsCheck } else { Depth::OnTheWay };
                 Together::of(&there.judge(effort, how)?)
             }
             None => Together::Fail,

@@ -1,7 +1,7 @@
 //! Edges: numbers of a case that nobody holds as closely as a criterion, or an absorber that wakes, asks for.
 
 use super::varied::Varied;
-use super::{Look, Number, Together, Varies};
+use super::{Depth, Number, Together, Varies};
 use crate::case::{Case, Criterion};
 use crate::criteria::{Judged, Outcome};
 use crate::executor::{Executor, map};
@@ -46,7 +46,7 @@ pub fn edges(
     let (mut case, asked) = (case.clone(), case.criteria.len());
     // No displacement is at most 0, which does not matter yet: the worst of all is found, whatever the limit.
     case.criteria.extend(watched.and_then(|measure| Criterion::at_most(measure, 0.0)));
-    let own = case.judge(effort, Look::AsCheck)?;
+    let own = case.judge(effort, Depth::AsCheck)?;
     if own.is_empty() || Together::of(&own[..asked.min(own.len())]) == Together::Fail {
         return Ok(Vec::new());
     }
@@ -65,11 +65,11 @@ impl Number<'_, Case> {
             if (at / self.own).max(self.own / at) > EDGE * (1.0 + f64::EPSILON) {
                 break;
             }
-            let looked = self.judged(at, Look::OnTheWay)?;
+            let looked = self.judged(at, Depth::OnTheWay)?;
             if looked.is_none_or(|judged| Together::of(&judged) != Together::Fail) {
                 continue;
             }
-            let there = self.judged(at, Look::AsCheck)?.unwrap_or_default();
+            let there = self.judged(at, Depth::AsCheck)?.unwrap_or_default();
             let lost = there
                 .into_iter()
                 .zip(own)

@@ -11,16 +11,19 @@ mod edges;
 mod reliability;
 mod steady;
 mod varied;
+mod varies;
 
 use serde::Serialize;
 
 use crate::criteria::{Judged, Outcome};
 use crate::executor::{Executor, map};
+use crate::system::Parameter;
 
 pub use combined::{Combined, combined};
 pub use edges::{Edge, edges};
 pub use reliability::{Reliability, Uncertain};
 pub use varied::Varied;
+pub use varies::{Depth, Varies};
 
 /// What all criteria together come to, the worst first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -46,67 +49,6 @@ impl Together {
             Self::Hold
         }
     }
-}
-
-/// How thoroughly a case is looked at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Look {
-    /// With fewer starts and places, and short windows.
-    OnTheWay,
-    /// As `check` does.
-    AsCheck,
-}
-
-impl Look {
-    /// How a case is looked at: one that does not take long always as `check` does.
-    fn of(self, case: &impl Varies) -> Self {
-        if case.is_short() { Self::AsCheck } else { self }
-    }
-}
-
-/// A case as a search for ranges sees it: numbers, the same case with others, and what its criteria come to there. A number is of the
-/// case, or of one of its parts, by index: a clearance and a restitution of an absorber, an amplitude of a load.
-pub trait Varies: Sync + Sized {
-    /// How thoroughly `check` searches it.
-    type Effort: Sync;
-    /// Why a motion cannot be followed.
-    type Error: Send + Sync;
-
-    /// The parts that have a number, none as the only one where it is of the whole case; empty where the case has no such number.
-    fn parts(&self, number: Varied) -> Vec<Option<usize>>;
-    /// The case's own value, in SI or the units of a reduced case.
-    fn value(&self, number: Varied, of: Option<usize>) -> Option<f64>;
-    /// The same case with another value; none where that is no case.
-    fn with(&self, number: Varied, of: Option<usize>, value: f64) -> Option<Self>;
-    /// The tolerance that the case states, and how many times that the number is likely to be off by at the most.
-    fn tolerance(&self, number: Varied) -> Option<(f64, f64)>;
-    /// Whether what is level and has ends alike does the mirrored thing at the mirrored value.
-    fn mirrors(&self, number: Varied) -> bool;
-    /// Whether a look as `check` has it is short.
-    fn is_short(&self) -> bool;
-    /// Whether it is driven steadily at single excitations.
-    fn is_point(&self) -> bool;
-    /// Its criteria.
-    ///
-    /// # Errors
-    /// Where a motion cannot be followed.
-    fn judge(&self, effort: &Self::Effort, how: Look) -> Result<Vec<Judged>, Self::Error>;
-    /// Whether the structure alone keeps the limits of its motion too.
-    fn kept_without_absorber(&self) -> bool;
-
-    /// Whether anything is asked of it.
-    fn has_criteria(&self) -> bool;
-    /// How many designs are drawn at random, where the case says so.
-    fn samples(&self) -> Option<u32>;
-    /// What is uncertain.
-    fn uncertain(&self) -> Vec<Uncertain>;
-    /// The same with errors added to some of that; none where that is no case.
-    fn deviating(&self, errors: &[(Uncertain, f64)]) -> Option<Self>;
-    /// Whether a criterion fails that needs no simulation: whatever motions there are, all together fail then.
-    ///
-    /// # Errors
-    /// Where a motion cannot be followed.
-    fn fails_unflown(&self) -> Result<bool, Self::Error>;
 }
 
 /// A number of a case, and the stretch on which no criterion fails.
@@ -172,7 +114,7 @@ pub fn holds_for<C: Varies>(
     let sides = map(on, "ranges", 2 * all.len(), side);
     let mut sides = sides.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter();
     let mut found = Vec::new();
-    for Number { varied: parameter, of, own: value, .. } in all {
+    for Number { varied, parameter, of, own: value, .. } in all {
         let (Some(below), Some(Some(above))) = (sides.next(), sides.next()) else { break };
         let below = below.unwrap_or_else(|| above.mirrored());
         let mut undecided: Vec<[f64; 2]> =
@@ -200,7 +142,7 @@ pub fn holds_for<C: Varies>(
             case.with(parameter, of, end).is_some_and(|case| case.kept_without_absorber())
         });
         found.push(HoldsFor {
-            parameter,
+            parameter: varied,
             of,
             value,
             range,
@@ -220,6 +162,7 @@ struct Number<'a, C: Varies> {
     case: &'a C,
     effort: &'a C::Effort,
     varied: Varied,
+    parameter: Parameter,
     of: Option<usize>,
     own: f64,
 }
@@ -255,8 +198,13 @@ impl<'a, C: Varies> Number<'a, C> {
     fn all(case: &'a C, of: &[Varied], effort: &'a C::Effort) -> Vec<Self> {
         let parts = |varied: &Varied| {
             let varied = *varied;
-            case.parts(varied).into_iter().filter_map(move |of| {
-                Some(Self { case, effort, varied, of, own: case.value(varied, of)? })
+            let parameter = case.parameter(varied);
+            let parts = parameter.map_or_else(Vec::new, |one| case.parts(one)).into_iter();
+            parts.filter_map(move |of| {
+                let parameter = parameter?;
+                let own = case.number(parameter, of)?;
+                let has = own > 0.0 || varied.is_added();
+                has.then_some(Self { case, effort, varied, parameter, of, own })
             })
         };
         of.iter().flat_map(parts).collect()
@@ -264,7 +212,7 @@ impl<'a, C: Varies> Number<'a, C> {
 
     /// The case with another value.
     fn with(&self, value: f64) -> Option<C> {
-        self.case.with(self.varied, self.of, value)
+        self.case.with(self.parameter, self.of, value)
     }
 
     /// Goes outwards to where all criteria hold, if they do in the case itself, and unless that is all that is asked for on to
@@ -316,7 +264,7 @@ impl<'a, C: Varies> Number<'a, C> {
     }
 
     /// The criteria at a value.
-    fn judged(&self, value: f64, how: Look) -> Result<Option<Vec<Judged>>, C::Error> {
+    fn judged(&self, value: f64, how: Depth) -> Result<Option<Vec<Judged>>, C::Error> {
         self.with(value).map(|case| case.judge(self.effort, how)).transpose()
     }
 }
@@ -370,7 +318,7 @@ impl<C: Varies> Outwards<'_, C> {
         let end = self.end(least);
         let [known, beyond] = [end - 1, end].map(|k| &self.looked[k]);
         let (middle, step) = (0.5 * (known.at + beyond.at), beyond.step);
-        let there = self.look(middle, step, Look::AsCheck)?;
+        let there = self.look(middle, step, Depth::AsCheck)?;
         self.looked.insert(end, there);
         Ok((self.looked[self.end(least) - 1].at, false))
     }
@@ -378,7 +326,7 @@ impl<C: Varies> Outwards<'_, C> {
     /// Whether one of the places comes to no less than this as `check` says it; so it is looked at, if it was not.
     fn comes_to(&mut self, k: usize, least: Together) -> Result<bool, C::Error> {
         if !self.looked[k].full {
-            self.looked[k] = self.look(self.looked[k].at, self.looked[k].step, Look::AsCheck)?;
+            self.looked[k] = self.look(self.looked[k].at, self.looked[k].step, Depth::AsCheck)?;
         }
         Ok(self.looked[k].outcome >= least)
     }
@@ -397,7 +345,7 @@ impl<C: Varies> Outwards<'_, C> {
             let undecided = beyond.outcome == Together::Undecided;
             // With more starts and longer windows an error may be smaller.
             if undecided && !beyond.full {
-                self.looked[outside] = self.look(beyond.at, beyond.step, Look::AsCheck)?;
+                self.looked[outside] = self.look(beyond.at, beyond.step, Depth::AsCheck)?;
                 continue;
             }
             // Where exactly an error begins to matter is not known any better.
@@ -406,7 +354,7 @@ impl<C: Varies> Outwards<'_, C> {
                 return Ok(false);
             }
             let (middle, step) = (0.5 * (inside.at + beyond.at), beyond.step);
-            let there = self.look(middle, step, Look::OnTheWay)?;
+            let there = self.look(middle, step, Depth::OnTheWay)?;
             self.looked.insert(outside, there);
         }
     }
@@ -420,7 +368,7 @@ impl<C: Varies> Outwards<'_, C> {
         if self.number.with(next).is_none() {
             return Ok(false);
         }
-        let how = if self.near.contains(&next) { Look::AsCheck } else { Look::OnTheWay };
+        let how = if self.near.contains(&next) { Depth::AsCheck } else { Depth::OnTheWay };
         let there = self.look(next, (next - last).abs(), how)?;
         self.looked.push(there);
         Ok(true)
@@ -433,13 +381,13 @@ impl<C: Varies> Outwards<'_, C> {
     }
 
     /// The criteria at a value, which is reached then; where there is no such case they fail.
-    fn look(&mut self, at: f64, step: f64, how: Look) -> Result<Looked, C::Error> {
+    fn look(&mut self, at: f64, step: f64, how: Depth) -> Result<Looked, C::Error> {
         let judged = self.number.judged(at, how)?.unwrap_or_default();
         // A place that is looked at again is known better then.
         self.reached.retain(|one| one[0] != at);
         self.reached.extend(judged.first().and_then(|first| Some([at, first.found?])));
         let outcome = if judged.is_empty() { Together::Fail } else { Together::of(&judged) };
-        let full = how.of(self.number.case) == Look::AsCheck;
+        let full = how.of(self.number.case) == Depth::AsCheck;
         Ok(Looked { at, outcome, full, blurred: is_blurred(&judged), step })
     }
 }

@@ -4,7 +4,7 @@
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{RngCore, SeedableRng};
 
-use super::{Look, Together, Varies};
+use super::{Depth, Together, Varies};
 use crate::case::Distribution;
 use crate::executor::{Executor, map};
 use crate::motions::wilson;
@@ -59,7 +59,7 @@ impl Reliability {
             return Ok(None);
         }
         let drawn = drawn(&uncertain, count);
-        let come_to = |errors: &[(Uncertain, f64)], how: Look| {
+        let come_to = |errors: &[(Uncertain, f64)], how: Depth| {
             // What leaves no system meets nothing.
             let Some(case) = case.deviating(errors) else { return Ok(Together::Fail) };
             if case.fails_unflown()? {
@@ -67,7 +67,7 @@ impl Reliability {
             }
             case.judge(effort, how).map(|judged| Together::of(&judged))
         };
-        let found = map(on, "designs", drawn.len(), |k| come_to(&drawn[k], Look::AsCheck));
+        let found = map(on, "designs", drawn.len(), |k| come_to(&drawn[k], Depth::AsCheck));
         let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
         let failed: Vec<&Vec<(Uncertain, f64)>> = drawn
             .iter()
@@ -79,7 +79,7 @@ impl Reliability {
         let saved = map(on, "causes", failed.len() * count, |k| {
             let mut errors = failed[k / count].clone();
             errors.remove(k % count);
-            come_to(&errors, Look::OnTheWay).map(|found| found == Together::Hold)
+            come_to(&errors, Depth::OnTheWay).map(|found| found == Together::Hold)
         });
         let saved = saved.into_iter().collect::<Result<Vec<_>, _>>()?;
         let times = |k: usize| saved.iter().skip(k).step_by(count).filter(|saved| **saved).count();
@@ -98,8 +98,8 @@ impl Reliability {
 
     /// Designs that are drawn for a case; 0 where nothing is uncertain.
     pub fn samples(case: &impl Varies) -> u32 {
-        let is_drawn = case.has_criteria() && !case.uncertain().is_empty();
-        if is_drawn { case.samples().unwrap_or(SAMPLES) } else { 0 }
+        let is_drawn = !case.criteria().is_empty() && case.uncertainty().is_any();
+        if is_drawn { case.uncertainty().samples.unwrap_or(SAMPLES) } else { 0 }
     }
 
     /// The share of the designs drawn that hold, and between which probabilities that of the criteria lies: from none of those

@@ -1,14 +1,15 @@
 //! Cases of one mode with one absorber as a search for ranges sees them.
 
-use super::{Look, Together, Uncertain, Varied, Varies};
+use super::{Depth, Together, Uncertain, Varied, Varies};
 use crate::band::{Band, Survey, SurveySettings};
-use crate::case::Case;
+use crate::case::{Case, Criterion, Uncertainty};
 use crate::criteria::contact::{judge_in_contact, judge_transient_in_contact};
 use crate::criteria::{self, Judged};
 use crate::excitation::Transient;
 use crate::executor::Serial;
 use crate::flights::{DrivenError, Places};
 use crate::motions::{BandEffort, Effort};
+use crate::system::Parameter;
 use crate::transient::Study;
 
 /// How thoroughly a band is looked at on the way, and starts of a place.
@@ -25,16 +26,20 @@ impl Varies for Case {
     type Effort = Effort;
     type Error = DrivenError;
 
-    fn parts(&self, number: Varied) -> Vec<Option<usize>> {
-        number.parameter(self).map(|_| None).into_iter().collect()
+    fn parameter(&self, number: Varied) -> Option<Parameter> {
+        number.parameter(self)
     }
 
-    fn value(&self, number: Varied, _: Option<usize>) -> Option<f64> {
-        self.design.value(number.parameter(self)?)
+    fn parts(&self, _: Parameter) -> Vec<Option<usize>> {
+        vec![None]
     }
 
-    fn with(&self, number: Varied, _: Option<usize>, value: f64) -> Option<Self> {
-        self.varied(number.parameter(self)?, value)
+    fn number(&self, number: Parameter, _: Option<usize>) -> Option<f64> {
+        self.design.value(number)
+    }
+
+    fn with(&self, number: Parameter, _: Option<usize>, value: f64) -> Option<Self> {
+        self.varied(number, value)
     }
 
     fn tolerance(&self, number: Varied) -> Option<(f64, f64)> {
@@ -56,7 +61,7 @@ impl Varies for Case {
         self.design.transient().is_none() && self.range().is_point()
     }
 
-    fn judge(&self, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
+    fn judge(&self, effort: &Effort, how: Depth) -> Result<Vec<Judged>, DrivenError> {
         judge(self, effort, how.of(self))
     }
 
@@ -64,17 +69,12 @@ impl Varies for Case {
         criteria::kept_without_absorber(self)
     }
 
-    fn has_criteria(&self) -> bool {
-        !self.criteria.is_empty()
+    fn criteria(&self) -> &[Criterion] {
+        &self.criteria
     }
 
-    fn samples(&self) -> Option<u32> {
-        self.uncertainty.samples
-    }
-
-    fn uncertain(&self) -> Vec<Uncertain> {
-        let all = self.uncertainty.parameters();
-        all.map(|(parameter, errors)| Uncertain { parameter, of: None, errors }).collect()
+    fn uncertainty(&self) -> &Uncertainty {
+        &self.uncertainty
     }
 
     fn deviating(&self, errors: &[(Uncertain, f64)]) -> Option<Self> {
@@ -88,17 +88,17 @@ impl Varies for Case {
         if unflown.criteria.is_empty() || !criteria::needs_simulation(&self.criteria) {
             return Ok(false);
         }
-        Ok(Together::of(&unflown.judge(&self.effort(), Look::AsCheck)?) == Together::Fail)
+        Ok(Together::of(&unflown.judge(&self.effort(), Depth::AsCheck)?) == Together::Fail)
     }
 }
 
 /// The criteria of a case.
-fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
+fn judge(case: &Case, effort: &Effort, how: Depth) -> Result<Vec<Judged>, DrivenError> {
     let Some(transient) = case.design.transient() else {
         return judge_band(case, effort, how);
     };
     let even = case.absorber_places().unwrap_or_default();
-    let in_full = how != Look::OnTheWay;
+    let in_full = how != Depth::OnTheWay;
     let most = match transient {
         _ if in_full => even,
         Transient::Release(_) => even,
@@ -117,14 +117,14 @@ fn judge(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenE
 }
 
 /// Those of a case that is driven steadily.
-fn judge_band(case: &Case, effort: &Effort, how: Look) -> Result<Vec<Judged>, DrivenError> {
+fn judge_band(case: &Case, effort: &Effort, how: Depth) -> Result<Vec<Judged>, DrivenError> {
     let survey = |effort: Effort| {
         let settings = criteria::settings(case);
         let settings = SurveySettings { effort: settings.effort.map(|_| effort), ..settings };
         Survey::of(&case.range(), &settings, None, &Serial)
     };
     let again = |band: &Band, settings: &SurveySettings| Survey::of(band, settings, None, &Serial);
-    if how == Look::AsCheck {
+    if how == Depth::AsCheck {
         return Ok(judge_in_contact(case, &survey(*effort)?, *effort, again)?);
     }
     // Most of a search goes into telling a long transient from a motion: first it counts as one, and then places that do not

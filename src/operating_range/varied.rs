@@ -76,7 +76,7 @@ impl Varied {
     }
 
     /// Whether steps are added, and not factors.
-    fn is_added(self) -> bool {
+    pub(super) const fn is_added(self) -> bool {
         matches!(self, Self::Restitution | Self::Inclination | Self::Friction)
     }
 

@@ -5,7 +5,7 @@ use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, ModalCase};
 use vinesink::executor::Serial;
 use vinesink::modal::ModalAnswer;
-use vinesink::operating_range::{HoldsFor, Reliability, Together, Varied, holds_for};
+use vinesink::operating_range::{HoldsFor, Reliability, Together, Varied, Varies, holds_for};
 
 use super::choice::{checked, fails, with};
 
@@ -175,4 +175,22 @@ fn what_cannot_be_uncertain_of_several_is_refused() {
     let own = reduced.replace("absorber_mass = 0.01\n", "damping_ratio = 0.001\n");
     let case = ModalCase::parse("case.toml", &own).expect("a case");
     assert_eq!(case.uncertainty.parameters().count(), 2);
+}
+
+/// A design fails before anything is flown where a criterion does that exact orbits decide, and only there.
+#[test]
+fn what_needs_no_simulation_decides_first() {
+    let with = |asked: &str| {
+        let text = with_idle_mode("")
+            .replace("peak_displacement = { limit = '<= 2.2 mm', place = 'a' }", asked);
+        ModalCase::parse("case.toml", &text).expect("a case")
+    };
+    let peak = "peak_displacement = '<= 1 nm'\n";
+    for (asked, fails) in [
+        (format!("{peak}margin_clearance = '>= 99 %'"), true),
+        (format!("{peak}margin_clearance = '>= 1 %'"), false),
+        (peak.to_owned(), false),
+    ] {
+        assert_eq!(with(&asked).fails_unflown().expect("nothing is flown"), fails, "{asked}");
+    }
 }

@@ -7,6 +7,7 @@ mod file;
 mod listing;
 mod load;
 mod mode;
+mod number;
 mod place;
 mod read;
 mod reduced;
@@ -34,6 +35,7 @@ use crate::quantity::catalogue as of;
 use vinesink_core::names;
 
 pub use listing::{ListedMode, ModesListing};
+pub use number::is_of_absorber;
 pub(super) use place::find_place;
 pub(super) use read::ModalFile;
 pub use sweep::ModalSweep;

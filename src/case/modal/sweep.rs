@@ -6,14 +6,14 @@ use serde_json::Value;
 
 use super::load::{LoadKind, LoadTable};
 use super::mode::ModeTable;
+use super::number::is_of_absorber;
 use super::read::ModalAbsorberTable;
-use super::{ActsOn, Load, ModalCase, PlacedAbsorber};
+use super::{ActsOn, Load, ModalCase};
 use crate::case::number::Form;
 use crate::case::reader::{Reader, Table};
 use crate::case::schema::of_table;
 use crate::case::sweep::{SweepSettings, axes_among, with_axes_of};
 use crate::quantity::Kind;
-use crate::quantity::catalogue as of;
 use crate::system::Parameter;
 
 /// What the case says about its sweep.
@@ -100,14 +100,14 @@ pub(super) fn read_sweep(
     let load = numbered("excitation", read.excitation, case.loads.len());
     let absorber = numbered("absorber", read.absorber, case.absorbers.len());
     let (load, absorber) = (load?, absorber?);
-    let of_load = AXES.into_iter().find(|one| is_of_load(*one) && table.has(one.key()));
+    let of_load = AXES.into_iter().find(|one| !is_of_absorber(*one) && table.has(one.key()));
     if let (Some(axis), None, [_, _, ..]) = (of_load, load, &case.loads[..]) {
         let message = format!("`{}` is of one excitation, and there are several", axis.key());
         let help = "write excitation = 1 for the first one; it then acts alone";
         reader.report(table.span_of(axis.key()), message, "expected `excitation` beside it", help);
         return None;
     }
-    let of_absorber = AXES.into_iter().any(|one| !is_of_load(one) && table.has(one.key()));
+    let of_absorber = AXES.into_iter().any(|one| is_of_absorber(one) && table.has(one.key()));
     if absorber.is_some() && !of_absorber {
         let message = "`absorber` has no meaning where no number of an absorber varies";
         let expected = "expected `clearance`, `restitution` or `absorber_mass` beside it";
@@ -123,38 +123,22 @@ pub(super) fn read_sweep(
     Some(ModalSweep { settings, load, absorber })
 }
 
-/// Whether a parameter is of an excitation, not of an absorber.
-fn is_of_load(parameter: Parameter) -> bool {
-    matches!(parameter, Parameter::Frequency | Parameter::Amplitude)
-}
-
-impl PlacedAbsorber {
-    /// Its number that a parameter is; none of one that is not an absorber's.
-    fn number(&mut self, parameter: Parameter) -> Option<&mut f64> {
-        match parameter {
-            Parameter::Clearance => Some(&mut self.clearance_m),
-            Parameter::Restitution => Some(&mut self.restitution),
-            Parameter::AbsorberMass => Some(&mut self.mass_kg),
-            _ => None,
-        }
-    }
-}
-
 impl ModalCase {
     /// What an axis of its sweep is.
     pub fn kind(&self, parameter: Parameter) -> &'static Kind {
-        match parameter {
-            Parameter::Frequency => &of::EXCITATION_FREQUENCY,
-            Parameter::Amplitude => self.loads[self.swept_load().unwrap_or(0)].amplitude_kind(),
-            Parameter::Restitution => &of::RESTITUTION,
-            Parameter::AbsorberMass => &of::ABSORBER_MASS,
-            _ => &of::CLEARANCE,
-        }
+        self.kind_of(parameter, self.swept_load())
     }
 
     /// The load that alone acts in its sweep.
     fn swept_load(&self) -> Option<usize> {
         self.sweep.as_ref()?.load
+    }
+
+    /// The parts whose number an axis of its sweep is.
+    fn swept(&self, parameter: Parameter) -> Vec<Option<usize>> {
+        let absorber = self.sweep.as_ref().and_then(|sweep| sweep.absorber);
+        let one = if is_of_absorber(parameter) { absorber } else { self.swept_load() };
+        one.map_or_else(|| self.parts_of(parameter), |one| vec![Some(one)])
     }
 
     /// The case at a point of its sweep, by its place on each axis in SI units: with the load alone that the sweep names. The case
@@ -164,41 +148,21 @@ impl ModalCase {
         let SweepSettings { axes, starts, periods, .. } = &sweep.settings;
         let mut case =
             Self { starts: *starts, starts_at_one: *starts, periods: *periods, ..self.clone() };
-        if let Some(load) = sweep.load {
-            case.loads = vec![self.loads[load]];
-        }
-        let varied = |k: usize| sweep.absorber.is_none_or(|one| one == k);
         for (axis, value) in axes.iter().zip(coordinates) {
-            for load in &mut case.loads {
-                match axis.parameter {
-                    Parameter::Frequency => load.range_hz = [*value; 2],
-                    Parameter::Amplitude => load.amplitude = *value,
-                    _ => {}
-                }
+            for of in self.swept(axis.parameter) {
+                case.set(axis.parameter, of, *value);
             }
-            let all = case.absorbers.iter_mut().enumerate().filter(|(k, _)| varied(*k));
-            for number in all.filter_map(|(_, one)| one.number(axis.parameter)) {
-                *number = *value;
-            }
+        }
+        if let Some(load) = sweep.load {
+            case.loads = vec![case.loads[load]];
         }
         case
     }
 
     /// The case's own value of what an axis varies, where all that it varies have the same.
     pub fn own_value(&self, parameter: Parameter) -> Option<f64> {
-        let absorber = self.sweep.as_ref().and_then(|sweep| sweep.absorber);
-        let loads = self.swept_load().map_or(&self.loads[..], |load| &self.loads[load..=load]);
-        let absorbers = absorber.map_or(&self.absorbers[..], |k| &self.absorbers[k..=k]);
-        let of_loads = loads.iter().filter_map(|load| match parameter {
-            Parameter::Frequency => {
-                (load.range_hz[0] == load.range_hz[1]).then_some(load.range_hz[0])
-            }
-            Parameter::Amplitude => Some(load.amplitude),
-            _ => None,
-        });
-        let of_absorbers =
-            absorbers.iter().filter_map(|one| one.clone().number(parameter).copied());
-        let mut all = of_loads.chain(of_absorbers);
+        let all = self.swept(parameter);
+        let mut all = all.into_iter().filter_map(|of| self.number(parameter, of));
         let first = all.next()?;
         all.all(|one| one == first).then_some(first)
     }

@@ -2,32 +2,17 @@
 
 use serde_json::{Value, json};
 
-use crate::case::ModalCase;
+use crate::case::{ModalCase, is_of_absorber};
 use crate::method::Method;
-use crate::modal::{ModalAnswer, parameter};
-use crate::operating_range::Uncertain;
-use crate::quantity::catalogue as of;
-use crate::quantity::{Kind, Quantity};
+use crate::modal::ModalAnswer;
+use crate::operating_range::{Uncertain, Varies};
+use crate::quantity::Quantity;
 use crate::report::document::{range, reliability};
 use crate::system::Parameter;
 
-/// What a number is.
-fn kind_of(case: &ModalCase, number: Parameter, of: Option<usize>) -> &'static Kind {
-    match number {
-        Parameter::Amplitude => case.loads[of.unwrap_or_default()].amplitude_kind(),
-        Parameter::NaturalFrequency => &of::NATURAL_FREQUENCY,
-        Parameter::DampingRatio => &of::DAMPING_RATIO,
-        Parameter::Mass => &of::OSCILLATOR_MASS,
-        Parameter::Restitution => &of::RESTITUTION,
-        Parameter::AbsorberMass => &of::ABSORBER_MASS,
-        _ => &of::CLEARANCE,
-    }
-}
-
 /// A row about a number with which absorber or load it is of, where there are several, and that it is of all modes.
 fn placed(case: &ModalCase, number: Parameter, part: Option<usize>, mut row: Value) -> Value {
-    let of_absorber =
-        matches!(number, Parameter::Clearance | Parameter::Restitution | Parameter::AbsorberMass);
+    let of_absorber = is_of_absorber(number);
     match part {
         Some(k) if of_absorber => row["absorber"] = json!(k + 1),
         Some(k) => row["load"] = json!(k + 1),
@@ -43,8 +28,8 @@ fn placed(case: &ModalCase, number: Parameter, part: Option<usize>, mut row: Val
 /// The ranges of a case: rows as CONTRACT.md has them, and facts of the templates.
 pub(super) fn rows(case: &ModalCase, answer: &ModalAnswer) -> (Vec<Value>, Vec<Value>) {
     let each = answer.holds_for.iter().filter_map(|found| {
-        let number = parameter(found.parameter)?;
-        let (row, told) = range(found, kind_of(case, number, found.of), !case.reduced);
+        let number = case.parameter(found.parameter)?;
+        let (row, told) = range(found, case.kind_of(number, found.of), !case.reduced);
         let placed = |row: Value| placed(case, number, found.of, row);
         Some((placed(row), placed(told)))
     });
@@ -55,7 +40,7 @@ pub(super) fn rows(case: &ModalCase, answer: &ModalAnswer) -> (Vec<Value>, Vec<V
 pub(super) fn probability(case: &ModalCase, answer: &ModalAnswer) -> Value {
     let told = |one: &Uncertain| {
         let value = case.number(one.parameter, one.of).unwrap_or_default();
-        let kind = kind_of(case, one.parameter, one.of);
+        let kind = case.kind_of(one.parameter, one.of);
         let row = json!({ "value": Quantity::new(kind, value, Method::Given) });
         placed(case, one.parameter, one.of, row)
     };
