@@ -33,24 +33,29 @@ fn one(omega: f64) -> (System, ModalSystem) {
 }
 
 fn forced(omega: f64, force: f64, restitution: f64) -> (System, ModalSystem) {
+    both(EPS, ZETA, omega, force, restitution)
+}
+
+/// The same of a mass ratio and a damping ratio.
+fn both(eps: f64, zeta: f64, omega: f64, force: f64, restitution: f64) -> (System, ModalSystem) {
     let parameters = Parameters {
-        mass_ratio: EPS,
-        damping: 2.0 * ZETA / EPS,
+        mass_ratio: eps,
+        damping: 2.0 * zeta / eps,
         restitution,
         frequency_ratio: omega,
-        forcing_per_clearance: force / EPS,
+        forcing_per_clearance: force / eps,
         excitation: Excitation::Force,
         cavity: Cavity::IDEAL,
     };
     let mode = Mode {
         frequency: 1.0,
-        damping_ratio: ZETA,
+        damping_ratio: zeta,
         mass: 1.0,
         forcing: force,
         shape: vec![1.0],
         ..Mode::default()
     };
-    let absorber = ModalAbsorber { mass: EPS, clearance: 1.0, restitution };
+    let absorber = ModalAbsorber { mass: eps, clearance: 1.0, restitution };
     let modal = ModalParameters {
         modes: vec![mode],
         absorbers: vec![absorber],
@@ -97,6 +102,27 @@ fn the_motion_of_one_mode_and_one_absorber_is_its_exact_orbit() {
         led += orbit.starts;
     }
     assert!(seen > 1 && led > 0, "{seen} orbits attract, {led} starts lead to one");
+}
+
+/// Orbits whose basins are a third of the states around the structure's motion alone, and that no start has which is on that motion
+/// itself, however large: starts cover displacement and velocity of each mode.
+#[test]
+fn starts_cover_the_states_that_those_of_one_mode_cover() {
+    for [eps, zeta, restitution, over, omega] in
+        [[0.0924, 0.005, 0.218, 0.962, 0.93], [0.0703, 0.02, 0.754, 6.91, 1.0]]
+    {
+        let amplitude = libm::hypot(1.0 - omega * omega, 2.0 * zeta * omega);
+        let (system, modal) = both(eps, zeta, omega, over * amplitude, restitution);
+        let found = motions(&[Place::new(&system, 32)], &Effort::over(1000), &Serial);
+        let found = found.expect("motions").remove(0);
+        let peaks = found.iter().filter(|one| one.repeats_after().is_some());
+        let most = peaks.map(|one| one.facts().peak.value).fold(0.0, f64::max);
+        let place = [Sensor::displacement(vec![1.0])];
+        let several = modal_motions(&modal, &place, effort(32, 1000), &[]).expect("motions");
+        let peaks = several.iter().filter(|one| one.repeats_after.is_some());
+        let other = peaks.map(|one| one.sensors[0].peak).fold(0.0, f64::max);
+        assert!((other / most - 1.0).abs() < 1e-6, "{eps}: {other}, of one mode {most}");
+    }
 }
 
 /// What repeats of drawn designs with such a restitution.
