@@ -96,7 +96,7 @@ fn decide(
     let drawn = answer.alternatives.as_ref().map(|found| {
         let ranges = &answer.holds_for;
         [
-            choice::figure(case, found, document),
+            choice::figure(case.units(), found, document),
             choice::over_amplitude(case, found, ranges, document),
         ]
     });

@@ -19,6 +19,8 @@ const SIMPLEX: [f64; 2] = [0.02, 0.3];
 /// a kink where they are equal, at which a simplex may collapse early.
 const STEPS: u64 = 120;
 const RESTARTS: u32 = 3;
+/// What a restart saves of the cost of several dampers at least.
+const ENOUGH: f64 = 1e-4;
 /// The same of a sweep, each of whose passages is many periods.
 const STEPS_OF_SWEEP: u64 = 40;
 /// How often the way to the largest damping is halved.
@@ -61,13 +63,13 @@ impl AtBound {
 const NEAR: f64 = 1e-3;
 
 /// Tuning, over the frequency that it is for, and damping ratio of a damper by their logarithms, within what makes sense.
-pub(crate) fn within_bounds([tuning, damping_ratio]: [f64; 2]) -> [f64; 2] {
+fn within_bounds([tuning, damping_ratio]: [f64; 2]) -> [f64; 2] {
     let within = |logarithm: f64, [least, most]: [f64; 2]| libm::exp(logarithm).clamp(least, most);
     [within(tuning, TUNED_WITHIN), within(damping_ratio, DAMPED_WITHIN)]
 }
 
 /// By which the cost grows beyond what makes sense: a simplex that strays comes back.
-pub(crate) fn penalty([tuning, damping_ratio]: [f64; 2]) -> f64 {
+fn penalty([tuning, damping_ratio]: [f64; 2]) -> f64 {
     let beyond = |logarithm: f64, ends: [f64; 2]| {
         let [least, most] = ends.map(libm::log);
         (least - logarithm).max(logarithm - most).max(0.0)
@@ -80,7 +82,7 @@ pub(crate) fn penalty([tuning, damping_ratio]: [f64; 2]) -> f64 {
 pub struct Designing {
     /// Its damping ratio, where it is given.
     pub damping: Option<f64>,
-    /// Steps of a simplex, and restarts.
+    /// Steps of a simplex for each damper, and restarts.
     pub steps: u64,
     /// See [`Self::steps`].
     pub restarts: u32,
@@ -89,6 +91,12 @@ pub struct Designing {
 impl Designing {
     /// Of tuning and damping.
     pub const USUAL: Self = Self { damping: None, steps: STEPS, restarts: RESTARTS };
+
+    /// Where a damper ended at a bound of the search; a ratio that is given is none that was looked for.
+    fn bound_of(&self, damper: &TunedMassDamper) -> Option<AtBound> {
+        let damping_ratio = if self.damping.is_some() { 1.0 } else { damper.damping_ratio };
+        AtBound::of(damper.tuning, damping_ratio)
+    }
 }
 
 /// Damping ratios and so many steps between all tunings, of which the best is where a simplex begins once more that ended at a
@@ -102,9 +110,17 @@ pub fn best(
     how: Designing,
     cost: impl Fn(&TunedMassDamper) -> f64,
 ) -> TunedMassDamper {
+    best_together(&[from], how, |one| cost(&one[0]))[0]
+}
+
+/// The same of dampers that are used together, each tuned to a frequency of its own.
+pub fn best_together(
+    from: &[TunedMassDamper],
+    how: Designing,
+    cost: impl Fn(&[TunedMassDamper]) -> f64,
+) -> Vec<TunedMassDamper> {
     let found = beside(from, how, &cost);
-    let damping_ratio = if how.damping.is_some() { 1.0 } else { found.damping_ratio };
-    if AtBound::of(found.tuning, damping_ratio).is_none() {
+    if !found.iter().any(|one| how.bound_of(one).is_some()) {
         return found;
     }
     let (steps, dampings) = match how.damping {
@@ -116,46 +132,67 @@ pub fn best(
         let tuning = least * libm::pow(most / least, f64::from(k) / f64::from(steps));
         dampings.iter().map(move |damping| TunedMassDamper { tuning, damping_ratio: *damping })
     });
-    let by_cost = |a: &TunedMassDamper, b: &TunedMassDamper| cost(a).total_cmp(&cost(b));
-    let other = others.min_by(by_cost).map(|first| beside(first, how, &cost));
-    [Some(found), other].into_iter().flatten().min_by(by_cost).unwrap_or(found)
+    // Of several that which ended at a bound, beside the others as they are.
+    let others = others.flat_map(|other| {
+        let there = |k: &usize| how.bound_of(&found[*k]).is_some();
+        let found = &found;
+        (0..found.len()).filter(there).map(move |k| {
+            let mut all = found.clone();
+            all[k] = other;
+            all
+        })
+    });
+    let others: Vec<Vec<TunedMassDamper>> = others.collect();
+    let by_cost = |a: &Vec<TunedMassDamper>, b: &Vec<TunedMassDamper>| cost(a).total_cmp(&cost(b));
+    let other = others.into_iter().min_by(by_cost).map(|first| beside(&first, how, &cost));
+    let better = other.filter(|other| by_cost(other, &found).is_lt());
+    better.unwrap_or(found)
 }
 
 /// The same from one place to begin at.
 fn beside(
-    from: TunedMassDamper,
+    from: &[TunedMassDamper],
     how: Designing,
-    cost: &impl Fn(&TunedMassDamper) -> f64,
-) -> TunedMassDamper {
-    let mut best = vec![libm::log(from.tuning)];
-    if how.damping.is_none() {
-        best.push(libm::log(from.damping_ratio));
-    }
+    cost: &impl Fn(&[TunedMassDamper]) -> f64,
+) -> Vec<TunedMassDamper> {
+    let logarithms = |one: &TunedMassDamper| {
+        let damping = how.damping.is_none().then(|| libm::log(one.damping_ratio));
+        std::iter::once(libm::log(one.tuning)).chain(damping)
+    };
+    let each = if how.damping.is_none() { 2 } else { 1 };
     let damper = |logarithms: &[f64]| {
         let logarithm = logarithms.get(1).copied();
         let [tuning, damping] = within_bounds([logarithms[0], logarithm.unwrap_or_default()]);
         let damping_ratio = logarithm.map_or(how.damping.unwrap_or_default(), |_| damping);
         TunedMassDamper { tuning, damping_ratio }
     };
-    let cost = |logarithms: &[f64]| {
+    let dampers = |all: &[f64]| all.chunks(each).map(damper).collect::<Vec<_>>();
+    let cost = |all: &[f64]| {
         // A ratio that is given is within.
-        let damping = logarithms.get(1).copied().unwrap_or_default();
-        penalty([logarithms[0], damping]) * cost(&damper(logarithms))
+        let beyond =
+            all.chunks(each).map(|one| penalty([one[0], one.get(1).copied().unwrap_or_default()]));
+        beyond.product::<f64>() * cost(&dampers(all))
     };
-    let sizes = &SIMPLEX[..best.len()];
-    damper(&simplex(best, sizes, how.steps, how.restarts, cost))
+    let sizes: Vec<f64> = from.iter().flat_map(|_| SIMPLEX[..each].iter().copied()).collect();
+    let steps = how.steps * from.len() as u64;
+    let restarts = how.restarts * from.len() as u32;
+    let start = from.iter().flat_map(logarithms).collect();
+    // One damper is cheap.
+    let enough = if from.len() > 1 { ENOUGH } else { 0.0 };
+    dampers(&simplex(start, &sizes, [steps, restarts.into()], enough, cost))
 }
 
-/// Where a simplex that begins at a place, with these sizes along each axis, finds the smallest cost; it begins so many times
-/// again where it ended.
-pub(crate) fn simplex(
+/// Where a simplex that begins at a place, with these sizes along each axis, finds the smallest cost in so many steps; it begins
+/// again where it ended, so often, unless that has saved less than a share of it.
+fn simplex(
     mut best: Vec<f64>,
     sizes: &[f64],
-    steps: u64,
-    restarts: u32,
+    [steps, restarts]: [u64; 2],
+    enough: f64,
     cost: impl Fn(&[f64]) -> f64,
 ) -> Vec<f64> {
     let of = Cost(cost);
+    let mut before = f64::INFINITY;
     for _ in 0..restarts {
         let mut simplex = vec![best.clone(); best.len() + 1];
         for k in 0..best.len() {
@@ -165,8 +202,13 @@ pub(crate) fn simplex(
             .configure(|state| state.max_iters(steps))
             .timer(false)
             .run();
-        let found = run.ok().and_then(|run| run.state().get_best_param().cloned());
-        best = found.unwrap_or(best);
+        let Some(found) = run.ok() else { continue };
+        best = found.state().get_best_param().cloned().unwrap_or(best);
+        let least = found.state().get_best_cost();
+        if before - least < enough * before {
+            break;
+        }
+        before = least;
     }
     best
 }
@@ -213,15 +255,24 @@ fn known<const N: usize>(
     })
 }
 
-/// The same damper with as much more damping as it takes to fit, or as makes sense.
+/// The same dampers with as much more damping, each in proportion, as it takes to fit, or as makes sense of the first.
 pub fn more_damped(
-    from: TunedMassDamper,
-    fits: impl Fn(&TunedMassDamper) -> bool,
-) -> TunedMassDamper {
-    let with = |damping_ratio: f64| TunedMassDamper { damping_ratio, ..from };
-    let [mut least, mut most] = [from.damping_ratio, DAMPED_WITHIN[1]];
-    if fits(&from) || least >= most {
-        return from;
+    from: &[TunedMassDamper],
+    fits: impl Fn(&[TunedMassDamper]) -> bool,
+) -> Vec<TunedMassDamper> {
+    let Some(first) = from.first() else { return Vec::new() };
+    let with = |damping_ratio: f64| {
+        let others = from.iter().skip(1).map(|one| {
+            let damping_ratio = damping_ratio * (one.damping_ratio / first.damping_ratio);
+            TunedMassDamper { damping_ratio, ..*one }
+        });
+        std::iter::once(TunedMassDamper { damping_ratio, ..*first })
+            .chain(others)
+            .collect::<Vec<_>>()
+    };
+    let [mut least, mut most] = [first.damping_ratio, DAMPED_WITHIN[1]];
+    if fits(from) || least >= most {
+        return from.to_vec();
     }
     for _ in 0..HALVINGS {
         let middle = (least * most).sqrt();

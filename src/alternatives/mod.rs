@@ -1,23 +1,25 @@
-//! An honest choice: what nothing, the absorber and a tuned mass damper of its mass come to over the band, release, sweep or
-//! record of a case, as designed, in the room of the absorber, without a damping medium, and where the structure's natural
-//! frequency is another than was thought.
+//! An honest choice: what nothing, the absorbers and tuned mass dampers of their mass come to under the loads, or over the band,
+//! release, sweep or record of a case, as designed, in the room of the absorbers, without a damping medium, and where the structure's
+//! natural frequencies are others than were thought.
 
 mod drifted_case;
+mod drifting;
 
 use serde::Serialize;
 
-use crate::band::{Survey, SurveySettings, Worst};
-use crate::case::Case;
-use crate::criteria;
-use crate::dampers::{self, AtBound, Designing, more_damped};
-use crate::excitation::Scene;
-use crate::executor::Executor;
-use crate::flights::{DrivenError, Places};
+use crate::band::Survey;
+use crate::case::{AlternativesSettings, Case, Relation};
+use crate::dampers::{AtBound, Designing};
+use crate::executor::{Executor, map};
+use crate::flights::DrivenError;
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
-use crate::motions::{BandEffort, Effort, along};
+use crate::motions::Effort;
 use crate::transient::Study;
-use drifted_case::DriftedCase;
+use drifted_case::{DriftedCase, as_designed, asked, own};
+
+pub use drifting::Dampers;
+pub(crate) use drifting::Drifting;
 
 /// Which room a device has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -53,9 +55,9 @@ pub enum Which {
     RobustDamper,
 }
 
-/// A device and what the structure does with it where its natural frequency is off by a share, at the worse end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+/// A device and what the structure does with it where its natural frequencies are off by a share, at the worse end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row<D = TunedMassDamper> {
     /// The device.
     pub device: Device,
     /// Its room.
@@ -66,26 +68,28 @@ pub struct Row {
     pub given_damping: Option<f64>,
     /// Whether its own frequency is another than designed.
     pub changed: bool,
-    /// Share by which the natural frequency is off, either way.
+    /// Share by which the natural frequencies are off, either way.
     pub drift: f64,
     /// What was asked, in SI or the units of a reduced case; the error as that of the measure.
     pub worst: [f64; 2],
     /// Displacement against the structure, in the same; none of no device.
     pub stroke: Option<f64>,
-    /// The damper.
-    pub damper: Option<TunedMassDamper>,
+    /// The damper, or several that are used together.
+    pub damper: Option<D>,
 }
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Alternatives {
+pub struct Alternatives<D = TunedMassDamper> {
     /// What is compared: the peak, or what the first criterion asks about.
     pub measure: Measure,
+    /// What is asked at most of that, where it is.
+    pub limit: Option<f64>,
     /// Whether the absorber's worst is that of one which stays at rest, so that the structure is as good as alone.
     pub inactive: bool,
     /// One row for each device, room and drift.
-    pub rows: Vec<Row>,
-    /// What becomes of it as the structure's natural frequency drifts.
+    pub rows: Vec<Row<D>>,
+    /// X.
     pub over_drift: OverDrift,
 }
 
@@ -98,23 +102,10 @@ pub struct OverDrift {
     pub dampers: [Vec<[f64; 2]>; 2],
 }
 
-/// Places along a band where its structure is another: the error says what they may miss.
-const BAND: BandEffort =
-    BandEffort { even: 13, starts: 6, starts_between: 2, most: 60, tolerance: 0.05 };
-/// Places of the absorber under a record, each of which is long.
-const PLACES_OF_RECORD: u64 = 8;
-/// How much more than its room a penalty takes the stroke of a damper for: an optimum at the edge stays there.
-const PENALTY: f64 = 20.0;
-
 /// Relative error of a designed damper and of what it does, which a simplex finds: from other starts it came to within 2e-7.
 pub const DESIGN: f64 = 1e-6;
 /// Points of a line over the drift.
 const POINTS: u32 = 40;
-/// Dampers from the best of which one for little room is looked for: tunings over the usual one, and so many steps of equal
-/// ratio from its damping to a heavy one.
-const TUNINGS: [f64; 3] = [0.95, 1.0, 1.05];
-const DAMPINGS: u32 = 8;
-const HEAVY: f64 = 4.0;
 
 /// What is known of a case.
 #[derive(Clone, Copy)]
@@ -138,83 +129,163 @@ impl Alternatives {
         on: &dyn Executor,
     ) -> Result<Option<Self>, DrivenError> {
         let measure = asked(case);
-        let found = own(case, known, measure).filter(|([worst, _], _)| *worst > 0.0);
-        let Some((own, inactive)) = found else { return Ok(None) };
-        let Some(here) = DriftedCase::of(case, measure, 1.0) else { return Ok(None) };
-        let usual = as_designed(known, &here);
-        let equal = here.designed(&[], usual, Some(1.0), None);
-        let over_drift = OverDrift { absorber: vec![(0.0, own)], ..OverDrift::default() };
-        let rows = vec![Row::of(Device::Absorber, own, 0.0).with_stroke(case.design.clearance())];
-        let mut found = Self { measure, inactive, rows, over_drift };
-        let drifts = found.add_absorber(case, known.effort, on)?;
-        for device in linear(case, &here, usual, equal) {
-            found.rows.extend(device.at(std::slice::from_ref(&here), 0.0));
-            found.rows.extend(drifts.iter().filter_map(|(drift, ends)| device.at(ends, *drift)));
+        let Some((worst, inactive)) = own(case, known, measure) else { return Ok(None) };
+        let here = DriftedCase::of(case, measure, known.effort);
+        let mut criteria = case.criteria.iter();
+        let limit = criteria.find(|one| one.measure == measure && one.relation == Relation::AtMost);
+        let limit = limit.map(|one| one.limit);
+        let own = Own { measure, limit, inactive, worst };
+        let usual = vec![as_designed(known, &here)];
+        Self::beside(&here, own, usual, &case.alternatives, on)
+    }
+}
+
+/// What is known of the absorbers.
+pub(crate) struct Own {
+    pub measure: Measure,
+    pub limit: Option<f64>,
+    pub inactive: bool,
+    /// What is asked, with its error.
+    pub worst: [f64; 2],
+}
+
+impl<D: Dampers> Alternatives<D> {
+    /// Beside absorbers those dampers that are best for the case, each with what comes of it; the best first. None where nothing moves.
+    ///
+    /// # Errors
+    /// Where a motion of the absorbers cannot be flown.
+    pub(crate) fn beside<S: Drifting<Dampers = D> + Sync>(
+        here: &S,
+        own: Own,
+        mut usual: Vec<D>,
+        settings: &AlternativesSettings,
+        on: &dyn Executor,
+    ) -> Result<Option<Self>, S::Error> {
+        let Own { measure, limit, inactive, worst } = own;
+        if worst[0] <= 0.0 || usual.is_empty() {
+            return Ok(None);
         }
-        for (drift, ends) in drifts.iter().filter(|_| !here.is_of_one_frequency()) {
-            let damper = Some(here.designed(ends, usual, None, None));
-            let all = ends.iter().chain([&here]);
-            let told = Row { robust_for: *drift, damper, ..Row::of(Device::Damper, [0.0; 2], 0.0) };
-            found.rows.extend(told.at(all, *drift));
+        let by_worst = |a: &Row<D>, b: &Row<D>| a.worst[0].total_cmp(&b.worst[0]);
+        let reach = |one: &D| here.told(Some(one), Room::AsDesigned)[0];
+        usual.sort_by(|a, b| reach(a).total_cmp(&reach(b)));
+        let over_drift = OverDrift { absorber: vec![(0.0, worst)], ..OverDrift::default() };
+        let rows = vec![Row::of(Device::Absorber, worst, 0.0).with_stroke(here.room())];
+        let mut found = Self { measure, limit, inactive, rows, over_drift };
+        let drifts = found.add_absorber(here, &settings.drift, on)?;
+        // Designs for a drift are of no use at a single frequency.
+        let robust = drifts.iter().filter(|_| !here.is_of_one_frequency()).map(Some);
+        let kinds: Vec<Option<&(f64, Vec<S>)>> = [None, None].into_iter().chain(robust).collect();
+        let metal = Some(settings.damper_damping);
+        let designed = |k: usize| {
+            let (kind, from) = (k / usual.len(), &usual[k % usual.len()]);
+            let as_designed = Room::AsDesigned;
+            match kinds[kind] {
+                Some((_, ends)) => here.designed(ends, from, as_designed, None),
+                None if kind == 0 => here.designed(&[], from, Room::Equal, None),
+                None => here.designed(&[], from, as_designed, metal),
+            }
+        };
+        let count = kinds.len() * usual.len();
+        let mut all = map(on, "tuned mass dampers", count, designed).into_iter();
+        let mut next = || all.by_ref().take(usual.len()).map(Row::with).collect::<Vec<_>>();
+        let equal = next().into_iter().map(|row| Row { room: Room::Equal, ..row });
+        let equal: Vec<Row<D>> = equal.collect();
+        let plain = next().into_iter().map(|row| Row { given_damping: metal, ..row });
+        let plain: Vec<Row<D>> = plain.collect();
+        let mut devices = vec![vec![Row::of(Device::Without, [0.0; 2], 0.0)]];
+        let usual_rows = || usual.iter().cloned().map(Row::with);
+        devices.push(usual_rows().collect());
+        devices.push(equal);
+        if here.has_stops() {
+            devices.push(usual_rows().map(|row| Row { room: Room::Stops, ..row }).collect());
         }
-        found.add_lines(case, &here, [usual, equal]);
+        devices.push(plain);
+        if let Some(factor) = settings.damper_frequency_factor {
+            let changed = |one: &D| Row { changed: true, ..Row::with(one.retuned(factor)) };
+            devices.push(usual.iter().map(changed).collect());
+        }
+        for mut alike in devices {
+            let there = |row: &Row<D>| row.at(std::slice::from_ref(here), 0.0);
+            alike = alike.iter().filter_map(there).collect();
+            alike.sort_by(by_worst);
+            for device in alike {
+                let off = drifts.iter().filter_map(|(drift, ends)| device.at(ends, *drift));
+                let off: Vec<Row<D>> = off.collect();
+                found.rows.push(device);
+                found.rows.extend(off);
+            }
+        }
+        for (drift, ends) in kinds.iter().flatten() {
+            let told = next().into_iter().map(|row| Row { robust_for: *drift, ..row });
+            let told = told.filter_map(|row| row.at(ends.iter().chain([here]), *drift));
+            let mut alike: Vec<Row<D>> = told.collect();
+            alike.sort_by(by_worst);
+            found.rows.extend(alike);
+        }
+        let furthest = settings.drift.last().copied().unwrap_or_default();
+        let best = |which| found.row(which, 0.0).and_then(|row| row.damper.clone());
+        if let (Some(usual), Some(equal)) = (best(Which::Damper), best(Which::DamperInEqualRoom)) {
+            found.add_lines(here, furthest, [&usual, &equal]);
+        }
         Ok(Some(found))
     }
 
-    /// Adds what becomes of the absorber where the structure's frequency is off; gives the structures at both ends of each
+    /// Adds what becomes of the absorbers where the structure's frequencies are off; gives the structures at both ends of each
     /// drift.
-    fn add_absorber(
+    fn add_absorber<S: Drifting<Dampers = D>>(
         &mut self,
-        case: &Case,
-        effort: &Effort,
+        here: &S,
+        drifts: &[f64],
         on: &dyn Executor,
-    ) -> Result<Vec<(f64, Vec<DriftedCase>)>, DrivenError> {
-        let mut drifts = Vec::new();
-        for drift in &case.alternatives.drift {
+    ) -> Result<Vec<(f64, Vec<S>)>, S::Error> {
+        let mut found = Vec::new();
+        for drift in drifts {
             let mut worst: Option<[f64; 2]> = None;
             let mut ends = Vec::new();
             for factor in [1.0 - drift, 1.0 + drift] {
-                let Some(there) = DriftedCase::of(case, self.measure, factor) else { continue };
-                if let Some(found) = absorber(&there.case, self.measure, effort, on)? {
-                    self.over_drift.absorber.push((factor - 1.0, found));
+                let Some(there) = here.drifted(factor) else { continue };
+                if let Some(told) = there.absorber(on)? {
+                    self.over_drift.absorber.push((factor - 1.0, told));
                     let reach = |one: [f64; 2]| one[0] + one[1];
-                    worst = Some(worst.filter(|one| reach(*one) > reach(found)).unwrap_or(found));
+                    worst = Some(worst.filter(|one| reach(*one) > reach(told)).unwrap_or(told));
                 }
                 ends.push(there);
             }
-            let row = |worst| Row::of(Device::Absorber, worst, *drift);
-            let row = worst.map(|worst| row(worst).with_stroke(case.design.clearance()));
-            self.rows.extend(row);
-            drifts.push((*drift, ends));
+            let row = |worst| Row::of(Device::Absorber, worst, *drift).with_stroke(here.room());
+            self.rows.extend(worst.map(row));
+            found.push((*drift, ends));
         }
         self.over_drift.absorber.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Ok(drifts)
+        Ok(found)
     }
 
-    /// Adds the lines of two dampers over the drift. A passage or a record is long: there they are known where the absorber
-    /// is.
-    fn add_lines(&mut self, case: &Case, here: &DriftedCase, dampers: [TunedMassDamper; 2]) {
-        let furthest = case.alternatives.drift.last().copied().unwrap_or_default();
+    /// Adds the lines of two dampers over the drift. What takes long is known where the absorbers are.
+    fn add_lines<S: Drifting<Dampers = D>>(&mut self, here: &S, furthest: f64, dampers: [&D; 2]) {
         let at = |k: u32| (2.0 * f64::from(k) / f64::from(POINTS) - 1.0) * furthest;
         let drifts: Vec<f64> = match here.designing() == Designing::USUAL {
             true => (0..=POINTS).map(at).collect(),
             false => self.over_drift.absorber.iter().map(|(drift, _)| *drift).collect(),
         };
         for drift in drifts {
-            let Some(there) = DriftedCase::of(case, self.measure, 1.0 + drift) else { continue };
-            for (line, damper) in self.over_drift.dampers.iter_mut().zip(&dampers) {
+            let Some(there) = here.drifted(1.0 + drift) else { continue };
+            for (line, damper) in self.over_drift.dampers.iter_mut().zip(dampers) {
                 line.push([drift, there.told(Some(damper), Room::AsDesigned)[0]]);
             }
         }
     }
 
-    /// The row of a device at a drift.
-    pub fn row(&self, which: Which, drift: f64) -> Option<&Row> {
-        self.rows.iter().find(|row| row.which() == which && row.drift == drift)
+    /// The row of a device at a drift; of several that are called the same the best.
+    pub fn row(&self, which: Which, drift: f64) -> Option<&Row<D>> {
+        self.all(which, drift).next()
+    }
+
+    /// All of these, the best first.
+    pub fn all(&self, which: Which, drift: f64) -> impl Iterator<Item = &Row<D>> {
+        self.rows.iter().filter(move |row| row.which() == which && row.drift == drift)
     }
 }
 
-impl Row {
+impl<D> Row<D> {
     /// What it is called.
     pub fn which(&self) -> Which {
         match (self.device, self.room) {
@@ -227,14 +298,6 @@ impl Row {
             _ if self.given_damping.is_some() => Which::DamperWithoutMedium,
             _ => Which::Damper,
         }
-    }
-
-    /// What its damper is where the search for it ended at a bound; none where it did not, or its numbers were given.
-    pub fn at_bound(&self) -> Option<AtBound> {
-        let damper = self.damper.filter(|_| !self.changed)?;
-        // A ratio that is given is none that was looked for.
-        let damping_ratio = if self.given_damping.is_some() { 1.0 } else { damper.damping_ratio };
-        AtBound::of(damper.tuning, damping_ratio)
     }
 
     /// A device as designed, without any damper's numbers.
@@ -252,175 +315,43 @@ impl Row {
         }
     }
 
+    /// Dampers as designed.
+    fn with(damper: D) -> Self {
+        Self { damper: Some(damper), ..Self::of(Device::Damper, [0.0; 2], 0.0) }
+    }
+
     fn with_stroke(self, stroke: f64) -> Self {
         Self { stroke: Some(stroke), ..self }
     }
+}
 
+impl<D: Dampers> Row<D> {
     /// The same linear device at a drift, on the worst of some structures.
-    fn at<'a>(&self, all: impl IntoIterator<Item = &'a DriftedCase>, drift: f64) -> Option<Self> {
+    fn at<'a, S: Drifting<Dampers = D> + 'a>(
+        &self,
+        all: impl IntoIterator<Item = &'a S>,
+        drift: f64,
+    ) -> Option<Self> {
         let told = all.into_iter().map(|one| one.told(self.damper.as_ref(), self.room));
         let [worst, stroke] = told.reduce(larger)?;
-        let error = if self.damper.is_some() { DESIGN * worst } else { 0.0 };
-        Some(Self { worst: [worst, error], stroke: self.damper.map(|_| stroke), drift, ..*self })
+        let is_damper = self.damper.is_some();
+        let error = if is_damper { D::DESIGN * worst } else { 0.0 };
+        let stroke = is_damper.then_some(stroke);
+        Some(Self { worst: [worst, error], stroke, drift, ..self.clone() })
     }
 }
 
-/// No device, and every damper but those that are designed for a drift.
-fn linear(
-    case: &Case,
-    here: &DriftedCase,
-    usual: TunedMassDamper,
-    equal: TunedMassDamper,
-) -> Vec<Row> {
-    let damper = |of| Row { damper: Some(of), ..Row::of(Device::Damper, [0.0; 2], 0.0) };
-    let mut all = vec![
-        Row::of(Device::Without, [0.0; 2], 0.0),
-        damper(usual),
-        Row { room: Room::Equal, ..damper(equal) },
-    ];
-    if here.has_stops() {
-        all.push(Row { room: Room::Stops, ..damper(usual) });
+impl Row {
+    /// What its damper is where the search for it ended at a bound; none where it did not, or its numbers were given.
+    pub fn at_bound(&self) -> Option<AtBound> {
+        let damper = self.damper.filter(|_| !self.changed)?;
+        // A ratio that is given is none that was looked for.
+        let damping_ratio = if self.given_damping.is_some() { 1.0 } else { damper.damping_ratio };
+        AtBound::of(damper.tuning, damping_ratio)
     }
-    let metal = case.alternatives.damper_damping;
-    let plain = here.designed(&[], usual, None, Some(metal));
-    all.push(Row { given_damping: Some(metal), ..damper(plain) });
-    let changed = |factor| TunedMassDamper { tuning: factor * usual.tuning, ..usual };
-    let changed = case.alternatives.damper_frequency_factor.map(changed);
-    all.extend(changed.map(|of| Row { changed: true, ..damper(of) }));
-    all
 }
 
-fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+/// The larger of two values and of two strokes.
+pub(crate) fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].max(b[0]), a[1].max(b[1])]
-}
-
-/// What devices are compared by: what the first criterion asks about, where a damper has a closed form of it.
-fn asked(case: &Case) -> Measure {
-    let first = case.criteria.first().map(|one| one.measure);
-    match (case.design.scene(), first) {
-        (Scene::Release, _) => Measure::DecayTime,
-        (_, Some(asked)) if asked.of_sine(1.0, 1.0).is_some() => asked,
-        _ => Measure::Peak,
-    }
-}
-
-/// What the first criterion of a case that is driven steadily found, and whether in an absorber that stays at rest.
-fn by_first_criterion(case: &Case, survey: &Survey) -> Option<([f64; 2], bool)> {
-    let judged = criteria::judge(case, survey).into_iter().next()?;
-    Some(([judged.found?, judged.error], judged.inactive.is_some()))
-}
-
-/// The absorber as every page tells it, and whether that is one which stays at rest.
-fn own(case: &Case, known: Known<'_>, measure: Measure) -> Option<([f64; 2], bool)> {
-    let units = case.units();
-    if let Some(study) = known.study {
-        let found = study.quantity(&units, measure, Device::Absorber)?;
-        let inactive = matches!(study, Study::Release(of) if of.decay().inactive);
-        return Some(([found.value, found.error], inactive));
-    }
-    if measure != Measure::Peak {
-        return by_first_criterion(case, known.survey?);
-    }
-    let worst = known.survey?.worst()?;
-    let peak = [worst.peak.value, worst.peak.error].map(|one| units.length(one));
-    Some((peak, worst.motion.rest().is_some()))
-}
-
-/// The absorber in another structure.
-fn absorber(
-    case: &Case,
-    measure: Measure,
-    effort: &Effort,
-    on: &dyn Executor,
-) -> Result<Option<[f64; 2]>, DrivenError> {
-    let units = case.units();
-    if case.design.transient().is_none() {
-        let effort = Effort { band: BAND, ..effort.short() };
-        if measure != Measure::Peak {
-            let settings = SurveySettings { effort: Some(effort), ..criteria::settings(case) };
-            let survey = Survey::of(&case.range(), &settings, None, on)?;
-            return Ok(by_first_criterion(case, &survey).map(|(found, _)| found));
-        }
-        let found = along(&case.range(), &[], None, Some(&effort), on)?;
-        let worst = Worst::of(&found, case.count_inactive);
-        return Ok(worst.map(|one| [one.peak.value, one.peak.error].map(|one| units.length(one))));
-    }
-    let even = case.absorber_places().unwrap_or_default();
-    let even = if case.recording.is_some() { even.min(PLACES_OF_RECORD) } else { even };
-    let closer = case.recording.is_none();
-    let places = Places { even, closer, shaking: measure.is_of_shaking(), executor: on };
-    let Some(study) = Study::brief_of_case(case, places) else { return Ok(None) };
-    let study = study?;
-    let found = study.quantity(&units, measure, Device::Absorber);
-    Ok(found.map(|found| [found.value, found.error]))
-}
-
-/// The damper of the same mass that is designed for what is asked, as every page tells it.
-fn as_designed(known: Known<'_>, here: &DriftedCase) -> TunedMassDamper {
-    match (known.study, known.survey) {
-        (Some(Study::Release(study)), _) => study.damped().0,
-        (Some(Study::Sweep(study)), _) => study.damped().0,
-        (Some(Study::Record(study)), _) => study.damper,
-        (None, Some(survey)) => survey.rivals().damper,
-        (None, None) => TunedMassDamper::den_hartog(here.case.system().mass_ratio()),
-    }
-}
-
-impl DriftedCase {
-    /// For a single frequency the best damper would be undamped, and of no use beside it: that of Den Hartog keeps its
-    /// tuning, and gets the damping that is given or as much more as its room asks for.
-    fn at_one_frequency(
-        &self,
-        from: TunedMassDamper,
-        room: Option<f64>,
-        damping: Option<f64>,
-    ) -> TunedMassDamper {
-        let with = |damping_ratio: f64| TunedMassDamper { damping_ratio, ..from };
-        if let Some(damping) = damping {
-            return with(damping);
-        }
-        let room = room.map_or(f64::INFINITY, |room| room * self.case.design.clearance());
-        more_damped(from, |damper| self.told(Some(damper), Room::AsDesigned)[1] <= room)
-    }
-
-    /// The damper whose worst value over this structure and others is smallest, within a room over the clearance, of a
-    /// damping that may be given.
-    fn designed(
-        &self,
-        others: &[Self],
-        from: TunedMassDamper,
-        room: Option<f64>,
-        damping: Option<f64>,
-    ) -> TunedMassDamper {
-        if self.is_of_one_frequency() {
-            return self.at_one_frequency(from, room, damping);
-        }
-        let how = Designing { damping, ..self.designing() };
-        let all: Vec<&Self> = others.iter().chain([self]).collect();
-        let clearance = self.case.design.clearance();
-        let cost = |damper: &TunedMassDamper| {
-            let found = all.iter().map(|one| one.told(Some(damper), Room::AsDesigned));
-            let [worst, stroke] = found.reduce(larger).unwrap_or([f64::INFINITY; 2]);
-            let beyond = room.map_or(0.0, |room| (stroke / (room * clearance) - 1.0).max(0.0));
-            worst * (1.0 + PENALTY * beyond)
-        };
-        let Some(room) = room else { return dampers::best(from, how, cost) };
-        // What keeps a damper in little room may be far from what it does with much: from its damping up to a multiple of the
-        // critical one.
-        let ratio = HEAVY / from.damping_ratio.clamp(1e-6, 0.5 * HEAVY);
-        let heavier = |k: u32| libm::pow(ratio, f64::from(k) / f64::from(DAMPINGS));
-        let others = TUNINGS.iter().flat_map(|tuning| {
-            (0..=DAMPINGS).map(move |k| TunedMassDamper {
-                tuning: tuning * from.tuning,
-                damping_ratio: from.damping_ratio * heavier(k),
-            })
-        });
-        let first = others.chain([from]).min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        let found = dampers::best(first.unwrap_or(from), how, cost);
-        let fits = |damper: &TunedMassDamper| {
-            let strokes = all.iter().map(|one| one.told(Some(damper), Room::AsDesigned)[1]);
-            strokes.fold(0.0, f64::max) <= (1.0 + DESIGN) * room * clearance
-        };
-        more_damped(found, fits)
-    }
 }

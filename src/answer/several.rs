@@ -10,17 +10,21 @@ use crate::operating_range::{Reliability, Together};
 pub const ORDINARY: f64 = 60.0;
 /// See [`ORDINARY`].
 pub const ORDINARY_PROBABILITY: f64 = 180.0;
+/// About how many times a `check` of the case the two structures of a drift take, with half of its starts each.
+const OF_DRIFT: f64 = 1.2;
 
 /// What is left out where it would take too long.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LeftOut {
+    /// What else could be done in place of the absorbers.
+    Alternatives,
     /// How far numbers may change.
     Ranges,
     /// With which probability all criteria hold.
     Probability,
 }
 
-/// An answer with what `told` says beside the criteria: how far numbers may change, and with which probability all hold where some are
+/// An answer with what `told` says beside the criteria: what else could be done, how far numbers may change, and with which probability all hold where some are
 /// uncertain. `affords` says of each, by about how many seconds it takes and whether that is ordinary, whether it is looked for.
 ///
 /// # Errors
@@ -36,6 +40,9 @@ pub fn decided(
     let affords = |what: LeftOut, checks: f64, ordinary: f64| {
         checks > 0.0 && affords(what, own * checks, own * (1.0 + checks) <= ordinary)
     };
+    let drifts = if told.alternatives { case.alternatives.drift.len() } else { 0 };
+    let compares = affords(LeftOut::Alternatives, OF_DRIFT * drifts as f64, ORDINARY);
+    let answer = if compares { answer.compared(case, on)? } else { answer };
     // Where a criterion fails there is no range.
     let may_hold = !answer.judged.is_empty() && Together::of(&answer.judged) != Together::Fail;
     let checks = if may_hold { looks(case, told.ranges) } else { 0.0 };

@@ -27,6 +27,7 @@ const COMBINED: u64 = 2 * 16;
 const ORDINARY_SWEEP: f64 = 3600.0;
 
 /// What is left out, where it is.
+const ALTERNATIVES: &str = "the tuned mass dampers beside the absorber are";
 const RANGES: &str = "the ranges over which the criteria hold are";
 const PROBABILITY: &str = "the probability that the criteria hold is";
 
@@ -59,8 +60,7 @@ impl Long {
         };
         let allowed = |what: &str, variants: u64| allowed_in(ORDINARY, what, variants);
         Decided {
-            alternatives: asked.alternatives
-                && allowed("the tuned mass dampers beside the absorber are", DRIFTS),
+            alternatives: asked.alternatives && allowed(ALTERNATIVES, DRIFTS),
             ranges: match variants(case, asked) {
                 0 => &[],
                 some if allowed(RANGES, some) => asked.ranges,
@@ -86,6 +86,7 @@ impl Long {
         is_ordinary: bool,
     ) -> bool {
         let what = match what {
+            LeftOut::Alternatives => ALTERNATIVES,
             LeftOut::Ranges => RANGES,
             LeftOut::Probability => PROBABILITY,
         };

@@ -50,7 +50,7 @@ fn explains(path: &str, key: &str) -> bool {
 
 /// What names an element of a list, by the list's key; elements of others are numbered.
 const NATURAL_KEYS: [(&str, &[&str]); 12] = [
-    ("alternatives", &["which", "drift"]),
+    ("alternatives", &["which", "drift", "dampers"]),
     ("answers", &["question"]),
     ("boundaries", &["kind", "branch"]),
     ("claims", &["id"]),
@@ -455,6 +455,10 @@ fn named<'v>(list: &str, items: &'v [Value]) -> BTreeMap<String, &'v Value> {
         let words = natural.map(|(_, keys)| {
             let words = keys.iter().filter_map(|key| match &item[*key] {
                 Value::String(text) => Some(without_numbers(text)),
+                // One damper is what a device is unless told.
+                Value::Number(count) if *key == "dampers" => {
+                    count.as_u64().filter(|count| *count > 1).map(|count| format!("of {count}"))
+                }
                 // Of several loads or absorbers which.
                 Value::Number(number) if number.is_u64() => Some(format!("{key} {number}")),
                 // Any other number that names an element is a share.

@@ -10,7 +10,7 @@ use crate::quantity::Kind;
 use crate::quantity::catalogue::Dimension;
 
 /// Quantities that a reviewer looks at first, by path, the most important first.
-const HEADLINES: [&str; 31] = [
+const HEADLINES: [&str; 29] = [
     "absorbers",
     "band/worst/peak",
     "band/worst/change",
@@ -24,12 +24,10 @@ const HEADLINES: [&str; 31] = [
     "ranges/from",
     "ranges/to",
     "loads/forces/limits",
-    "worst_off/peak",
     "quantities/impacts_per_period",
     "quantities/impact_speed",
     "band/bare/peak",
     "loads/bare/peak",
-    "off/worst/peak",
     "band/damper/peak",
     "band/stable_share",
     "band/z3_share",
@@ -45,7 +43,7 @@ const HEADLINES: [&str; 31] = [
 ];
 
 /// Those before this one are of the structure with its absorber.
-const FURTHER_HEADLINES: usize = 16;
+const FURTHER_HEADLINES: usize = 15;
 
 /// The same of what has no size. Those before [`FURTHER_STATES`] are told before the fold.
 const STATES: [&str; 9] = [
@@ -63,7 +61,7 @@ const STATES: [&str; 9] = [
 const FURTHER_STATES: usize = 6;
 
 /// What a reader calls the keys of a document; others are called as they are.
-const WORDS: [(&str, &str); 25] = [
+const WORDS: [(&str, &str); 23] = [
     ("absorbers", "absorber"),
     ("alternatives", ""),
     ("answers", "answer"),
@@ -79,7 +77,6 @@ const WORDS: [(&str, &str); 25] = [
     ("main", "main motion"),
     ("most", "largest possible"),
     ("motions", "motion"),
-    ("off", "natural frequencies off"),
     ("orbits", "exact orbit"),
     ("places", "motions"),
     ("quantities", ""),
@@ -88,7 +85,6 @@ const WORDS: [(&str, &str); 25] = [
     ("stretches", "stable range"),
     ("theory", ""),
     ("winner", "better device"),
-    ("worst_off", "natural frequencies off, worst"),
 ];
 
 /// The place of a path in an order, by itself or by what holds it; after the end where it has none.

@@ -72,6 +72,15 @@ impl AlongEffort {
         patience: [OF_MANY, IN_FULL],
         most_in_full: 4,
     };
+    /// Another structure, beside the one that decides.
+    pub const COARSE: Self = Self {
+        further: 6,
+        tolerance: 0.1,
+        parts: [3, 6],
+        at_one: 16,
+        patience: [OF_MANY, IN_FULL],
+        most_in_full: 1,
+    };
     /// Enough to see where a limit may be missed, before that is looked at in full.
     pub const SCREENING: Self = Self {
         further: 4,
@@ -284,8 +293,9 @@ impl AlongLoad {
             let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
             (found.into_iter().map(|found| (from, found)).collect(), Vec::new())
         };
-        let bare = (0..case.places.len())
-            .map(|p| largest(load.range_hz, case, |at| amplitudes(case, load, at, &[]).places[p]));
+        let bare = (0..case.places.len()).map(|p| {
+            largest(load.range_hz, case, &[], |at| amplitudes(case, load, at, &[]).places[p])
+        });
         let places = places.into_iter().map(|one| one.1).collect();
         Ok(Self { load: *load, bare: bare.collect(), places, between })
     }

@@ -1,11 +1,11 @@
 //! What a report has beside the motions along the loads.
 
 use super::dampers::{DamperChoice, choices};
-use super::drift::{OffStructure, off_structures};
 use super::forces::OverForce;
 use super::orbits::at_resonances;
 use super::theory::LoadTheory;
 use super::{ModalAnswer, ModalError, modes_alone};
+use crate::alternatives::Which;
 use crate::case::ModalCase;
 use crate::executor::Executor;
 
@@ -18,8 +18,6 @@ pub struct Beside {
     pub alone: Vec<Option<[f64; 2]>>,
     /// For each load what it does with other amplitudes; none where there is no steady motion.
     pub forces: Vec<Option<OverForce>>,
-    /// Where the natural frequencies are off.
-    pub off: Vec<OffStructure>,
     /// What theory says of the modes that the loads drive.
     pub theory: Vec<LoadTheory>,
 }
@@ -38,10 +36,15 @@ impl Beside {
         let each = answer.along.iter().enumerate();
         let forces = each.map(|(k, along)| OverForce::of(case, along, worst(k), on));
         let forces = forces.collect::<Result<_, _>>()?;
-        let dampers = choices(case);
-        let off = off_structures(case, &dampers, on)?;
+        let compared = answer.alternatives.as_ref();
+        let usual =
+            compared.map(|all| all.all(Which::Damper, 0.0).filter_map(|row| row.damper.clone()));
+        let dampers = match usual {
+            Some(usual) => usual.map(|one| DamperChoice::of(case, one)).collect(),
+            None => choices(case),
+        };
         let orbits = at_resonances(case)?;
         let theory = orbits.into_iter().filter_map(|one| one.theory).collect();
-        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, off, theory })
+        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, theory })
     }
 }

@@ -1,23 +1,87 @@
 //! Tuned mass dampers beside the absorbers of a structure of several modes.
 
-use super::cost::cost;
-use super::linear::{
-    amplitudes, asked_of, largest, largest_peak, linear_most, linear_peak, linear_places,
-};
+use super::drift::DriftedStructure;
+use super::linear::{amplitudes, largest, largest_peak, linear_most, linear_peak};
+use crate::alternatives::{Dampers, Drifting, Room};
 use crate::case::{ActsOn, Load, ModalCase};
-use crate::dampers::{AtBound, penalty, simplex, within_bounds};
-use crate::linear::ModalDamper;
-use crate::measure::Measure;
+use crate::dampers::AtBound;
+use crate::linear::{ModalDamper, TunedMassDamper};
 
-/// Dampers of equal mass, together as heavy as the absorbers.
+/// Dampers of equal mass, together as heavy as the absorbers, each where its mode moves farthest.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DamperChoice {
-    /// The dampers; lengths in m, masses in kg, frequencies over the first mode's.
-    pub dampers: Vec<ModalDamper>,
+pub struct PlacedDampers {
+    /// Each, over the frequency of its mode.
+    pub each: Vec<TunedMassDamper>,
+    /// The modes that they are for.
+    pub modes: Vec<usize>,
     /// Where each is.
     pub places: Vec<usize>,
-    /// What each is where the search for it ended at a bound.
-    pub at_bound: Vec<Option<AtBound>>,
+    /// The mass of one, in kg.
+    pub mass_kg: f64,
+}
+
+impl Dampers for PlacedDampers {
+    /// Other starts of the simplex led to displacements that differ by up to as much.
+    const DESIGN: f64 = 1e-3;
+
+    fn each(&self) -> Vec<TunedMassDamper> {
+        self.each.clone()
+    }
+
+    fn with(&self, each: &[TunedMassDamper]) -> Self {
+        Self { each: each.to_vec(), ..self.clone() }
+    }
+}
+
+impl PlacedDampers {
+    /// Den Hartog's for these modes.
+    fn den_hartog(case: &ModalCase, modes: &[usize]) -> Self {
+        let mass_kg =
+            case.absorbers.iter().map(|one| one.mass_kg).sum::<f64>() / modes.len() as f64;
+        let (mut each, mut places) = (Vec::new(), Vec::new());
+        for k in modes {
+            let mode = &case.modes[*k];
+            let size = |p: &usize| mode.shape[*p].abs();
+            let place = (0..case.places.len()).max_by(|a, b| size(a).total_cmp(&size(b)));
+            let place = place.unwrap_or_default();
+            let ratio = mass_kg * mode.shape[place] * mode.shape[place] / mode.mass_kg;
+            each.push(TunedMassDamper::den_hartog(ratio));
+            places.push(place);
+        }
+        Self { each, modes: modes.to_vec(), places, mass_kg }
+    }
+
+    /// The natural frequency of each, in Hz.
+    pub fn frequencies_hz<'a>(&'a self, case: &'a ModalCase) -> impl Iterator<Item = f64> + 'a {
+        let each = self.each.iter().zip(&self.modes);
+        each.map(|(one, mode)| one.tuning * case.modes[*mode].frequency_hz)
+    }
+
+    /// The same on the structure of a case whose natural frequencies are so many times those that they were made for.
+    pub fn on(&self, case: &ModalCase, factor: f64) -> Vec<ModalDamper> {
+        let first = case.modes[0].frequency_hz;
+        let each = self.each.iter().zip(self.frequencies_hz(case)).zip(&self.places);
+        let damper = |((one, frequency), place): ((&TunedMassDamper, f64), &usize)| ModalDamper {
+            mass: self.mass_kg,
+            frequency: frequency / (factor * first),
+            damping_ratio: one.damping_ratio,
+            shape: case.modes.iter().map(|mode| mode.shape[*place]).collect(),
+        };
+        each.map(damper).collect()
+    }
+
+    /// What each is where the search for it ended at a bound; a damping ratio that is given was not looked for.
+    pub fn at_bound(&self, is_given: bool) -> Vec<Option<AtBound>> {
+        let ratio = |one: &TunedMassDamper| if is_given { 1.0 } else { one.damping_ratio };
+        self.each.iter().map(|one| AtBound::of(one.tuning, ratio(one))).collect()
+    }
+}
+
+/// Dampers, and what they do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DamperChoice {
+    /// The dampers.
+    pub dampers: PlacedDampers,
     /// The largest displacement under each load, of any place, in m.
     pub worst: Vec<f64>,
     /// The largest stroke of each damper under any load, in m.
@@ -26,27 +90,46 @@ pub struct DamperChoice {
     pub criteria: Vec<Option<f64>>,
 }
 
-/// Steps of a simplex, and how often it begins again where it ended.
-const STEPS: u64 = 150;
-const RESTARTS: u32 = 3;
-/// How far beside a single frequency dampers are to work, over it: one for that frequency alone is a spring without damping.
-const ASIDE: f64 = 0.02;
-/// What the largest displacement over that of the structure alone counts beside limits that are of something else: one that holds
-/// by a little more is not worth several times the vibration.
-const BESIDE: f64 = 0.1;
-/// Its first size in the logarithms of frequency and damping ratio.
-const SIMPLEX: [f64; 2] = [0.02, 0.3];
+impl DamperChoice {
+    /// What dampers that were made for a case do.
+    pub fn of(case: &ModalCase, dampers: PlacedDampers) -> Self {
+        let on = dampers.on(case, 1.0);
+        let stroke = |d: usize| {
+            let most = |load: &Load| {
+                largest(load.range_hz, case, &on, |at| amplitudes(case, load, at, &on).strokes[d])
+                    [0]
+            };
+            case.loads.iter().map(most).fold(0.0, f64::max)
+        };
+        Self {
+            worst: case.loads.iter().map(|load| largest_peak(case, load, &on)).collect(),
+            strokes: (0..on.len()).map(stroke).collect(),
+            criteria: case.criteria.iter().map(|one| linear_most(case, one, &on)).collect(),
+            dampers,
+        }
+    }
+}
 
 /// The best one damper and, of structures that several modes drive, one for each of these modes: tuned and damped so that what criteria
 /// ask for is smallest over what they allow, or without criteria the largest displacement of any place, under any load; under loads of
-/// one frequency each Den Hartog's. Each is where its mode moves most.
-pub fn choices(case: &ModalCase) -> Vec<DamperChoice> {
+/// one frequency each Den Hartog's.
+pub fn designs(case: &ModalCase) -> Vec<PlacedDampers> {
     let driven = driven_modes(case);
     let mut counts = vec![1];
     if driven.len() > 1 {
         counts.push(driven.len());
     }
-    counts.into_iter().map(|count| best(case, &driven, count)).collect()
+    let here = DriftedStructure::of(case);
+    let designed = |count: usize| {
+        let usual = PlacedDampers::den_hartog(case, &driven[..count]);
+        here.designed(&[], &usual, Room::AsDesigned, None)
+    };
+    counts.into_iter().map(designed).collect()
+}
+
+/// The same with what they do.
+pub fn choices(case: &ModalCase) -> Vec<DamperChoice> {
+    designs(case).into_iter().map(|one| DamperChoice::of(case, one)).collect()
 }
 
 /// The modes that a load is resonant with, the one that moves farthest first.
@@ -71,84 +154,4 @@ fn driven_modes(case: &ModalCase) -> Vec<usize> {
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let modes: Vec<usize> = found.into_iter().map(|(k, _)| k).collect();
     if modes.is_empty() { vec![0] } else { modes }
-}
-
-fn best(case: &ModalCase, modes: &[usize], count: usize) -> DamperChoice {
-    let mass = case.absorbers.iter().map(|one| one.mass_kg).sum::<f64>() / count as f64;
-    let first = case.modes[0].frequency_hz;
-    let (mut start, mut places, mut shapes, mut own) =
-        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for k in &modes[..count] {
-        let mode = &case.modes[*k];
-        let size = |p: &usize| mode.shape[*p].abs();
-        let place =
-            (0..case.places.len()).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or_default();
-        let ratio = mass * mode.shape[place] * mode.shape[place] / mode.mass_kg;
-        // Den Hartog's; tunings are over the frequency of its mode.
-        let tuned = 1.0 / (1.0 + ratio);
-        own.push(mode.frequency_hz / first);
-        let damping = (3.0 * ratio / (8.0 * (1.0 + ratio))).sqrt();
-        start.extend([libm::log(tuned), libm::log(damping)]);
-        shapes.push(case.modes.iter().map(|one| one.shape[place]).collect::<Vec<f64>>());
-        places.push(place);
-    }
-    let built = |logarithms: &[f64]| -> Vec<ModalDamper> {
-        let pairs = logarithms.chunks(2).zip(own.iter().zip(&shapes));
-        let damper = |(pair, (own, shape)): (&[f64], (&f64, &Vec<f64>))| {
-            let [tuning, damping_ratio] = within_bounds([pair[0], pair[1]]);
-            ModalDamper { mass, frequency: tuning * own, damping_ratio, shape: shape.clone() }
-        };
-        pairs.map(damper).collect()
-    };
-    let wide = |load: &Load| match load.range_hz {
-        [from, to] if from == to => [from * (1.0 - ASIDE), to * (1.0 + ASIDE)],
-        range => range,
-    };
-    let along: Vec<(&Load, Vec<f64>)> =
-        case.loads.iter().map(|load| (load, linear_places(wide(load), case))).collect();
-    let bare = case.loads.iter().map(|load| largest_peak(case, load, &[])).fold(0.0, f64::max);
-    let others = case.criteria.iter().any(|one| one.measure != Measure::Peak);
-    let cost = |logarithms: &[f64]| {
-        let dampers = built(logarithms);
-        let beyond: f64 = logarithms.chunks(2).map(|pair| penalty([pair[0], pair[1]])).product();
-        let (mut over, mut peak) = (vec![0.0_f64; case.criteria.len()], 0.0_f64);
-        for (load, all) in &along {
-            for at in all {
-                let there = amplitudes(case, load, *at, &dampers);
-                peak = there.places.iter().copied().fold(peak, f64::max);
-                for (over, one) in over.iter_mut().zip(&case.criteria) {
-                    let own = asked_of(case, one, &there, *at);
-                    *over = over.max(own.map_or(0.0, |own| one.part(own)));
-                }
-            }
-        }
-        beyond
-            * match case.criteria.is_empty() {
-                true => peak,
-                false => cost(&over) + if others { BESIDE * peak / bare } else { 0.0 },
-            }
-    };
-    let sizes: Vec<f64> = (0..start.len()).map(|k| SIMPLEX[k % 2]).collect();
-    // For loads of one frequency alone the best would be undamped and of no use beside it, as with one mode.
-    let is_range = |load: &Load| load.range_hz[0] < load.range_hz[1];
-    let dampers = match case.loads.iter().any(is_range) {
-        true => built(&simplex(start, &sizes, STEPS, RESTARTS, cost)),
-        false => built(&start),
-    };
-    let at_bound =
-        |(one, own): (&ModalDamper, &f64)| AtBound::of(one.frequency / own, one.damping_ratio);
-    let stroke = |d: usize| {
-        let most = |load: &Load| {
-            largest(load.range_hz, case, |at| amplitudes(case, load, at, &dampers).strokes[d])[0]
-        };
-        case.loads.iter().map(most).fold(0.0, f64::max)
-    };
-    DamperChoice {
-        worst: case.loads.iter().map(|load| largest_peak(case, load, &dampers)).collect(),
-        strokes: (0..count).map(stroke).collect(),
-        criteria: case.criteria.iter().map(|one| linear_most(case, one, &dampers)).collect(),
-        at_bound: dampers.iter().zip(&own).map(at_bound).collect(),
-        dampers,
-        places,
-    }
 }

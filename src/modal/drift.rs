@@ -1,72 +1,185 @@
-//! Absorbers and dampers on a structure whose natural frequencies are not those that they were made for.
+//! Alternatives to the absorbers of a structure of several modes, also where its natural frequencies are off.
 
-use super::dampers::DamperChoice;
-use super::linear::largest_peak;
+use super::along::AlongEffort;
+use super::cost::cost;
+use super::dampers::{PlacedDampers, designs};
+use super::linear::{
+    amplitudes, asked_of, largest, largest_peak, linear_most, places, resonances, response,
+};
 use super::{ModalAnswer, ModalError};
-use crate::case::ModalCase;
-use crate::criteria::{Judged, Worst};
+use crate::alternatives::{Alternatives, Drifting, Own, Room};
+use crate::case::{Criterion, Load, ModalCase, Relation};
+use crate::dampers::Designing;
 use crate::executor::Executor;
-use crate::linear::ModalDamper;
+use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse};
+use crate::measure::Measure;
+use crate::numerics::scan;
 
-/// By how much all natural frequencies are off, either way.
-const OFF: f64 = 0.1;
+/// How far beside a single frequency dampers are to work, over it: one for that frequency alone is a spring without damping.
+const ASIDE: f64 = 0.02;
+/// Pieces of a range, and steps beside each mode, in which a design is looked at beside its resonances.
+const DESIGN: [u32; 2] = [64, 8];
+/// What the largest displacement over that of the structure alone counts beside limits that are of something else: one that holds
+/// by a little more is not worth several times the vibration.
+const BESIDE: f64 = 0.1;
 
-/// The largest displacement of any place under any load where all natural frequencies are off; loads and devices stay.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OffStructure {
-    /// Natural frequencies over those of the case, less 1.
-    pub off: f64,
-    /// Without absorbers, in m.
-    pub bare: f64,
-    /// With the absorbers.
-    pub worst: Option<Worst>,
-    /// Its criteria.
-    pub criteria: Vec<Judged>,
-    /// With each choice of dampers, in m.
-    pub dampers: Vec<f64>,
+/// Its case, and where dampers are looked at in a design.
+pub(super) struct DriftedStructure {
+    case: ModalCase,
+    /// Natural frequencies over the case's own.
+    factor: f64,
+    /// What devices are compared by; the largest displacement where that is none.
+    asked: Option<Criterion>,
+    /// Frequencies in Hz along each load, with the structure alone; none where it has no steady motion by itself.
+    along: Vec<Vec<(f64, Option<ModalResponse>)>>,
+    /// The largest displacement of any place without absorbers, in m.
+    bare: f64,
 }
 
-/// The structure of a case a tenth lower and higher, searched with half of the starts in the usual windows.
+/// What devices are compared by: what the first criterion asks about, where dampers have a closed form of it.
+fn compared_by(case: &ModalCase) -> Option<&Criterion> {
+    case.criteria.first().filter(|one| one.measure.of_sine(1.0, 1.0).is_some())
+}
+
+/// Where dampers are looked at in a design, in Hz.
+fn wide(load: &Load) -> [f64; 2] {
+    match load.range_hz {
+        [from, to] if from == to => [from * (1.0 - ASIDE), to * (1.0 + ASIDE)],
+        range => range,
+    }
+}
+
+impl DriftedStructure {
+    /// That of a case.
+    pub fn of(case: &ModalCase) -> Self {
+        Self::with(case.clone(), 1.0)
+    }
+
+    fn with(case: ModalCase, factor: f64) -> Self {
+        let of_load = |load: &Load| {
+            let all = places(wide(load), &case, DESIGN).into_iter();
+            all.map(|at| (at, response(&case, load, at))).collect()
+        };
+        let along = case.loads.iter().map(of_load).collect();
+        let bare = case.loads.iter().map(|load| largest_peak(&case, load, &[])).fold(0.0, f64::max);
+        Self { asked: compared_by(&case).cloned(), along, bare, case, factor }
+    }
+
+    /// What dampers come to, and their largest stroke.
+    fn most(&self, dampers: &[ModalDamper]) -> [f64; 2] {
+        let case = &self.case;
+        let stroke = |load: &Load| {
+            let of = |at: f64| {
+                amplitudes(case, load, at, dampers).strokes.into_iter().fold(0.0, f64::max)
+            };
+            largest(load.range_hz, case, dampers, of)[0]
+        };
+        let strokes = case.loads.iter().map(stroke).fold(0.0, f64::max);
+        let asked = self.asked.as_ref().and_then(|asked| linear_most(case, asked, dampers));
+        let peak = || case.loads.iter().map(|load| largest_peak(case, load, dampers));
+        [asked.unwrap_or_else(|| peak().fold(0.0, f64::max)), strokes]
+    }
+}
+
+impl Drifting for DriftedStructure {
+    type Dampers = PlacedDampers;
+    type Error = ModalError;
+
+    fn drifted(&self, factor: f64) -> Option<Self> {
+        Some(Self::with(self.case.with_frequencies(factor), factor))
+    }
+
+    fn room(&self) -> f64 {
+        self.case.absorbers.iter().map(|one| one.clearance_m).fold(0.0, f64::max)
+    }
+
+    fn is_of_one_frequency(&self) -> bool {
+        self.case.loads.iter().all(|load| load.range_hz[0] == load.range_hz[1])
+    }
+
+    fn has_stops(&self) -> bool {
+        false
+    }
+
+    fn designing(&self) -> Designing {
+        Designing::USUAL
+    }
+
+    fn told(&self, dampers: Option<&PlacedDampers>, _: Room) -> [f64; 2] {
+        let on = dampers.map(|dampers| dampers.on(&self.case, self.factor));
+        self.most(&on.unwrap_or_default())
+    }
+
+    /// By how much limits are missed, or the largest displacement.
+    fn cost(&self, dampers: &PlacedDampers) -> [f64; 2] {
+        let case = &self.case;
+        let on = dampers.on(case, self.factor);
+        let (mut over, mut peak) = (vec![0.0_f64; case.criteria.len()], 0.0_f64);
+        let mut stroke = 0.0_f64;
+        let most = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
+        for (load, all) in case.loads.iter().zip(&self.along) {
+            let mut there: Vec<(f64, ModalAmplitudes)> = all
+                .iter()
+                .map(|(at, alone)| match alone {
+                    Some(alone) => (*at, alone.with(&on)),
+                    None => (*at, amplitudes(case, load, *at, &on)),
+                })
+                .collect();
+            let resonant = resonances(wide(load), case, &on).into_iter();
+            there.extend(resonant.map(|at| (at, amplitudes(case, load, at, &on))));
+            there.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let top = |of: &dyn Fn(f64, &ModalAmplitudes) -> f64| {
+                let values: Vec<[f64; 2]> =
+                    there.iter().map(|(at, there)| [*at, of(*at, there)]).collect();
+                scan::top(&values)
+            };
+            peak = peak.max(top(&|_, there| most(&there.places)));
+            stroke = stroke.max(top(&|_, there| most(&there.strokes)));
+            for (over, one) in over.iter_mut().zip(&case.criteria) {
+                let part = |at: f64, there: &ModalAmplitudes| {
+                    asked_of(case, one, there, at).map_or(0.0, |own| one.part(own))
+                };
+                *over = over.max(top(&part));
+            }
+        }
+        let others = case.criteria.iter().any(|one| one.measure != Measure::Peak);
+        let missed = cost(&over) + if others { BESIDE * peak / self.bare } else { 0.0 };
+        [if case.criteria.is_empty() { peak } else { missed }, stroke]
+    }
+
+    /// More coarsely than for the verdict, in windows of the usual length.
+    fn absorber(&self, on: &dyn Executor) -> Result<Option<[f64; 2]>, ModalError> {
+        let criteria = self.asked.iter().cloned().collect();
+        let case = ModalCase { periods: 0, criteria, ..self.case.clone() };
+        let answer = ModalAnswer::with(&case, &AlongEffort::COARSE, &[], on)?;
+        Ok(own(&case, &answer).map(|(worst, _)| worst))
+    }
+}
+
+/// What devices are compared by as the absorbers have it, with its error, and whether they rest in that motion.
+fn own(case: &ModalCase, answer: &ModalAnswer) -> Option<([f64; 2], bool)> {
+    if compared_by(case).is_some() {
+        let judged = answer.judged.first()?;
+        return Some(([judged.found?, judged.error], judged.inactive.is_some()));
+    }
+    let worst = answer.worst(case, None)?.found;
+    Some(([worst.value, worst.error], worst.rests()))
+}
+
+/// What else could be done in place of the absorbers of a case; none where nothing was found to compare with.
 ///
 /// # Errors
 /// [`ModalError`] where a motion cannot be flown.
-pub fn off_structures(
+pub(super) fn alternatives(
     case: &ModalCase,
-    dampers: &[DamperChoice],
+    answer: &ModalAnswer,
     on: &dyn Executor,
-) -> Result<Vec<OffStructure>, ModalError> {
-    [-OFF, OFF].into_iter().map(|off| OffStructure::of(case, off, dampers, on)).collect()
-}
-
-impl OffStructure {
-    fn of(
-        case: &ModalCase,
-        off: f64,
-        choices: &[DamperChoice],
-        on: &dyn Executor,
-    ) -> Result<Self, ModalError> {
-        let [starts, starts_at_one] =
-            [case.starts, case.starts_at_one].map(|starts| starts.div_ceil(2));
-        let there = case.with_frequencies(1.0 + off);
-        let case = &ModalCase { starts, starts_at_one, periods: 0, ..there };
-        let answer = ModalAnswer::of(case, on)?;
-        let linear = |dampers: &[ModalDamper]| {
-            case.loads.iter().map(|load| largest_peak(case, load, dampers)).fold(0.0, f64::max)
-        };
-        let with = |choice: &DamperChoice| {
-            // Their frequencies are over the first mode's.
-            let own = |one: &ModalDamper| ModalDamper {
-                frequency: one.frequency / (1.0 + off),
-                ..one.clone()
-            };
-            linear(&choice.dampers.iter().map(own).collect::<Vec<_>>())
-        };
-        Ok(Self {
-            off,
-            bare: linear(&[]),
-            worst: answer.worst(case, None),
-            criteria: answer.judged,
-            dampers: choices.iter().map(with).collect(),
-        })
-    }
+) -> Result<Option<Alternatives<PlacedDampers>>, ModalError> {
+    let Some((worst, inactive)) = own(case, answer) else { return Ok(None) };
+    let asked = compared_by(case);
+    let limit = asked.filter(|one| one.relation == Relation::AtMost).map(|one| one.limit);
+    let measure = asked.map_or(Measure::Peak, |one| one.measure);
+    let own = Own { measure, limit, inactive, worst };
+    let here = DriftedStructure::of(case);
+    Alternatives::beside(&here, own, designs(case), &case.alternatives, on)
 }

@@ -1,6 +1,6 @@
 //! What criteria ask of a structure of several modes, by what is known along its loads.
 
-use super::dampers::choices;
+use super::dampers::designs;
 use super::linear::linear_most;
 use super::orbits;
 use super::sensors::{Look, measured, parts};
@@ -174,7 +174,7 @@ pub(super) fn against(case: &ModalCase, asked: &Criterion) -> f64 {
         Some(Device::Damper) => {
             // The best of what moves, whatever else is asked.
             let case = ModalCase { criteria: Vec::new(), ..case.clone() };
-            choices(&case).iter().map(|one| with(&one.dampers)).fold(f64::NAN, f64::min)
+            designs(&case).iter().map(|one| with(&one.on(&case, 1.0))).fold(f64::NAN, f64::min)
         }
         _ => f64::NAN,
     }

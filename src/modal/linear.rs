@@ -1,7 +1,7 @@
 //! The structure along a load without absorbers, alone or with tuned mass dampers.
 
 use crate::case::{Criterion, Load, ModalCase, Of};
-use crate::linear::{ModalAmplitudes, ModalDamper};
+use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse, frequencies_with};
 use crate::numerics::scan;
 
 /// Pieces of a range in which the largest amplitude is looked for, beside ever closer ones around the modes.
@@ -13,6 +13,11 @@ const CLOSER: u32 = 16;
 const BESIDE: f64 = 1e-7;
 const DIVERGES: f64 = 1.5;
 
+/// The structure at a frequency in Hz without absorbers; none where it has no steady motion.
+pub(super) fn response(case: &ModalCase, load: &Load, at: f64) -> Option<ModalResponse> {
+    Some(ModalResponse::of(&case.system(load, at).ok()?, &case.shapes()))
+}
+
 /// Amplitudes at a frequency in Hz; infinite where nothing limits them.
 pub(super) fn amplitudes(
     case: &ModalCase,
@@ -20,10 +25,7 @@ pub(super) fn amplitudes(
     at: f64,
     dampers: &[ModalDamper],
 ) -> ModalAmplitudes {
-    let of = |at: f64| {
-        let system = case.system(load, at).ok()?;
-        Some(ModalAmplitudes::of(&system, dampers, &case.shapes()))
-    };
+    let of = |at: f64| Some(response(case, load, at)?.with(dampers));
     // At an undamped mode's own frequency it has no steady motion by itself, and has one with dampers that see it.
     let beside = || {
         let near = [1.0, 2.0].map(|times| of(at * (1.0 + times * BESIDE)));
@@ -51,7 +53,7 @@ pub fn linear_peak(case: &ModalCase, load: &Load, at: f64, dampers: &[ModalDampe
 /// The largest amplitude of any place along a load.
 pub(super) fn largest_peak(case: &ModalCase, load: &Load, dampers: &[ModalDamper]) -> f64 {
     let of_place = |p: usize| {
-        largest(load.range_hz, case, |at| amplitudes(case, load, at, dampers).places[p])[0]
+        largest(load.range_hz, case, dampers, |at| amplitudes(case, load, at, dampers).places[p])[0]
     };
     (0..case.places.len()).map(of_place).fold(0.0, f64::max)
 }
@@ -77,30 +79,53 @@ pub fn linear_most(case: &ModalCase, asked: &Criterion, dampers: &[ModalDamper])
         let of = |at: f64| {
             asked_of(case, asked, &amplitudes(case, load, at, dampers), at).unwrap_or_default()
         };
-        largest(load.range_hz, case, of)[0]
+        largest(load.range_hz, case, dampers, of)[0]
     };
     Some(case.loads.iter().map(along).fold(0.0, f64::max))
 }
 
 /// Frequencies in Hz at which it is looked at along a range, ascending.
 pub fn linear_places(range: [f64; 2], case: &ModalCase) -> Vec<f64> {
+    places(range, case, [PIECES, CLOSER])
+}
+
+/// The same by so many pieces, and steps on either side of each mode.
+pub(super) fn places(range: [f64; 2], case: &ModalCase, [pieces, closer]: [u32; 2]) -> Vec<f64> {
     let around = case.modes.iter().flat_map(|mode| {
         let width = mode.damping_ratio * mode.frequency_hz;
-        (0..=CLOSER).flat_map(move |k| {
-            let off = f64::from(k) / f64::from(CLOSER) * 2.0 * width;
+        (0..=closer).flat_map(move |k| {
+            let off = f64::from(k) / f64::from(closer) * 2.0 * width;
             [mode.frequency_hz - off, mode.frequency_hz + off]
         })
     });
     let within = around.filter(|at| (range[0]..=range[1]).contains(at));
-    let mut all: Vec<f64> = scan::places(range, PIECES).chain(within).collect();
+    let mut all: Vec<f64> = scan::places(range, pieces).chain(within).collect();
     all.sort_by(f64::total_cmp);
     all.dedup();
     all
 }
 
-/// The largest value along a range, narrowed down around the best place, and where.
-pub(super) fn largest(range: [f64; 2], case: &ModalCase, of: impl Fn(f64) -> f64) -> [f64; 2] {
-    let all = linear_places(range, case);
+/// Frequencies in Hz within a range at which the structure with dampers is resonant, ascending.
+pub(super) fn resonances(range: [f64; 2], case: &ModalCase, dampers: &[ModalDamper]) -> Vec<f64> {
+    let first = case.modes[0].frequency_hz;
+    let modes = case.modes.iter().map(|mode| [mode.frequency_hz / first, mode.mass_kg]);
+    let all = frequencies_with(&modes.collect::<Vec<_>>(), dampers).into_iter();
+    all.map(|one| one * first).filter(|at| (range[0]..=range[1]).contains(at)).collect()
+}
+
+/// The largest value along a range where dampers are used, narrowed down around the best place, and where.
+pub(super) fn largest(
+    range: [f64; 2],
+    case: &ModalCase,
+    dampers: &[ModalDamper],
+    of: impl Fn(f64) -> f64,
+) -> [f64; 2] {
+    let mut all = linear_places(range, case);
+    if !dampers.is_empty() {
+        all.extend(resonances(range, case, dampers));
+        all.sort_by(f64::total_cmp);
+        all.dedup();
+    }
     let best = (0..all.len()).map(|k| (of(all[k]), k)).max_by(|a, b| a.0.total_cmp(&b.0));
     let Some((mut most, k)) = best else { return [0.0, range[0]] };
     let mut at = all[k];

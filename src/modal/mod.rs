@@ -18,6 +18,7 @@ mod rest;
 mod sensors;
 mod theory;
 
+use crate::alternatives::Alternatives;
 use crate::case::{ActsOn, Load, ModalCase, RewriteError};
 use crate::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
@@ -31,8 +32,7 @@ use ranges::Known;
 
 pub use along::{AlongLoad, AtFrequency, seconds};
 pub use beside::Beside;
-pub use dampers::{DamperChoice, choices};
-pub use drift::{OffStructure, off_structures};
+pub use dampers::{DamperChoice, PlacedDampers, choices};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
@@ -62,6 +62,8 @@ pub struct ModalAnswer {
     pub along: Vec<AlongLoad>,
     /// Its criteria.
     pub judged: Vec<Judged>,
+    /// What else could be done; none where nobody asked, or nothing was found to compare with.
+    pub alternatives: Option<Alternatives<PlacedDampers>>,
     /// How far its numbers may change before a criterion fails; empty where one does, or nobody asked.
     pub holds_for: Vec<HoldsFor>,
     /// With which probability its criteria hold; none where nothing is uncertain, or nobody asked.
@@ -86,6 +88,14 @@ impl ModalAnswer {
     ) -> Result<Self, ModalError> {
         let own = Self::in_no_time(case, effort, known, on)?;
         own.in_contact(case, |shifted| Self::in_no_time(shifted, effort, &[], on))
+    }
+
+    /// The same with what else could be done.
+    ///
+    /// # Errors
+    /// As [`ModalAnswer::of`].
+    pub fn compared(self, case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
+        Ok(Self { alternatives: drift::alternatives(case, &self, on)?, ..self })
     }
 
     /// The same with how far these numbers may change, to where no criterion comes to less than `least`, and if `draws` with which
@@ -156,7 +166,13 @@ impl ModalAnswer {
 
     /// Of what is known along loads, and nothing else.
     const fn of_loads(along: Vec<AlongLoad>) -> Self {
-        Self { along, judged: Vec::new(), holds_for: Vec::new(), reliability: None }
+        Self {
+            along,
+            judged: Vec::new(),
+            alternatives: None,
+            holds_for: Vec::new(),
+            reliability: None,
+        }
     }
 
     /// Of what is known along the loads of a case.

@@ -6,10 +6,11 @@ use serde_json::Value;
 use super::chart::AxisOf;
 use super::figure::{Color, Dash, Figure, Layer, Marker, Panel, Role, Shape, Style};
 use super::transient::DAMPER;
-use crate::alternatives::{Alternatives, Which};
+use crate::alternatives::{Alternatives, Dampers, Which};
 use crate::case::Case;
 use crate::measure::{Device, Measure};
 use crate::operating_range::{Combined, HoldsFor, Together, Varied};
+use crate::quantity::Units;
 use crate::quantity::catalogue as of;
 
 /// A damper in the absorber's room.
@@ -130,20 +131,17 @@ pub fn combined(
     )
 }
 
-/// The figure over the drift; none where the frequency of a structure cannot drift.
-pub fn figure(case: &Case, found: &Alternatives, facts: &Value) -> Option<Figure> {
+/// The figure over the drift, of a case with such units of pages; none where the frequency of a structure cannot drift.
+pub fn figure<D: Dampers>(units: Units, found: &Alternatives<D>, facts: &Value) -> Option<Figure> {
     let over = &found.over_drift;
     let (first, last) = (over.absorber.first()?.0, over.absorber.last()?.0);
     if first == last {
         return None;
     }
-    let units = case.units();
     let absorber: Vec<[f64; 2]> =
         over.absorber.iter().map(|(drift, [value, _])| [*drift, *value]).collect();
-    let limit = case.criteria.first().filter(|one| one.measure == found.measure);
-    let limit = limit.map(|one| one.limit);
     let all = over.dampers.iter().flatten().chain(&absorber).map(|one| one[1]);
-    let largest = all.chain(limit).filter(|one| one.is_finite()).fold(0.0, f64::max);
+    let largest = all.chain(found.limit).filter(|one| one.is_finite()).fold(0.0, f64::max);
     let x = AxisOf::si(units, &of::FREQUENCY_DRIFT).axis([first, last]);
     let y = AxisOf::si(units, found.measure.kind(Device::Absorber)?).axis([0.0, 1.1 * largest]);
     let [usual, equal] = over.dampers.clone();
@@ -153,11 +151,16 @@ pub fn figure(case: &Case, found: &Alternatives, facts: &Value) -> Option<Figure
         true => Layer::marked(Marker::hollow(shape), style.color, points),
         false => Layer::curve(style, points),
     };
+    let several = found.row(Which::Damper, 0.0).and_then(|row| row.damper.as_ref());
+    let best = match several.map_or(1, |one| one.each().len()) {
+        1 => "tuned mass damper, best for this",
+        _ => "tuned mass dampers, best for this",
+    };
     let panel = Panel::new(x, y)
-        .with(line(DAMPER, Shape::Square, usual).labelled("tuned mass damper, best for this"))
+        .with(line(DAMPER, Shape::Square, usual).labelled(best))
         .with(line(EQUAL, Shape::Diamond, equal).labelled("in the absorber's room"))
         .with(Layer::points(Role::Simulation, absorber).labelled("absorber"));
-    let limit = limit.map(|limit| Layer::horizontal(limit, LIMIT).labelled("limit"));
+    let limit = found.limit.map(|limit| Layer::horizontal(limit, LIMIT).labelled("limit"));
     let panel = limit.into_iter().fold(panel, Panel::with);
     Some(Figure::new(NAME, "").with_panel(panel).with_facts("captions/choice", facts.clone()))
 }

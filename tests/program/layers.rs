@@ -71,6 +71,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     (
         "modal",
         &[
+            "alternatives",
             "analysis",
             "case",
             "contact",
@@ -699,7 +700,7 @@ fn nobody_else_flies() {
 #[test]
 fn pages_solve_nothing() {
     let solves = Regex::new(
-        r"\b(?:Analysis|CavityAnalysis|CavityTheory|FullSystem|ImpactMap|SteadyOrbit|Survey|CaseStudy|(?:Decay|Sweep|Record)?Study|AbsorberGroup|AlongLoad|AtFrequency|Beside|LoadTheory|ModalAnswer|ModalOptimum|OffStructure|OverForce)::(?:of|brief|over)\b|\b(?:steady_orbit|symmetric_orbits|two_impact_orbits|antiperiodic_orbits|at_resonances|choices|modal_motions|modes_alone|off_structures)\(",
+        r"\b(?:Analysis|CavityAnalysis|CavityTheory|FullSystem|ImpactMap|SteadyOrbit|Survey|CaseStudy|(?:Decay|Sweep|Record)?Study|AbsorberGroup|AlongLoad|AtFrequency|Beside|LoadTheory|ModalAnswer|ModalOptimum|DriftedStructure|OverForce)::(?:of|brief|over)\b|\b(?:steady_orbit|symmetric_orbits|two_impact_orbits|antiperiodic_orbits|at_resonances|choices|designs|modal_motions|modes_alone)\(",
     );
     let solves = solves.expect("a pattern");
     let pages = sources().into_iter().filter(|(path, _)| path.starts_with("report/"));

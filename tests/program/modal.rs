@@ -9,8 +9,7 @@ use vinesink::case::{Case, ModalCase, Of, is_modal};
 use vinesink::case_input::{AnyCase, CaseInputError, read_any};
 use vinesink::executor::Serial;
 use vinesink::modal::{
-    ForceStep, ModalAnswer, OverForce, choices, linear_most, linear_peak, off_structures, seconds,
-    sensors,
+    ForceStep, ModalAnswer, OverForce, choices, linear_most, linear_peak, seconds, sensors,
 };
 use vinesink::motions::{ModalEffort, longest_flight, modal_motions};
 use vinesink::report::modal::simulation;
@@ -704,41 +703,6 @@ fn a_report_tells_what_other_amplitudes_do() {
     assert_eq!(found.expect("a steady motion").at, [near]);
 }
 
-/// Natural frequencies that are off: without absorbers as stiffness has it, with them as a case with these frequencies and half of the
-/// starts is answered.
-#[test]
-#[ignore = "deep"]
-fn a_report_tells_what_other_natural_frequencies_do() {
-    let mut quick = ModalCase::parse("case.toml", &text(MAST)).expect("a shipped case");
-    quick.starts = 1;
-    quick.loads.truncate(1);
-    let found = off_structures(&quick, &choices(&quick), &Serial).expect("flown");
-    // 0.3583 N over a stiffness that goes with the square of the frequency, over twice the damping ratio.
-    for (one, stiffer) in found.iter().zip([0.81, 1.21]) {
-        let omega = std::f64::consts::TAU * 1.1;
-        let stiffness = 30.0 * omega * omega * stiffer;
-        assert!((one.bare / (0.3583 / stiffness / 0.01) - 1.0).abs() < 1e-4, "{}", one.bare);
-        assert_eq!(one.dampers.len(), 1);
-        assert!(one.dampers[0] > 0.0 && one.dampers[0] < one.bare);
-    }
-    let floor = text("cases/several/floor.toml");
-    let case = ModalCase::parse("case.toml", &floor).expect("a shipped case");
-    let found = off_structures(&case, &[], &Serial).expect("flown");
-    let mut changed = floor.replacen("[criteria]", "[simulation]\nstarts = 3\n[criteria]", 1);
-    for mode in &case.modes {
-        let [own, higher] = [1.0, 1.1].map(|times| times * mode.frequency_hz);
-        let line = format!("frequency = \"{own} Hz\"");
-        assert!(changed.contains(&line), "{line}");
-        changed = changed.replacen(&line, &format!("frequency = \"{higher} Hz\""), 1);
-    }
-    let changed = ModalCase::parse("case.toml", &changed).expect("it is a case");
-    let answer = ModalAnswer::of(&changed, &Serial).expect("flown");
-    let both = [found[1].worst, answer.worst(&changed, None)];
-    let [one, other] = both.map(|worst| worst.expect("a motion").found);
-    assert_eq!((one.of, one.load), (other.of, other.load));
-    assert!((one.value / other.value - 1.0).abs() < 1e-9, "{} {}", one.value, other.value);
-}
-
 /// What a case asks for is what every start is measured for, and what a run is said to take.
 #[test]
 fn a_window_of_the_case_counts() {
@@ -973,19 +937,20 @@ fn limits_are_asked_of_the_structure_alone_and_of_dampers() {
     assert!((found / resonance - 1.0).abs() < 0.01, "{found} {resonance}");
     let other = with("peak_displacement = \"<= 1 mm\"");
     for (choice, of_peak) in choices(&case).iter().zip(choices(&other)) {
+        let (dampers, of_peak) = (choice.dampers.on(&case, 1.0), of_peak.dampers.on(&case, 1.0));
         let mut most = 0.0_f64;
         for load in &case.loads {
             let [from, to] = load.range_hz;
             for k in 0..=4000 {
                 let at = from + (to - from) * f64::from(k) / 4e3;
                 let rate = std::f64::consts::TAU * at;
-                most = most.max(rate * rate * linear_peak(&case, load, at, &choice.dampers));
+                most = most.max(rate * rate * linear_peak(&case, load, at, &dampers));
             }
         }
         // The highest of tops that are almost as high is told to five digits, and lies between the frequencies of the scan.
         let told = choice.criteria[1].expect("of a place");
         assert!((told / most - 1.0).abs() < 1e-5, "{told} {most}");
-        let peaked = linear_most(&case, acceleration, &of_peak.dampers).expect("of a place");
+        let peaked = linear_most(&case, acceleration, &of_peak).expect("of a place");
         assert!(told <= 1.001 * peaked, "{told} {peaked}");
     }
 }

@@ -22,6 +22,47 @@ pub struct ModalDamper {
     pub shape: Vec<f64>,
 }
 
+/// Natural frequencies of a structure with dampers, without any damping, over that of reference; of each mode its natural frequency
+/// and mass. Ascending: where damping is small resonances are there.
+///
+/// ```
+/// use vinesink_core::linear::{ModalDamper, frequencies_with};
+///
+/// // Den Hartog, Mechanical Vibrations, eq. 3.25: of a damper as tuned as the structure g^2 = 1 + mu/2 ± (mu + mu^2/4)^(1/2).
+/// let damper = ModalDamper { mass: 0.1, frequency: 1.0, damping_ratio: 0.2, shape: vec![1.0] };
+/// let found = frequencies_with(&[[1.0, 1.0]], &[damper]);
+/// let root = 0.1025_f64.sqrt();
+/// assert!((found[0].powi(2) - 1.05 + root).abs() < 1e-12 && (found[1].powi(2) - 1.05 - root).abs() < 1e-12);
+/// ```
+pub fn frequencies_with(modes: &[[f64; 2]], dampers: &[ModalDamper]) -> Vec<f64> {
+    let count = modes.len();
+    // Of coordinates over the root of their mass the mass matrix is one.
+    let coupled = |k: usize, of: &ModalDamper| -of.shape[k] * (of.mass / modes[k][1]).sqrt();
+    let stiffness = DMatrix::from_fn(count + dampers.len(), count + dampers.len(), |a, b| {
+        let square = |of: &ModalDamper| of.frequency * of.frequency;
+        match (a.checked_sub(count), b.checked_sub(count)) {
+            (None, None) => {
+                let own = if a == b { modes[a][0] * modes[a][0] } else { 0.0 };
+                let added = dampers.iter().map(|of| square(of) * coupled(a, of) * coupled(b, of));
+                own + added.sum::<f64>()
+            }
+            (None, Some(d)) => square(&dampers[d]) * coupled(a, &dampers[d]),
+            (Some(d), None) => square(&dampers[d]) * coupled(b, &dampers[d]),
+            (Some(d), Some(e)) => {
+                if d == e {
+                    square(&dampers[d])
+                } else {
+                    0.0
+                }
+            }
+        }
+    });
+    let squares = stiffness.symmetric_eigenvalues();
+    let mut all: Vec<f64> = squares.iter().map(|one| one.max(0.0).sqrt()).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
 /// Amplitudes of steady harmonic motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalAmplitudes {
@@ -35,27 +76,53 @@ impl ModalAmplitudes {
     /// Those at places with these values of each mode, without absorbers and with these dampers; not a number where the
     /// dampers have no steady motion.
     pub fn of(system: &ModalSystem, dampers: &[ModalDamper], places: &[Vec<f64>]) -> Self {
+        ModalResponse::of(system, places).with(dampers)
+    }
+}
+
+/// Steady harmonic motion of a structure without absorbers at one frequency, which dampers change.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalResponse {
+    omega: f64,
+    base: f64,
+    /// Of each mode its displacement under a modal force of 1 over modal mass, that of its own force, and its mass.
+    modes: Vec<(Complex<f64>, Complex<f64>, f64)>,
+    /// Values of each mode at places, and the displacement there.
+    places: Vec<(Vec<f64>, Complex<f64>)>,
+}
+
+impl ModalResponse {
+    /// That at places with these values of each mode.
+    pub fn of(system: &ModalSystem, places: &[Vec<f64>]) -> Self {
         let omega = system.frequency_ratio();
-        let base = Complex::from(system.base_amplitude());
-        let inverse: Vec<Complex<f64>> = system
-            .modes()
-            .iter()
-            .map(|mode| {
-                let stiffness = (mode.frequency - omega) * (mode.frequency + omega);
-                let loss = 2.0 * mode.damping_ratio * mode.frequency * omega;
-                Complex::new(stiffness, loss).inv()
-            })
-            .collect();
-        let free = |shape: &[f64]| {
-            let each = shape.iter().zip(&inverse).enumerate();
-            let sum: Complex<f64> =
-                each.map(|(k, (phi, of))| of * phi * system.modal_forcing(k)).sum();
-            base + sum
-        };
-        let receptance = |here: &[f64], there: &[f64]| -> Complex<f64> {
-            let each = system.modes().iter().zip(&inverse).zip(here.iter().zip(there));
-            each.map(|((mode, of), (a, b))| of * (a * b / mode.mass)).sum()
-        };
+        let modes = system.modes().iter().enumerate().map(|(k, mode)| {
+            let stiffness = (mode.frequency - omega) * (mode.frequency + omega);
+            let loss = 2.0 * mode.damping_ratio * mode.frequency * omega;
+            let inverse = Complex::new(stiffness, loss).inv();
+            (inverse, inverse * system.modal_forcing(k), mode.mass)
+        });
+        let (modes, base) = (modes.collect(), system.base_amplitude());
+        let mut response = Self { omega, base, modes, places: Vec::new() };
+        let places = places.iter().map(|shape| (shape.clone(), response.free(shape)));
+        response.places = places.collect();
+        response
+    }
+
+    /// Displacement at a place with these values of each mode.
+    fn free(&self, shape: &[f64]) -> Complex<f64> {
+        let each = shape.iter().zip(&self.modes);
+        each.fold(Complex::from(self.base), |sum, (phi, (_, own, _))| sum + own * phi)
+    }
+
+    /// Displacement at one place under a force of 1 at another.
+    fn receptance(&self, here: &[f64], there: &[f64]) -> Complex<f64> {
+        let each = self.modes.iter().zip(here.iter().zip(there));
+        each.map(|((of, _, mass), (a, b))| of * (a * b / mass)).sum()
+    }
+
+    /// Amplitudes with these dampers; not a number where they have no steady motion.
+    pub fn with(&self, dampers: &[ModalDamper]) -> ModalAmplitudes {
+        let omega = self.omega;
         let stiffness = |of: &ModalDamper| {
             let own = of.mass * of.frequency * of.frequency;
             Complex::new(own, 2.0 * of.mass * of.damping_ratio * of.frequency * omega)
@@ -70,20 +137,20 @@ impl ModalAmplitudes {
         let count = dampers.len();
         let matrix = DMatrix::from_fn(count, count, |d, e| {
             let own = Complex::from(f64::from(u8::from(d == e)));
-            own - receptance(&dampers[d].shape, &dampers[e].shape) * pushes[e]
+            own - self.receptance(&dampers[d].shape, &dampers[e].shape) * pushes[e]
         });
-        let alone = DVector::from_fn(count, |d, _| free(&dampers[d].shape));
+        let alone = DVector::from_fn(count, |d, _| self.free(&dampers[d].shape));
         let solve = || matrix.lu().solve(&alone);
         let moved = if count == 0 { Some(DVector::zeros(0)) } else { solve() };
         let moved = moved.unwrap_or_else(|| DVector::repeat(count, Complex::from(f64::NAN)));
         let amplitude = |value: Complex<f64>| libm::hypot(value.re, value.im);
-        let at = |shape: &Vec<f64>| {
-            let of_dampers =
-                (0..count).map(|e| receptance(shape, &dampers[e].shape) * pushes[e] * moved[e]);
-            amplitude(free(shape) + of_dampers.sum::<Complex<f64>>())
+        let at = |(shape, free): &(Vec<f64>, Complex<f64>)| {
+            let of_dampers = (0..count)
+                .map(|e| self.receptance(shape, &dampers[e].shape) * pushes[e] * moved[e]);
+            amplitude(free + of_dampers.sum::<Complex<f64>>())
         };
-        Self {
-            places: places.iter().map(at).collect(),
+        ModalAmplitudes {
+            places: self.places.iter().map(at).collect(),
             strokes: dampers
                 .iter()
                 .zip(moved.iter())

@@ -4,6 +4,8 @@
 //! enough; steep flanks and scatter make it wide. Where places are at uneven distances the top of the parabola through the worse
 //! of the two and its neighbours may be higher.
 
+use crate::numerics::scan::top_above;
+
 /// How many times as far a neighbour may be as the other: what two places that almost coincide differ by is chance, and a slope
 /// that chance decides has its top anywhere. Below 2.4 half of the differences is more than the top.
 const UNEVEN: f64 = 4.0;
@@ -25,16 +27,6 @@ pub(super) fn worst_between(around: &[[f64; 2]], right: usize) -> f64 {
         alike.then(|| value(k) + top_above(left, right))
     };
     [right - 1, right].into_iter().filter_map(top).fold(scatter, f64::max)
-}
-
-/// By how much the top of the parabola through the origin and two points to its left and right, which are no higher, is above the
-/// origin.
-fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -> f64 {
-    // y = p x + c x^2.
-    let [a, b] = [below_left / left, below_right / right];
-    let c = (b - a) / (right - left);
-    let p = a - c * left;
-    if c < 0.0 { (-0.25 * p * p / c).max(0.0) } else { 0.0 }
 }
 
 #[cfg(test)]

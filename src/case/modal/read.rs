@@ -26,7 +26,7 @@ use crate::case::criteria::UPTO;
 use crate::case::error::CaseError;
 use crate::case::limits::{Asked, read_limits};
 use crate::case::reader::{Reader, Table, fields, kind};
-use crate::case::settings::SimulationSettings;
+use crate::case::settings::{AlternativesSettings, SimulationSettings};
 use crate::case::uncertainty::{UncertaintyOfSeveral, read_of_several};
 use crate::excitation::Scene;
 use crate::system::MOST_MODES;
@@ -94,6 +94,7 @@ struct ModalTables {
     simulation: Option<SimulationSettings>,
     criteria: Option<ModalCriteriaTable>,
     optimize: Option<ModalOptimizeTable>,
+    alternatives: Option<AlternativesSettings>,
     uncertainty: Option<UncertaintyOfSeveral>,
     sweep: Option<ModalSweepTable>,
 }
@@ -263,6 +264,7 @@ pub(super) fn read(
     let count_inactive = asked.as_ref().and_then(|(_, read)| read.count_inactive).unwrap_or(true);
     read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
+    let alternatives = reader.settings::<AlternativesSettings>(&root, "alternatives");
     let moves_base: Vec<bool> = loads.iter().map(|load: &Load| load.on == ActsOn::Base).collect();
     let uncertainty = read_of_several(reader, &root, reduced.is_some(), &moves_base);
     if uncertainty.damping_ratio.is_some()
@@ -298,6 +300,7 @@ pub(super) fn read(
         modes_from,
         contact_is_sensors,
         bounds,
+        alternatives: alternatives.unwrap_or_default(),
         uncertainty,
         sweep: None,
         warnings: Vec::new(),

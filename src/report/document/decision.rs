@@ -2,13 +2,13 @@
 //! with which probability the criteria hold, and edges.
 
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::criteria::criterion;
 use super::scale::Scale;
-use crate::alternatives::{Alternatives, DESIGN, Row, Which};
+use crate::alternatives::{Alternatives, Dampers, Row, Which};
 use crate::answer::Answer;
-use crate::case::{Case, Relation};
+use crate::case::Case;
 use crate::criteria::kept_without_absorber;
 use crate::linear::TunedMassDamper;
 use crate::measure::{Device, Measure};
@@ -31,7 +31,7 @@ enum Winner {
 }
 
 impl Winner {
-    fn of(absorber: &Row, damper: &Row) -> Self {
+    fn of<D>(absorber: &Row<D>, damper: &Row<D>) -> Self {
         let [worst, error] = absorber.worst;
         let other = damper.worst[0];
         if worst + error < other * (1.0 - AS_GOOD) {
@@ -44,12 +44,12 @@ impl Winner {
     }
 }
 
-impl Alternatives {
-    fn kind(&self, device: Device) -> &'static crate::quantity::Kind {
+impl<D> Alternatives<D> {
+    fn kind(&self, device: Device) -> &'static Kind {
         self.measure.kind(device).unwrap_or(&of::PEAK)
     }
 
-    fn worst(&self, row: &Row) -> Quantity {
+    fn worst(&self, row: &Row<D>) -> Quantity {
         let method = if row.device == Device::Absorber { Method::Simulation } else { ClosedForm };
         Quantity::new(self.kind(row.device), row.worst[0], method).with_error(row.worst[1])
     }
@@ -63,11 +63,11 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     if !decided && answer.holds_for.is_empty() {
         return;
     }
-    let found = answer.alternatives.as_ref();
-    let rows = |of: &Alternatives| of.rows.iter().map(|row| told(case, of, row)).collect();
-    document["alternatives"] = found.map_or(Value::Null, rows);
-    document["choice"] = found.map_or(Value::Null, |found| choice(case, found));
     let physical = case.units().physical;
+    let damper = |row: &Row| damper(&Scale::of(case), row);
+    let of = Devices { physical, kept_alone: kept_without_absorber(case), damper: &damper };
+    let found = answer.alternatives.as_ref().map(|found| alternatives(found, &of));
+    (document["alternatives"], document["choice"]) = found.unwrap_or_default();
     let ranges = answer.holds_for.iter();
     let ranges = ranges.map(|one| range(one, kind_of(case, one.parameter), physical));
     let (rows, ranges): (Vec<Value>, Vec<Value>) = ranges.unzip();
@@ -81,12 +81,27 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     document["reliability"] = json!(answer.reliability.as_ref().map(|one| reliability(one, &told)));
 }
 
+/// What alternatives are of.
+pub struct Devices<'a, D> {
+    /// Whether it is in SI.
+    pub physical: bool,
+    /// Whether all limits are kept without any device.
+    pub kept_alone: bool,
+    /// What is said of the dampers of a row beside what they do.
+    pub damper: &'a dyn Fn(&Row<D>) -> Map<String, Value>,
+}
+
+/// The devices beside the absorbers as CONTRACT.md has them, and who wins where.
+pub fn alternatives<D: Dampers>(found: &Alternatives<D>, of: &Devices<'_, D>) -> (Value, Value) {
+    (found.rows.iter().map(|row| told(found, row, of)).collect(), choice(found, of))
+}
+
 /// Which device wins where.
-fn choice(case: &Case, found: &Alternatives) -> Value {
-    let mut devices = Vec::new();
-    for which in found.rows.iter().map(Row::which) {
-        if !devices.contains(&which) {
-            devices.push(which);
+fn choice<D: Dampers>(found: &Alternatives<D>, of: &Devices<'_, D>) -> Value {
+    let mut devices: Vec<(Which, usize)> = Vec::new();
+    for one in found.rows.iter().map(|row| (row.which(), count(row))) {
+        if !devices.contains(&one) {
+            devices.push(one);
         }
     }
     let own = |drift| found.row(Which::Absorber, drift);
@@ -101,18 +116,17 @@ fn choice(case: &Case, found: &Alternatives) -> Value {
     let harmful: Vec<f64> = drifts.iter().skip(1).copied().filter(harms).collect();
     // To be better than a damper is nothing where no device is better still.
     let wins_from = drifts.get(lost.map_or(0, |last| last + 1)).filter(|one| !harms(one));
-    let mut limits = case.criteria.iter();
-    let limit = limits.find(|one| one.measure == found.measure && one.relation == Relation::AtMost);
     let kind = found.kind(Device::Absorber);
-    json!({
+    let usual = found.row(Which::Damper, 0.0).map_or(0, count);
+    let mut choice = json!({
         "of_time": found.measure == Measure::DecayTime,
-        "limit": limit.map(|one| Quantity::new(kind, one.limit, Method::Given)),
-        "strokes": devices.iter().map(|which| largest_stroke(case, found, *which)).collect::<Vec<_>>(),
+        "limit": found.limit.map(|limit| Quantity::new(kind, limit, Method::Given)),
+        "strokes": devices.iter().map(|one| largest_stroke(found, *one)).collect::<Vec<_>>(),
         // Of the damper that is best for the case.
-        "damper_stroke": largest_stroke(case, found, Which::Damper),
-        "kept_alone": kept_without_absorber(case),
+        "damper_stroke": largest_stroke(found, (Which::Damper, usual)),
+        "kept_alone": of.kept_alone,
         "inactive": found.inactive,
-        "devices": devices,
+        "devices": devices.iter().map(|(which, _)| which).collect::<Vec<_>>(),
         "drifts": drifts.iter().skip(1).map(|one| drift(*one)).collect::<Vec<_>>(),
         "winner": winner(Which::Damper, 0.0),
         "winner_in_equal_room": winner(Which::DamperInEqualRoom, 0.0),
@@ -123,62 +137,84 @@ fn choice(case: &Case, found: &Alternatives) -> Value {
         // Those at which it is worse than no device.
         "harmful": harmful.into_iter().map(drift).collect::<Vec<_>>(),
         "robust_winner": drifts.last().and_then(|last| robust(*last)),
-    })
+    });
+    if devices.iter().any(|(_, dampers)| *dampers > 1) {
+        // How many each of the devices is.
+        choice["dampers"] = devices.iter().map(|(_, dampers)| *dampers).collect();
+    }
+    choice
+}
+
+/// How many dampers a row is of.
+fn count<D: Dampers>(row: &Row<D>) -> usize {
+    row.damper.as_ref().map_or(0, |one| one.each().len())
 }
 
 /// A row as CONTRACT.md has it; its numbers are quantities, by which two reports are compared.
-fn told(case: &Case, found: &Alternatives, row: &Row) -> Value {
-    let damping_ratio = |damper: TunedMassDamper| {
-        let ratio = |method| Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, method);
-        match row.given_damping {
-            Some(_) => ratio(Method::Given),
-            None => designed(ratio(ClosedForm)),
-        }
-    };
-    let frequency = |one: TunedMassDamper| designed(Scale::of(case).damper_frequency(one.tuning));
-    let with_unit = |quantity: Quantity| with_unit(case, quantity);
-    json!({
+fn told<D: Dampers>(found: &Alternatives<D>, row: &Row<D>, of: &Devices<'_, D>) -> Value {
+    let with_unit = |quantity: Quantity| with_unit(quantity, of.physical);
+    let mut told = json!({
         "which": row.which(),
         "device": row.device.word(),
-        "dampers": u8::from(row.device == Device::Damper),
+        "dampers": count(row),
         "room": row.room,
         "robust_for": row.robust_for,
         "damping": if row.given_damping.is_some() { "given" } else { "designed" },
         "drift": row.drift,
         "worst": with_unit(found.worst(row)),
-        "stroke": stroke(case, row).map(with_unit),
-        "frequency": row.damper.map(frequency),
-        "damping_ratio": row.damper.map(damping_ratio),
-        // What it is where the search for it ended at a bound.
-        "at_bound": row.at_bound(),
-    })
-}
-
-/// A number of a damper, with the error of its design.
-fn designed(quantity: Quantity) -> Quantity {
-    quantity.with_error(DESIGN * quantity.value)
-}
-
-fn with_unit(case: &Case, quantity: Quantity) -> Value {
-    let mut told = json!(quantity);
-    told["unit"] = json!(quantity.kind.dimension.symbol(case.units().physical));
+        "stroke": stroke(row).map(with_unit),
+    });
+    told.as_object_mut().into_iter().for_each(|of_row| of_row.extend((of.damper)(row)));
     told
 }
 
-/// Displacement of a device against the structure: the absorber has its clearance.
-fn stroke(case: &Case, row: &Row) -> Option<Quantity> {
-    match row.device {
-        Device::Absorber => Some(case.units().quantity(&of::CLEARANCE, 1.0, Method::Given)),
-        _ => {
-            row.stroke.map(|stroke| designed(Quantity::new(&of::DAMPER_STROKE, stroke, ClosedForm)))
+/// What is said of the damper of a row of one mode.
+fn damper(scale: &Scale, row: &Row) -> Map<String, Value> {
+    let damping_ratio = |damper: TunedMassDamper| {
+        let ratio = |method| Quantity::new(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio, method);
+        match row.given_damping {
+            Some(_) => ratio(Method::Given),
+            None => designed::<TunedMassDamper>(ratio(ClosedForm)),
         }
-    }
+    };
+    let frequency =
+        |one: TunedMassDamper| designed::<TunedMassDamper>(scale.damper_frequency(one.tuning));
+    let fields = [
+        ("frequency", json!(row.damper.map(frequency))),
+        ("damping_ratio", json!(row.damper.map(damping_ratio))),
+        // What it is where the search for it ended at a bound.
+        ("at_bound", json!(row.at_bound())),
+    ];
+    fields.map(|(key, value)| (key.to_owned(), value)).into_iter().collect()
+}
+
+/// A number of dampers, with the error of their design.
+pub fn designed<D: Dampers>(quantity: Quantity) -> Quantity {
+    quantity.with_error(D::DESIGN * quantity.value)
+}
+
+fn with_unit(quantity: Quantity, physical: bool) -> Value {
+    let mut told = json!(quantity);
+    told["unit"] = json!(quantity.kind.dimension.symbol(physical));
+    told
+}
+
+/// Displacement of a device against the structure: an absorber has its clearance.
+fn stroke<D: Dampers>(row: &Row<D>) -> Option<Quantity> {
+    let stroke = row.stroke?;
+    Some(match row.device {
+        Device::Absorber => Quantity::new(&of::CLEARANCE, stroke, Method::Given),
+        _ => designed::<D>(Quantity::new(&of::DAMPER_STROKE, stroke, ClosedForm)),
+    })
 }
 
 /// The stroke of a device where the structure is off by as much as makes it largest.
-fn largest_stroke(case: &Case, found: &Alternatives, which: Which) -> Option<Quantity> {
-    let rows = found.rows.iter().filter(|row| row.which() == which);
-    rows.filter_map(|row| stroke(case, row)).max_by(|a, b| a.value.total_cmp(&b.value))
+fn largest_stroke<D: Dampers>(
+    found: &Alternatives<D>,
+    (which, dampers): (Which, usize),
+) -> Option<Quantity> {
+    let rows = found.rows.iter().filter(|row| row.which() == which && count(row) == dampers);
+    rows.filter_map(stroke).max_by(|a, b| a.value.total_cmp(&b.value))
 }
 
 /// With which probability all criteria hold, and what makes most designs fail: each of these as `told`, with how many.
@@ -221,8 +257,8 @@ pub fn edges(case: &Case, found: &[Edge]) -> Value {
         let told = criterion(case, &edge.fails);
         json!({
             "parameter": edge.parameter,
-            "value": with_unit(case, number(edge.value)),
-            "at": with_unit(case, number(edge.at)),
+            "value": with_unit(number(edge.value), case.units().physical),
+            "at": with_unit(number(edge.at), case.units().physical),
             "criterion": told["name"],
             "asked": told["asked"],
             "limit": told["limit"],

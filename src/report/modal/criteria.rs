@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{Beside, along, closed, given, ranges, units, warnings};
+use super::{Beside, absorbers, along, alternatives, closed, given, ranges, units, warnings};
 use crate::case::{ModalCase, Of};
 use crate::criteria::Judged;
 use crate::measure::{Device, Part};
@@ -99,6 +99,10 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
     if !case.warnings.is_empty() {
         document["warnings"] = json!(warnings(case));
     }
+    let (devices, choice) = alternatives::rows(case, answer);
+    if answer.alternatives.is_some() {
+        document["alternatives"] = devices.clone();
+    }
     let (rows, ranges) = ranges::rows(case, answer);
     if !rows.is_empty() {
         document["holds_for"] = json!(rows);
@@ -108,8 +112,8 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
         document["reliability"] = reliability.clone();
     }
     let page = json!({
-        "path": path, "case": name, "warnings": warnings(case), "criteria": criteria(case, answer), "outside": null, "choice": null,
-        "alternatives": null, "ranges": ranges, "combined": [], "reliability": reliability,
+        "path": path, "case": name, "warnings": warnings(case), "criteria": criteria(case, answer), "outside": null, "choice": choice,
+        "alternatives": devices, "absorbers": absorbers(case), "ranges": ranges, "combined": [], "reliability": reliability,
         "modes_from": case.modes_from,
     });
     Checked::of(document, page, units)

@@ -49,11 +49,12 @@ pub(super) fn loads(
         let mut panel = Panel::new(x, y)
             .with(Layer::curve(Role::BareOscillator, linear(&[])).labelled("without absorbers"));
         for (choice, style) in beside.dampers.iter().zip([DAMPER, DAMPERS]) {
-            let name = match choice.dampers.len() {
+            let dampers = choice.dampers.on(case, 1.0);
+            let name = match dampers.len() {
                 1 => "one tuned mass damper".to_owned(),
                 many => format!("{many} tuned mass dampers"),
             };
-            panel = panel.with(Layer::curve(style, linear(&choice.dampers)).labelled(name));
+            panel = panel.with(Layer::curve(style, linear(&dampers)).labelled(name));
         }
         panel = with_limits(panel, &limits);
         // Not those in which every absorber rests, which are on the line without them.

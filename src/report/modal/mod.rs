@@ -1,6 +1,7 @@
 //! The report of a structure of several modes with several absorbers, as data and files. The sentences are in
 //! `templates/modal*.tera`.
 
+mod alternatives;
 mod analysis;
 mod criteria;
 mod figure;
@@ -12,6 +13,7 @@ mod theory;
 
 use serde_json::{Value, json};
 
+use super::choice;
 use super::document::criteria::badge;
 use super::document::place::FilePlace;
 use super::document::{Content, Tone, Word, headed, keep_case};
@@ -19,9 +21,9 @@ use super::error::RenderError;
 use super::render::{Files, in_lines, page_files};
 use super::template::{render, worded};
 use crate::case::{ActsOn, Criterion, Load, ModalCase, Of, StructuralMode};
-use crate::criteria::{Outcome, Worst};
+use crate::criteria::Worst;
 use crate::method::Method;
-use crate::modal::{Beside, ForceStep, ModalAnswer, OffStructure, OverForce, Stretches};
+use crate::modal::{Beside, ForceStep, ModalAnswer, OverForce, Stretches};
 use crate::motions::{ModalMotion, SensorExtent};
 use crate::orbits::ReachEnd;
 use crate::quantity::catalogue as of;
@@ -223,35 +225,6 @@ fn worst_row(case: &ModalCase, worst: &Worst) -> Value {
     })
 }
 
-/// What is known where the natural frequencies are off.
-fn off_row(case: &ModalCase, of_off: &OffStructure) -> Value {
-    json!({
-        "off": of_off.off.abs(),
-        "lower": of_off.off < 0.0,
-        "bare": closed(&of::BARE_PEAK, of_off.bare),
-        "worst": of_off.worst.map(|one| worst_row(case, &one)),
-        "word": badge(&of_off.criteria),
-        "failing": of_off.criteria.iter().filter(|one| one.outcome() == Outcome::Fails).count(),
-        "dampers": of_off.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, *one)).collect::<Vec<_>>(),
-    })
-}
-
-/// The worst of structures that are off, with the absorbers and with each choice of dampers; none where there are none.
-fn worst_off(all: &[OffStructure]) -> Option<Value> {
-    let largest = |of: &dyn Fn(&OffStructure) -> f64| all.iter().map(of).fold(0.0, f64::max);
-    let choices = all.first()?.dampers.len();
-    let peak = largest(&|one| one.worst.map_or(0.0, |worst| worst.found.value));
-    let reach = largest(&|one| one.worst.map_or(0.0, |worst| worst.found.most()));
-    let dampers = (0..choices).map(|k| closed(&of::DAMPER_PEAK, largest(&|one| one.dampers[k])));
-    let criteria: Vec<_> = all.iter().flat_map(|one| one.criteria.iter().cloned()).collect();
-    Some(json!({
-        "word": badge(&criteria),
-        "off": largest(&|one| one.off),
-        "peak": simulated(&of::PEAK, peak).with_error(reach - peak),
-        "dampers": dampers.collect::<Vec<_>>(),
-    }))
-}
-
 /// What is known along each load.
 fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
     let rows = answer.along.iter().enumerate().map(|(k, along)| {
@@ -339,25 +312,18 @@ pub fn document(
         })
     });
     let dampers = beside.dampers.iter().map(|one| {
-        let each = one.dampers.iter().zip(&one.strokes).zip(one.places.iter().zip(&one.at_bound));
-        let each = each.map(|((damper, stroke), (place, at_bound))| {
-            json!({
-                "place": case.places[*place],
-                "mass": mass(case, &of::ABSORBER_MASS, damper.mass),
-                "frequency": closed(&of::DAMPER_FREQUENCY, damper.frequency * case.modes[0].frequency_hz),
-                "damping_ratio": closed(&of::DAMPER_DAMPING_RATIO, damper.damping_ratio),
-                "at_bound": at_bound,
-                "stroke": closed(&of::DAMPER_STROKE, *stroke),
-            })
-        });
+        let mut each = alternatives::each(case, &one.dampers, false, false);
+        for (row, stroke) in each.iter_mut().zip(&one.strokes) {
+            row["stroke"] = json!(closed(&of::DAMPER_STROKE, *stroke));
+        }
         json!({
-            "count": one.dampers.len(),
+            "count": each.len(),
             "worst": closed(&of::DAMPER_PEAK, one.worst.iter().copied().fold(0.0, f64::max)),
             "stroke": closed(&of::DAMPER_STROKE, one.strokes.iter().copied().fold(0.0, f64::max)),
             "holds": holds(case, &one.criteria),
             // Whether there is no limit that a damper does not have.
             "holds_all": one.criteria.iter().all(Option::is_some),
-            "each": each.collect::<Vec<_>>(),
+            "each": each,
         })
     });
     let notes = warnings(case).into_iter().map(|one| {
@@ -380,14 +346,15 @@ pub fn document(
         "worst": worst.map(|one| worst_row(case, &one)),
         "loads": along(case, answer, beside),
         "dampers": dampers.collect::<Vec<_>>(),
-        "off": beside.off.iter().map(|one| off_row(case, one)).collect::<Vec<_>>(),
-        "worst_off": worst_off(&beside.off),
         "starts": starts(case),
         "over_frequencies": case.loads.iter().any(|load| load.range_hz[0] < load.range_hz[1]),
         "figures": [],
     });
     let heading = [&case.title, &case.source, &case.text_hash].map(String::as_str);
     let mut document = headed(heading, units(case).name(), content, fields);
+    if answer.alternatives.is_some() {
+        (document["alternatives"], document["choice"]) = alternatives::rows(case, answer);
+    }
     let (rows, told) = ranges::rows(case, answer);
     if !rows.is_empty() {
         (document["holds_for"], document["ranges"]) = (json!(rows), json!(told));
@@ -416,6 +383,8 @@ pub fn files(
         figure::loads(case, answer, beside, &document),
         figure::forces(case, answer, beside, &document),
     ];
+    let compared = answer.alternatives.as_ref();
+    drawn.extend(compared.and_then(|found| choice::figure(units(case), found, &document)));
     drawn.retain(|figure| !figure.panels.is_empty());
     let figures = worded(drawn, &units(case))?;
     document["figures"] = figures.iter().map(super::document::figure_row).collect();

@@ -150,6 +150,32 @@ pub fn smallest([from, to]: [f64; 2], pieces: u32, mut f: impl FnMut(f64) -> f64
     best
 }
 
+/// By how much the top of the parabola through the origin and two points to its left and right, which are no higher, is above the
+/// origin.
+pub fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -> f64 {
+    // y = p x + c x^2.
+    let [a, b] = [below_left / left, below_right / right];
+    let c = (b - a) / (right - left);
+    let p = a - c * left;
+    if c < 0.0 { (-0.25 * p * p / c).max(0.0) } else { 0.0 }
+}
+
+/// The largest of values, each behind its place, ascending, or the top of the parabola through it and its neighbours: between places
+/// that are close enough a smooth top is known to the fourth power of their distance.
+pub fn top(values: &[[f64; 2]]) -> f64 {
+    let highest = (0..values.len()).max_by(|a, b| values[*a][1].total_cmp(&values[*b][1]));
+    let Some(k) = highest else { return f64::NEG_INFINITY };
+    let [here, own] = values[k];
+    let beside = |other: Option<usize>| {
+        let [at, value] = *values.get(other?)?;
+        (at != here && value.is_finite()).then_some([at - here, value - own])
+    };
+    match (beside(k.checked_sub(1)), beside(Some(k + 1))) {
+        (Some(left), Some(right)) => own + top_above(left, right),
+        _ => own,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,0 +1,57 @@
+//! What else could be done in place of the absorbers, as data.
+
+use serde_json::{Map, Value, json};
+
+use super::{closed, given, mass};
+use crate::alternatives::Row;
+use crate::case::ModalCase;
+use crate::modal::{ModalAnswer, PlacedDampers};
+use crate::operating_range::Varies;
+use crate::quantity::Quantity;
+use crate::quantity::catalogue as of;
+use crate::report::document::{Devices, alternatives, designed};
+
+/// The devices beside the absorbers, and who wins where; nothing where that was not asked for.
+pub(super) fn rows(case: &ModalCase, answer: &ModalAnswer) -> (Value, Value) {
+    let damper = |row: &Row<PlacedDampers>| damper(case, row);
+    let kept_alone = Varies::kept_without_absorber(case);
+    let of = Devices { physical: !case.reduced, kept_alone, damper: &damper };
+    let found = answer.alternatives.as_ref().map(|found| alternatives(found, &of));
+    found.unwrap_or_default()
+}
+
+/// Each damper of a row.
+fn damper(case: &ModalCase, row: &Row<PlacedDampers>) -> Map<String, Value> {
+    let each = row
+        .damper
+        .as_ref()
+        .map(|dampers| each(case, dampers, row.changed, row.given_damping.is_some()));
+    Map::from_iter([("each".to_owned(), json!(each))])
+}
+
+/// What dampers are; their frequencies may have changed, and their damping ratios may be given.
+pub(super) fn each(
+    case: &ModalCase,
+    dampers: &PlacedDampers,
+    is_changed: bool,
+    is_given: bool,
+) -> Vec<Value> {
+    let bounds = dampers.at_bound(is_given).into_iter().map(|one| one.filter(|_| !is_changed));
+    let designed = |quantity: Quantity| designed::<PlacedDampers>(quantity);
+    let each = dampers.each.iter().zip(dampers.frequencies_hz(case));
+    let each = each.zip(dampers.places.iter().zip(bounds));
+    let told = each.map(|((one, frequency), (place, at_bound))| {
+        let damping_ratio = match is_given {
+            true => given(&of::DAMPER_DAMPING_RATIO, one.damping_ratio),
+            false => designed(closed(&of::DAMPER_DAMPING_RATIO, one.damping_ratio)),
+        };
+        json!({
+            "place": case.places[*place],
+            "mass": mass(case, &of::ABSORBER_MASS, dampers.mass_kg),
+            "frequency": designed(closed(&of::DAMPER_FREQUENCY, frequency)),
+            "damping_ratio": damping_ratio,
+            "at_bound": at_bound,
+        })
+    });
+    told.collect()
+}
