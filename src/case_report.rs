@@ -100,7 +100,8 @@ fn decide(
             choice::over_amplitude(case, found, ranges, document),
         ]
     });
-    let combined = choice::combined(case, &answer.combined, &answer.holds_for, document);
+    let panel = choice::combined_of(case, &answer.combined, &answer.holds_for);
+    let combined = choice::combined(panel.into_iter().collect(), document);
     let drawn = drawn.into_iter().flatten().chain([combined]).flatten().collect();
     for figure in template::worded(drawn, &case.units())? {
         let row = document::figure_row(&figure);

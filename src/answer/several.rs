@@ -12,6 +12,8 @@ pub const ORDINARY: f64 = 60.0;
 pub const ORDINARY_PROBABILITY: f64 = 180.0;
 /// About how many times a `check` of the case the two structures of a drift take, with half of its starts each.
 const OF_DRIFT: f64 = 1.2;
+/// The same of another amplitude of a load and other natural frequencies: half of 16 are looked at in full.
+const OF_LOAD: f64 = 11.0;
 
 /// What is left out where it would take too long.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,6 +22,8 @@ pub enum LeftOut {
     Alternatives,
     /// How far numbers may change.
     Ranges,
+    /// The same of the amplitude of a load and the natural frequencies at once.
+    Combinations,
     /// With which probability all criteria hold.
     Probability,
 }
@@ -49,5 +53,12 @@ pub fn decided(
     let ranged = affords(LeftOut::Ranges, checks, ORDINARY);
     let designs = if told.reliability { Reliability::samples(case) } else { 0 };
     let draws = affords(LeftOut::Probability, f64::from(designs), ORDINARY_PROBABILITY);
-    answer.decided(case, if ranged { told.ranges } else { &[] }, told.until, draws, on)
+    let ranges = if ranged { told.ranges } else { &[] };
+    let answer = answer.decided(case, ranges, told.until, draws, on)?;
+    let combines = told.combined && !answer.holds_for.is_empty();
+    let checks = if combines { OF_LOAD * case.loads.len() as f64 } else { 0.0 };
+    match affords(LeftOut::Combinations, checks, ORDINARY) {
+        true => answer.combined(case, on),
+        false => Ok(answer),
+    }
 }

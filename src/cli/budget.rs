@@ -29,6 +29,7 @@ const ORDINARY_SWEEP: f64 = 3600.0;
 /// What is left out, where it is.
 const ALTERNATIVES: &str = "the tuned mass dampers beside the absorber are";
 const RANGES: &str = "the ranges over which the criteria hold are";
+const COMBINATIONS: &str = "the combinations of amplitude and frequency are";
 const PROBABILITY: &str = "the probability that the criteria hold is";
 
 /// Whether more than the ordinary is asked for.
@@ -69,7 +70,7 @@ impl Long {
             until: asked.until,
             combined: asked.combined
                 && !case.criteria.is_empty()
-                && allowed("the combinations of amplitude and frequency are", COMBINED),
+                && allowed(COMBINATIONS, COMBINED),
             reliability: asked.reliability
                 && drawn(case) > 0
                 && allowed_in(ORDINARY_PROBABILITY, PROBABILITY, drawn(case)),
@@ -88,6 +89,7 @@ impl Long {
         let what = match what {
             LeftOut::Alternatives => ALTERNATIVES,
             LeftOut::Ranges => RANGES,
+            LeftOut::Combinations => COMBINATIONS,
             LeftOut::Probability => PROBABILITY,
         };
         self.affords(path, is_ordinary, seconds, what)

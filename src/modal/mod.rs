@@ -24,7 +24,9 @@ use crate::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
 use crate::executor::Executor;
 use crate::method::Method;
-use crate::operating_range::{HoldsFor, Reliability, Together, Varied, holds_for};
+use crate::operating_range::{
+    Combined, HoldsFor, Reliability, Together, Varied, combined, holds_for,
+};
 use crate::simulation::ModalStartError;
 use crate::system::{InvalidModalSystem, ModalSystem};
 use along::AlongEffort;
@@ -66,6 +68,8 @@ pub struct ModalAnswer {
     pub alternatives: Option<Alternatives<PlacedDampers>>,
     /// How far its numbers may change before a criterion fails; empty where one does, or nobody asked.
     pub holds_for: Vec<HoldsFor>,
+    /// The same where the amplitude of a load and the natural frequencies change at once.
+    pub combined: Vec<Combined>,
     /// With which probability its criteria hold; none where nothing is uncertain, or nobody asked.
     pub reliability: Option<Reliability>,
 }
@@ -115,6 +119,16 @@ impl ModalAnswer {
         let holds_for = holds_for(case, &self.judged, numbers, least, &known, on)?;
         let reliability = if draws { Reliability::of(case, &known, on)? } else { None };
         Ok(Self { along: known.along, holds_for, reliability, ..self })
+    }
+
+    /// The same with what holds where the amplitude of a load and the natural frequencies change at once, each within its range.
+    ///
+    /// # Errors
+    /// As [`ModalAnswer::of`].
+    pub fn combined(self, case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
+        let known = Known { case: case.clone(), along: self.along };
+        let combined = combined(case, &self.holds_for, &known, on)?;
+        Ok(Self { along: known.along, combined, ..self })
     }
 
     /// The same with what it makes of the criteria that impacts take time: `again` looks at another case in the same way.
@@ -171,6 +185,7 @@ impl ModalAnswer {
             judged: Vec::new(),
             alternatives: None,
             holds_for: Vec::new(),
+            combined: Vec::new(),
             reliability: None,
         }
     }

@@ -1,14 +1,15 @@
 //! The excitation's amplitude and the natural frequency changed at once: what holds for each alone may fail for both.
 
 use super::{Depth, HoldsFor, Together, Varied, Varies};
-use crate::case::{Case, Relation};
+use crate::case::Relation;
 use crate::executor::{Executor, map};
-use crate::flights::DrivenError;
-use crate::motions::Effort;
+use crate::system::Parameter;
 
 /// A design with another amplitude and another natural frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Combined {
+    /// Of which load the amplitude is, where a case has a list of them.
+    pub of: Option<usize>,
     /// Both, in SI or the units of a reduced case.
     pub at: [f64; 2],
     /// Whether the verdict counts it, which is judged as `check` does: an end of the amplitudes at which all criteria hold while
@@ -18,39 +19,55 @@ pub struct Combined {
     pub outcome: Together,
 }
 
-/// Every combination of two amplitudes and two natural frequencies on either side of the case, by amplitude, then frequency:
-/// where all criteria hold with one changed alone the end of that stretch and the worst place in it, as two designs that each
-/// keep a limit well may miss it together; else the end of the range and half way. None where one of the ranges is not known.
+/// Every combination of two amplitudes, of each load by itself, and two natural frequencies on either side of the case, by amplitude,
+/// then frequency: where all criteria hold with one changed alone the end of that stretch and the worst place in it, as two designs
+/// that each keep a limit well may miss it together; else the end of the range and half way. None where one of the ranges is not
+/// known. `known` is how thoroughly `check` searches the case.
 ///
 /// # Errors
-/// [`DrivenError`] where a motion cannot be followed.
-pub fn combined(
-    case: &Case,
+/// Where a motion cannot be followed.
+pub fn combined<C: Varies>(
+    case: &C,
     ranges: &[HoldsFor],
-    effort: &Effort,
+    known: &C::Effort,
     on: &dyn Executor,
-) -> Result<Vec<Combined>, DrivenError> {
-    let [amplitude, frequency] = Varied::FIRST.map(|varied| {
-        let range = ranges.iter().find(|one| one.parameter == varied)?;
-        Some((varied.parameter(case)?, values(case, range)))
-    });
-    let (Some(amplitude), Some(frequency)) = (amplitude, frequency) else { return Ok(Vec::new()) };
-    let both = amplitude.1.iter().flat_map(|a| frequency.1.iter().map(|f| (*a, *f)));
-    let both: Vec<(Value, Value)> = both.collect();
+) -> Result<Vec<Combined>, C::Error> {
+    let of = |varied: Varied| -> Vec<Values> {
+        let Some(number) = case.parameter(varied) else { return Vec::new() };
+        let all = ranges.iter().filter(|one| one.parameter == varied);
+        all.map(|range| Values { number, of: range.of, all: values(case, range) }).collect()
+    };
+    let [amplitudes, frequencies] = Varied::FIRST.map(of);
+    let mut both = Vec::new();
+    for (amplitude, frequency) in
+        amplitudes.iter().flat_map(|one| frequencies.iter().map(move |other| (one, other)))
+    {
+        for a in &amplitude.all {
+            both.extend(frequency.all.iter().map(|f| ((amplitude, a), (frequency, f))));
+        }
+    }
     let outcome = |k: usize| {
-        let (a, f) = both[k];
+        let ((amplitude, a), (frequency, f)) = both[k];
         let promised = a.held && a.is_end && f.held;
-        let there = case.varied(amplitude.0, a.value);
-        let outcome = match there.and_then(|case| case.varied(frequency.0, f.value)) {
-            Some(there) => {
-                let how = if promised { Depth::AsCheck } else { Depth::OnTheWay };
-                Together::of(&there.judge(effort, how)?)
-            }
-            None => Together::Fail,
-        };
-        Ok(Combined { at: [a.value, f.value], promised, outcome })
+        let there = case.with(amplitude.number, amplitude.of, a.value);
+        let outcome =
+            match there.and_then(|case| case.with(frequency.number, frequency.of, f.value)) {
+                Some(there) => {
+                    let how = if promised { Depth::AsCheck } else { Depth::OnTheWay };
+                    Together::of(&there.judge(known, how)?)
+                }
+                None => Together::Fail,
+            };
+        Ok(Combined { of: amplitude.of, at: [a.value, f.value], promised, outcome })
     };
     map(on, "combinations", both.len(), outcome).into_iter().collect()
+}
+
+/// Values of a number, and of which part it is.
+struct Values {
+    number: Parameter,
+    of: Option<usize>,
+    all: Vec<Value>,
 }
 
 /// Another value of a number.
@@ -64,9 +81,9 @@ struct Value {
 }
 
 /// Two on either side, ascending; none in a direction in which the range ends at the case.
-fn values(case: &Case, of: &HoldsFor) -> Vec<Value> {
+fn values<C: Varies>(case: &C, of: &HoldsFor) -> Vec<Value> {
     let larger_is_worse =
-        case.criteria.first().is_none_or(|first| first.relation == Relation::AtMost);
+        case.criteria().first().is_none_or(|first| first.relation == Relation::AtMost);
     let badness = |found: f64| if larger_is_worse { found } else { -found };
     let side = |k: usize| {
         let hold = of.holds.map(|holds| holds[k]).filter(|hold| *hold != of.value);

@@ -10,8 +10,8 @@ use crate::alternatives::{Alternatives, Dampers, Which};
 use crate::case::Case;
 use crate::measure::{Device, Measure};
 use crate::operating_range::{Combined, HoldsFor, Together, Varied};
-use crate::quantity::Units;
 use crate::quantity::catalogue as of;
+use crate::quantity::{Kind, Units};
 
 /// A damper in the absorber's room.
 const EQUAL: Style = Style::new(Color::SkyBlue, 1.1, Dash::Solid);
@@ -90,29 +90,26 @@ pub fn over_amplitude(
     )
 }
 
-/// Where criteria hold with another amplitude and another natural frequency at once, and lines along which all hold one at
-/// a time; none where that was not looked for.
-pub fn combined(
-    case: &Case,
+/// Where criteria hold with another amplitude and another natural frequency at once, numbers of these kinds whose own values are
+/// given, and lines along which all hold one at a time; none where that was not looked for.
+pub fn combined_panel(
+    units: Units,
+    kinds: [&'static Kind; 2],
+    [amplitude, frequency]: [f64; 2],
     found: &[Combined],
-    ranges: &[HoldsFor],
-    facts: &Value,
-) -> Option<Figure> {
+    hold: [Option<[f64; 2]>; 2],
+) -> Option<Panel> {
     let (first, last) = (found.first()?, found.last()?);
     let [x, y] = [0, 1].map(|k| {
-        let parameter = Varied::FIRST[k].parameter(case)?;
-        let own = case.design.value(parameter)?;
+        let own = [amplitude, frequency][k];
         let ends = [first.at[k].min(own), last.at[k].max(own)];
         let room = ROOM * (ends[1] - ends[0]);
-        let ends = [ends[0] - room, ends[1] + room];
-        Some((own, AxisOf::si(case.units(), case.design.kind(parameter)).axis(ends)))
+        AxisOf::si(units, kinds[k]).axis([ends[0] - room, ends[1] + room])
     });
-    let ((amplitude, x), (frequency, y)) = (x?, y?);
     let marks = OUTCOMES.into_iter().map(|(outcome, marker, color, name)| {
         let there = found.iter().filter(|one| one.outcome == outcome).map(|one| one.at);
         Layer::marked(marker, color, there).labelled(name)
     });
-    let hold = Varied::FIRST.map(|one| ranges.iter().find(|range| range.parameter == one)?.holds);
     let panel = match hold {
         [Some(amplitudes), Some(frequencies)] => Panel::new(x, y)
             .with(
@@ -123,12 +120,25 @@ pub fn combined(
         _ => Panel::new(x, y),
     };
     let panel = marks.fold(panel, Panel::with);
-    let panel = panel.with(Layer::this_case([amplitude, frequency], None));
-    Some(
-        Figure::new(COMBINED, "")
-            .with_panel(panel)
-            .with_facts("captions/choice-combined", facts.clone()),
-    )
+    Some(panel.with(Layer::this_case([amplitude, frequency], None)))
+}
+
+/// The figure of such panels; none where there are none.
+pub fn combined(panels: Vec<Panel>, facts: &Value) -> Option<Figure> {
+    let any = !panels.is_empty();
+    let figure = panels.into_iter().fold(Figure::new(COMBINED, ""), Figure::with_panel);
+    any.then(|| figure.with_facts("captions/choice-combined", facts.clone()))
+}
+
+/// The panel of a case of one mode.
+pub fn combined_of(case: &Case, found: &[Combined], ranges: &[HoldsFor]) -> Option<Panel> {
+    let parameters = Varied::FIRST.map(|varied| varied.parameter(case));
+    let [Some(amplitude), Some(frequency)] = parameters else { return None };
+    let own = [amplitude, frequency].map(|parameter| case.design.value(parameter));
+    let [Some(a), Some(f)] = own else { return None };
+    let kinds = [amplitude, frequency].map(|parameter| case.design.kind(parameter));
+    let hold = Varied::FIRST.map(|one| ranges.iter().find(|range| range.parameter == one)?.holds);
+    combined_panel(case.units(), kinds, [a, f], found, hold)
 }
 
 /// The figure over the drift, of a case with such units of pages; none where the frequency of a structure cannot drift.

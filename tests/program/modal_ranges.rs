@@ -5,7 +5,9 @@ use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, ModalCase};
 use vinesink::executor::Serial;
 use vinesink::modal::ModalAnswer;
-use vinesink::operating_range::{HoldsFor, Reliability, Together, Varied, Varies, holds_for};
+use vinesink::operating_range::{
+    HoldsFor, Reliability, Together, Varied, Varies, combined, holds_for,
+};
 
 use super::choice::{checked, fails, with};
 
@@ -101,6 +103,42 @@ fn a_mode_that_takes_no_part_leaves_the_ranges() {
             assert!((a / b - 1.0).abs() < 1e-12, "{several:?} {single:?}");
         }
     }
+}
+
+/// With the amplitude of a load and the natural frequencies changed at once the same designs hold and fail as of the one mode, where a
+/// second one takes no part.
+#[test]
+fn a_mode_that_takes_no_part_leaves_the_combinations() {
+    let limit = "peak_displacement = '<= 3.4 mm'\n";
+    let one = format!(
+        "title = 't'\nsource = 's'\n[oscillator]\n{SPRING}[absorber]\n{ABSORBER}[excitation]\n{EXCITATION}[criteria]\n{limit}"
+    );
+    let one = Case::parse("case.toml", &one).expect("a case");
+    let judged = Answer::of(&one, Asked::Criteria, None, &Serial).expect("answered").judged;
+    let effort = one.effort();
+    let numbers = &Varied::FIRST;
+    let found = holds_for(&one, &judged, numbers, Together::Undecided, &effort, &Serial);
+    let single = combined(&one, &found.expect("flown"), &effort, &Serial).expect("flown");
+    let two = with_idle_mode("").replace("<= 2.2 mm", "<= 3.4 mm");
+    let two = ModalCase::parse("case.toml", &two).expect("a case");
+    let answer = ModalAnswer::of(&two, &Serial).expect("flown");
+    let answer = answer.decided(&two, numbers, Together::Undecided, false, &Serial);
+    let several = answer.expect("flown").combined(&two, &Serial).expect("flown").combined;
+    println!("{single:?}\n{several:?}");
+    assert_eq!(single.len(), several.len());
+    let (mut alike, mut promised) = (0, 0);
+    for (a, b) in single.iter().zip(&several) {
+        assert_eq!(b.of, None, "there is one load");
+        let off = [0, 1].map(|k| (a.at[k] / b.at[k] - 1.0).abs());
+        // An end is known to an eighth of a step, and the worst place of a stretch may be another one of its places.
+        let same = off[0] < 0.02 && off[1] < 0.02;
+        if same && a.outcome != Together::Undecided && b.outcome != Together::Undecided {
+            assert_eq!(a.outcome, b.outcome, "{a:?} {b:?}");
+            alike += 1;
+        }
+        promised += usize::from(b.promised);
+    }
+    assert!(alike >= 8 && promised >= 4, "{alike} {promised}");
 }
 
 const SPRING: &str = "mass = '1 kg'\nfrequency = '5 Hz'\ndamping_ratio = 0.02\n";

@@ -72,7 +72,8 @@ pub fn decide(document: &mut Value, case: &Case, answer: &Answer) {
     let ranges = ranges.map(|one| range(one, kind_of(case, one.parameter), physical));
     let (rows, ranges): (Vec<Value>, Vec<Value>) = ranges.unzip();
     document["holds_for"] = json!(rows);
-    document["combined"] = answer.combined.iter().map(|one| together(case, one)).collect();
+    let kinds = Varied::FIRST.map(|varied| kind_of(case, varied));
+    document["combined"] = answer.combined.iter().map(|one| together(one, kinds)).collect();
     document["ranges"] = json!(ranges);
     let told = |one: &Uncertain| {
         let value = case.design.value(one.parameter).unwrap_or_default();
@@ -269,12 +270,10 @@ pub fn edges(case: &Case, found: &[Edge]) -> Value {
     found.iter().map(row).collect()
 }
 
-/// What holds for another amplitude and another natural frequency at once.
-fn together(case: &Case, found: &Combined) -> Value {
-    let [amplitude, frequency] = [0, 1].map(|k| {
-        let kind = kind_of(case, Varied::FIRST[k]);
-        Quantity::new(kind, found.at[k], Method::Given)
-    });
+/// What holds for another amplitude and another natural frequency at once, numbers of these kinds.
+pub fn together(found: &Combined, kinds: [&'static Kind; 2]) -> Value {
+    let [amplitude, frequency] =
+        [0, 1].map(|k| Quantity::new(kinds[k], found.at[k], Method::Given));
     json!({
         "amplitude": amplitude,
         "natural_frequency": frequency,

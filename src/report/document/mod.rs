@@ -31,7 +31,7 @@ use crate::study::fidelity::Answers;
 use crate::system::Parameter;
 
 pub(super) use band::{AbsorberAlong, damper, outside};
-pub use decision::{Devices, alternatives, decide, designed, edges, range, reliability};
+pub use decision::{Devices, alternatives, decide, designed, edges, range, reliability, together};
 pub use notes::theory_limits;
 pub use scale::{Scale, cavity, support};
 pub use word::{Tone, Word};

@@ -113,7 +113,7 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
     }
     let page = json!({
         "path": path, "case": name, "warnings": warnings(case), "criteria": criteria(case, answer), "outside": null, "choice": choice,
-        "alternatives": devices, "absorbers": absorbers(case), "ranges": ranges, "combined": [], "reliability": reliability,
+        "alternatives": devices, "absorbers": absorbers(case), "ranges": ranges, "combined": ranges::combined(case, answer), "reliability": reliability,
         "modes_from": case.modes_from,
     });
     Checked::of(document, page, units)

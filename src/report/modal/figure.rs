@@ -137,7 +137,7 @@ fn most(motion: &ModalMotion) -> f64 {
 }
 
 /// With its panels below one another.
-fn in_rows(figure: Figure) -> Figure {
+pub(super) fn in_rows(figure: Figure) -> Figure {
     let count = figure.panels.len().max(1);
     let height = 90 + 250 * u32::try_from(count).unwrap_or(1);
     figure.with_layout(Layout::rows(&vec![1.0; count])).with_size(720, height)
@@ -167,7 +167,7 @@ fn with_limits(panel: Panel, limits: &[(f64, String)]) -> Panel {
     })
 }
 
-fn heading(case: &ModalCase, number: usize, load: &Load) -> String {
+pub(super) fn heading(case: &ModalCase, number: usize, load: &Load) -> String {
     let on = match load.on {
         ActsOn::Place(place) => format!("force at {}", case.places[place]),
         ActsOn::Mode(mode) => format!("force in mode {}", mode + 1),

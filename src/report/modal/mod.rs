@@ -358,6 +358,7 @@ pub fn document(
     let (rows, told) = ranges::rows(case, answer);
     if !rows.is_empty() {
         (document["holds_for"], document["ranges"]) = (json!(rows), json!(told));
+        document["combined"] = json!(ranges::combined(case, answer));
     }
     if answer.reliability.is_some() {
         document["reliability"] = ranges::probability(case, answer);
@@ -385,6 +386,7 @@ pub fn files(
     ];
     let compared = answer.alternatives.as_ref();
     drawn.extend(compared.and_then(|found| choice::figure(units(case), found, &document)));
+    drawn.extend(ranges::figure(case, answer, &document));
     drawn.retain(|figure| !figure.panels.is_empty());
     let figures = worded(drawn, &units(case))?;
     document["figures"] = figures.iter().map(super::document::figure_row).collect();

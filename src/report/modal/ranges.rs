@@ -2,12 +2,16 @@
 
 use serde_json::{Value, json};
 
+use super::figure::{heading, in_rows};
+use super::units;
 use crate::case::{ModalCase, is_of_absorber};
 use crate::method::Method;
 use crate::modal::ModalAnswer;
-use crate::operating_range::{Uncertain, Varies};
-use crate::quantity::Quantity;
-use crate::report::document::{range, reliability};
+use crate::operating_range::{Combined, Uncertain, Varied, Varies};
+use crate::quantity::{Kind, Quantity};
+use crate::report::choice;
+use crate::report::document::{range, reliability, together};
+use crate::report::figure::Figure;
 use crate::system::Parameter;
 
 /// A row about a number with which absorber or load it is of, where there are several, and that it is of all modes.
@@ -34,6 +38,39 @@ pub(super) fn rows(case: &ModalCase, answer: &ModalAnswer) -> (Vec<Value>, Vec<V
         Some((placed(row), placed(told)))
     });
     each.unzip()
+}
+
+/// What holds where the amplitude of a load and the natural frequencies change at once.
+pub(super) fn combined(case: &ModalCase, answer: &ModalAnswer) -> Vec<Value> {
+    let row = |found: &Combined| {
+        let number = Parameter::Amplitude;
+        placed(case, number, found.of, together(found, kinds(case, found.of)))
+    };
+    answer.combined.iter().map(row).collect()
+}
+
+/// What an amplitude of a load and the natural frequencies are.
+fn kinds(case: &ModalCase, of: Option<usize>) -> [&'static Kind; 2] {
+    [(Parameter::Amplitude, of), (Parameter::NaturalFrequency, None)]
+        .map(|(number, of)| case.kind_of(number, of))
+}
+
+/// The same drawn, a panel for each load; none where that was not looked for.
+pub(super) fn figure(case: &ModalCase, answer: &ModalAnswer, facts: &Value) -> Option<Figure> {
+    let mut panels = Vec::new();
+    for along in answer.holds_for.iter().filter(|one| one.parameter == Varied::Amplitude) {
+        let here = answer.combined.iter().filter(|one| one.of == along.of).copied();
+        let here: Vec<Combined> = here.collect();
+        let own = [along.value, case.number(Parameter::NaturalFrequency, None)?];
+        let frequency =
+            answer.holds_for.iter().find(|one| one.parameter == Varied::NaturalFrequency);
+        let hold = [along.holds, frequency.and_then(|one| one.holds)];
+        let kinds = kinds(case, along.of);
+        let k = along.of.unwrap_or_default();
+        let panel = choice::combined_panel(units(case), kinds, own, &here, hold);
+        panels.extend(panel.map(|panel| panel.with_heading(heading(case, k, &case.loads[k]))));
+    }
+    choice::combined(panels, facts).map(in_rows)
 }
 
 /// With which probability its criteria hold; null where that is not known.
