@@ -115,6 +115,7 @@ impl Bound {
 
     fn words(self) -> String {
         match (self.above, self.least, self.most) {
+            (Some(above), _, Some(most)) => format!("above {above} and up to {most}"),
             (Some(above), ..) => format!("above {above}"),
             (None, Some(least), Some(most)) => format!("from {least} to {most}"),
             (None, Some(least), None) => format!("{least} or more"),

@@ -46,7 +46,7 @@ pub struct Uncertainty {
     #[schemars(example = "0.2 mm", example = "± 0.2 mm")]
     pub clearance: Option<Distribution>,
     /// Of the restitution.
-    #[schemars(with = "Option<Value>", extend("x-signed" = "restitution", "anyOf" = plain_errors(), "minimum" = 0))]
+    #[schemars(with = "Option<Value>", extend("x-signed" = "restitution", "anyOf" = plain_errors(), "minimum" = 0, "maximum" = 1))]
     #[schemars(example = 0.05, example = "± 0.05")]
     pub restitution: Option<Distribution>,
     /// Of the cavity's inclination; not beside [reduced].
@@ -105,7 +105,7 @@ pub(super) struct UncertaintyOfSeveral {
     #[schemars(example = "0.2 mm", example = "± 0.2 mm")]
     clearance: Option<Distribution>,
     /// Of each absorber's restitution.
-    #[schemars(with = "Option<Value>", extend("x-signed" = "restitution", "anyOf" = plain_errors(), "minimum" = 0))]
+    #[schemars(with = "Option<Value>", extend("x-signed" = "restitution", "anyOf" = plain_errors(), "minimum" = 0, "maximum" = 1))]
     #[schemars(example = 0.05, example = "± 0.05")]
     restitution: Option<Distribution>,
     /// Of each excitation's amplitude; not beside [reduced].

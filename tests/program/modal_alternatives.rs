@@ -197,7 +197,8 @@ fn absorbers_of_a_structure_that_is_off_are_those_of_another_case() {
 fn slips_of_alternatives_are_refused() {
     for (table, told) in [
         ("[alternatives]\ndrift = ['5 kg']\n", "kg"),
-        ("[alternatives]\ndrift = ['60 %']\n", "60 %"),
+        ("[alternatives]\ndrift = ['60 %']\n", "above 0 and up to 0.5"),
+        ("[uncertainty]\nrestitution = 7\n", "from 0 to 1"),
         ("[alternatives]\ndamper_damping = 0\n", "damper_damping"),
         ("[alternatives]\ndrifts = ['5 %']\n", "drifts"),
     ] {
