@@ -302,12 +302,7 @@ impl Case {
 
     /// What turns the system's results back into the case's units.
     pub fn units(&self) -> Units {
-        let own = self.design.units();
-        match self.report.units {
-            PageUnits::Us => own.in_us(),
-            PageUnits::Si if self.criteria.iter().any(Criterion::is_in_g) => own.in_g(),
-            PageUnits::Si => own,
-        }
+        self.report.units.of_pages(self.design.units(), &self.criteria)
     }
 
     /// How long an impact takes in s, or a sensor sees it, where its pulse is asked for.
@@ -356,16 +351,11 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
     let scene = design.map_or(Scene::Steady, |design| design.scene());
     refuse_steady(reader, &root, scene);
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
-    let report = reader.optional::<ReportSettings>(&root, "report");
-    if let Some((table, read)) = &report
-        && read.units == PageUnits::Us
-        && design.is_some_and(|design| !design.is_physical())
-    {
-        let message = "`units` has no meaning beside [reduced], whose pages are in its own units";
-        let help = "remove the line, or write the design in physical units";
-        reader.report(table.span_of("units"), message, "expected no units of pages", help);
-    }
-    let report = report.map(|(_, read)| read);
+    let report = reader.optional::<ReportSettings>(&root, "report").map(|(table, read)| {
+        let is_physical = design.is_none_or(|design| design.is_physical());
+        refuse_units(reader, &table, read.units, is_physical);
+        read
+    });
     let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
     let alternatives = reader.settings::<AlternativesSettings>(&root, "alternatives");
     let band = band::read(reader, &root);
@@ -416,20 +406,26 @@ fn refuse_steady(reader: &mut Reader, root: &Table, scene: Scene) {
         let help = "remove the table: it is about steady vibration";
         reader.report(root.span_of(name), message, expected, help);
     }
-    let report = root.value("report").and_then(|report| report.get_ref().as_table());
-    let of_steady = report.into_iter().flatten().filter(|(key, _)| key.get_ref() != OF_ANY_SCENE);
-    for (key, value) in of_steady {
-        let key = key.get_ref();
-        let message = format!("`{key}` has no meaning for a structure that is {}", scene.words());
-        let help = "remove the line: it is about steady vibration";
-        reader.report(value.span(), message, "expected `units` alone", help);
+    for (name, kept) in [("report", OF_ANY_SCENE), ("simulation", "starts")] {
+        let table = root.value(name).and_then(|table| table.get_ref().as_table());
+        let others = table.into_iter().flatten().filter(|(key, _)| key.get_ref() != kept);
+        for (key, value) in others {
+            let key = key.get_ref();
+            let message =
+                format!("`{key}` has no meaning for a structure that is {}", scene.words());
+            let expected = format!("expected `{kept}` alone");
+            let help = "remove the line: it is about steady vibration";
+            reader.report(value.span(), message, expected, help);
+        }
     }
-    let Some(simulation) = root.value("simulation") else { return };
-    for key in ["periods", "discard"] {
-        let Some(value) = simulation.get_ref().get(key) else { continue };
-        let message = format!("`{key}` has no meaning for a structure that is {}", scene.words());
-        let help = "remove the line: it is about steady vibration";
-        reader.report(value.span(), message, "expected `starts` alone", help);
+}
+
+/// Reports units of pages beside `[reduced]`, where there is nothing to choose.
+fn refuse_units(reader: &mut Reader, report: &Table, units: PageUnits, is_physical: bool) {
+    if units == PageUnits::Us && !is_physical {
+        let message = "`units` has no meaning beside [reduced], whose pages are in its own units";
+        let help = "remove the line, or write the design in physical units";
+        reader.report(report.span_of("units"), message, "expected no units of pages", help);
     }
 }
 

@@ -6,6 +6,9 @@ use serde_json::{Value, json};
 
 use vinesink_core::names;
 
+use super::criteria::Criterion;
+use crate::quantity::Units;
+
 /// How the case is simulated. Each key may be left out.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
@@ -49,6 +52,17 @@ names! { name:
         Si = "si",
         /// Inch, pound, ounce and pound of force; accelerations in g.
         Us = "us",
+    }
+}
+
+impl PageUnits {
+    /// Those of the pages of a case with such units and criteria.
+    pub(crate) fn of_pages(self, own: Units, criteria: &[Criterion]) -> Units {
+        match self {
+            Self::Us => own.in_us(),
+            Self::Si if criteria.iter().any(Criterion::is_in_g) => own.in_g(),
+            Self::Si => own,
+        }
     }
 }
 

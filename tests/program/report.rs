@@ -52,11 +52,30 @@ fn golden_markdown() {
 /// A case in inches and pounds with `units = "us"`: no page, figure or text has a unit of SI that has another. JSON is in SI.
 #[test]
 fn a_page_in_inches_and_pounds_has_no_other_units() {
-    let text = "title = \"a mast\"\nsource = \"a test\"\n\
+    no_other_units(
+        "title = \"a mast\"\nsource = \"a test\"\n\
         [oscillator]\nmass = \"9.19 lb\"\nfrequency = \"500 cpm\"\ndamping_ratio = \"0.7 %\"\n\
         [absorber]\nmass = \"1.13 oz\"\nclearance = \"0.3 in\"\nrestitution = 0.6\n\
         [excitation]\nkind = \"force\"\namplitude = \"0.65 lbf\"\nfrequency = \"480 rpm\"\n\
-        [criteria]\nrms_velocity = \"<= 9 in/s\"\nacceleration = \"<= 1.2 g\"\n";
+        [criteria]\nrms_velocity = \"<= 9 in/s\"\nacceleration = \"<= 1.2 g\"\n",
+    );
+}
+
+/// The same of two modes with two absorbers.
+#[test]
+fn pages_of_several_modes_in_inches_and_pounds_have_no_other_units() {
+    no_other_units(
+        "title = \"a mast\"\nsource = \"a test\"\n\
+        [[mode]]\nmass = \"9.19 lb\"\nfrequency = \"500 cpm\"\ndamping_ratio = \"0.7 %\"\nshape = { tip = 1.0, low = 0.4 }\n\
+        [[mode]]\nmass = \"9.19 lb\"\nfrequency = \"2100 cpm\"\ndamping_ratio = \"1 %\"\nshape = { tip = 1.0, low = -0.8 }\n\
+        [[absorber]]\nplace = \"tip\"\nmass = \"1.13 oz\"\nclearance = \"0.3 in\"\nrestitution = 0.6\n\
+        [[absorber]]\nplace = \"low\"\nmass = \"2 oz\"\nclearance = \"0.1 in\"\nrestitution = 0.4\n\
+        [[excitation]]\nkind = \"force\"\nplace = \"tip\"\namplitude = \"0.65 lbf\"\nfrequency = \"480 rpm\"\n\
+        [criteria]\nrms_velocity = \"<= 9 in/s\"\nacceleration = \"<= 1.2 g\"\n",
+    );
+}
+
+fn no_other_units(text: &str) {
     let folder = TempDir::new().expect("a folder");
     let run = |units: &str, verb: &str| {
         let path = folder.path().join("mast.toml");

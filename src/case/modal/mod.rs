@@ -82,6 +82,8 @@ pub struct ModalCase {
     pub modes_from: Option<String>,
     /// Within which bounds better absorbers are looked for.
     pub bounds: Bounds,
+    /// Units of its pages, from the table `[report]`.
+    pub page_units: crate::case::PageUnits,
     /// The table `[alternatives]`; its defaults where there is none.
     pub alternatives: crate::case::AlternativesSettings,
     /// The table `[uncertainty]`; nothing is uncertain where there is none.

@@ -21,13 +21,13 @@ use super::sweep::{ModalSweepTable, read_sweep};
 use super::table::ModesFile;
 use super::warnings::Spans;
 use super::{AbsorberKey, ActsOn, Load, ModalCase, PlacedAbsorber, StructuralMode};
-use crate::case::Heading;
 use crate::case::criteria::UPTO;
 use crate::case::error::CaseError;
 use crate::case::limits::{Asked, read_limits};
 use crate::case::reader::{Reader, Table, fields, kind};
-use crate::case::settings::{AlternativesSettings, SimulationSettings};
+use crate::case::settings::{AlternativesSettings, PageUnits, SimulationSettings};
 use crate::case::uncertainty::{UncertaintyOfSeveral, read_of_several};
+use crate::case::{Heading, refuse_units};
 use crate::excitation::Scene;
 use crate::system::MOST_MODES;
 
@@ -79,6 +79,16 @@ enum OneOrMore<T> {
     More(Vec<T>),
 }
 
+/// What the report is in. The table may be left out.
+#[derive(Default, Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[serde(default)]
+struct ReportOfSeveral {
+    /// Units of the case's pages, figures and text for a terminal: SI unless given. Files for programs, the index and
+    /// `diff` are in SI; not beside `[reduced]`.
+    units: PageUnits,
+}
+
 /// Tables of such a file.
 #[derive(Deserialize, JsonSchema)]
 #[expect(
@@ -95,6 +105,7 @@ struct ModalTables {
     criteria: Option<ModalCriteriaTable>,
     optimize: Option<ModalOptimizeTable>,
     alternatives: Option<AlternativesSettings>,
+    report: Option<ReportOfSeveral>,
     uncertainty: Option<UncertaintyOfSeveral>,
     sweep: Option<ModalSweepTable>,
 }
@@ -265,6 +276,10 @@ pub(super) fn read(
     read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
     let alternatives = reader.settings::<AlternativesSettings>(&root, "alternatives");
+    let report = reader.optional::<ReportOfSeveral>(&root, "report").map(|(table, read)| {
+        refuse_units(reader, &table, read.units, reduced.is_none());
+        read.units
+    });
     let moves_base: Vec<bool> = loads.iter().map(|load: &Load| load.on == ActsOn::Base).collect();
     let uncertainty = read_of_several(reader, &root, reduced.is_some(), &moves_base);
     if uncertainty.damping_ratio.is_some()
@@ -300,6 +315,7 @@ pub(super) fn read(
         modes_from,
         contact_is_sensors,
         bounds,
+        page_units: report.unwrap_or_default(),
         alternatives: alternatives.unwrap_or_default(),
         uncertainty,
         sweep: None,

@@ -20,7 +20,7 @@ use super::document::{Content, Tone, Word, headed, keep_case};
 use super::error::RenderError;
 use super::render::{Files, in_lines, page_files};
 use super::template::{render, worded};
-use crate::case::{ActsOn, Criterion, Load, ModalCase, Of, StructuralMode};
+use crate::case::{ActsOn, Load, ModalCase, Of, StructuralMode};
 use crate::criteria::Worst;
 use crate::method::Method;
 use crate::modal::{Beside, ForceStep, ModalAnswer, OverForce, Stretches};
@@ -48,7 +48,7 @@ pub fn units(case: &ModalCase) -> Units {
         natural_frequency: case.omega(),
         oscillator_mass: case.modes[0].mass_kg,
     });
-    if case.criteria.iter().any(Criterion::is_in_g) { units.in_g() } else { units }
+    case.page_units.of_pages(units, &case.criteria)
 }
 
 /// The unit of frequencies in a document: "1" where they are over that of the first mode.
