@@ -64,8 +64,9 @@ def test_ranges(tmp_path, printed):
     assert found and found.to_dict() == expected
     assert {one["parameter"] for one in expected["holds_for"]} >= {"amplitude", "clearance", "natural-frequency"}
     assert expected["reliability"]["samples"] == 20
+    assert {one["which"] for one in expected["alternatives"]} >= {"absorber", "no-absorber", "damper", "damper-in-equal-room"}
     alone = case.check(criteria_only=True).to_dict()
-    assert alone["holds"] and "holds_for" not in alone and "reliability" not in alone
+    assert alone["holds"] and "alternatives" not in alone and "holds_for" not in alone and "reliability" not in alone
 
 
 def test_optimize(path, printed):

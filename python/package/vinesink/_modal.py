@@ -125,7 +125,7 @@ class ModalCase:
     def check(self, *, criteria_only: bool = False, long: bool = False, progress: Progress | None = None) -> Check:
         """Holds the case against its limits, along every load: what `vinesink check --format json` says of it.
 
-        Where no criterion fails, that has how far each number may change, and with a table `[uncertainty]` the probability that
+        That has what tuned mass dampers would do, `alternatives`, and where no criterion fails how far each number may change, and with a table `[uncertainty]` the probability that
         all hold: fifteen times the work for each number, and once for each design that is drawn. Where they would take more than
         one minute, and three, they are left out unless `long` is given; `criteria_only` leaves them out.
         Raises `RefusedError` of a case without criteria.
