@@ -95,9 +95,10 @@ pub(crate) trait Drifting: Sized {
             let given = damping.map(|damping_ratio| {
                 own.iter().map(|one| TunedMassDamper { damping_ratio, ..*one }).collect::<Vec<_>>()
             });
-            return from.with(
-                &given.unwrap_or_else(|| more_damped(&own, |each| worst(each)[1] <= within)),
-            );
+            let fits = |each: &[TunedMassDamper]| {
+                self.told(Some(&from.with(each)), Room::AsDesigned)[1] <= within
+            };
+            return from.with(&given.unwrap_or_else(|| more_damped(&own, fits)));
         }
         let how = Designing { damping, ..self.designing() };
         let cost = |each: &[TunedMassDamper]| {

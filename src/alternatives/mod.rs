@@ -8,7 +8,7 @@ mod drifting;
 use serde::Serialize;
 
 use crate::band::Survey;
-use crate::case::{AlternativesSettings, Case, Relation};
+use crate::case::{AlternativesSettings, Case, Criterion, Of, Relation};
 use crate::dampers::{AtBound, Designing};
 use crate::executor::{Executor, map};
 use crate::flights::DrivenError;
@@ -89,7 +89,7 @@ pub struct Alternatives<D = TunedMassDamper> {
     pub inactive: bool,
     /// One row for each device, room and drift.
     pub rows: Vec<Row<D>>,
-    /// X.
+    /// What becomes of it as the structure's natural frequencies drift.
     pub over_drift: OverDrift,
 }
 
@@ -131,19 +131,27 @@ impl Alternatives {
         let measure = asked(case);
         let Some((worst, inactive)) = own(case, known, measure) else { return Ok(None) };
         let here = DriftedCase::of(case, measure, known.effort);
-        let mut criteria = case.criteria.iter();
-        let limit = criteria.find(|one| one.measure == measure && one.relation == Relation::AtMost);
-        let limit = limit.map(|one| one.limit);
+        let limit = limit(&case.criteria, measure, Of::Any);
         let own = Own { measure, limit, inactive, worst };
         let usual = vec![as_designed(known, &here)];
         Self::beside(&here, own, usual, &case.alternatives, on)
     }
 }
 
+/// What is asked at most of a measure of a place, or of any.
+pub(crate) fn limit(criteria: &[Criterion], measure: Measure, of: Of) -> Option<f64> {
+    let about = |one: &&Criterion| one.measure == measure && one.of == of;
+    let mut all = criteria.iter().filter(about);
+    all.find(|one| one.relation == Relation::AtMost).map(|one| one.limit)
+}
+
 /// What is known of the absorbers.
 pub(crate) struct Own {
+    /// What is compared.
     pub measure: Measure,
+    /// What is asked at most of that.
     pub limit: Option<f64>,
+    /// Whether the worst is that of absorbers which stay at rest.
     pub inactive: bool,
     /// What is asked, with its error.
     pub worst: [f64; 2],
@@ -162,7 +170,7 @@ impl<D: Dampers> Alternatives<D> {
         on: &dyn Executor,
     ) -> Result<Option<Self>, S::Error> {
         let Own { measure, limit, inactive, worst } = own;
-        if worst[0] <= 0.0 || usual.is_empty() {
+        if worst[0].is_nan() || worst[0] <= 0.0 || usual.is_empty() {
             return Ok(None);
         }
         let by_worst = |a: &Row<D>, b: &Row<D>| a.worst[0].total_cmp(&b.worst[0]);
@@ -276,10 +284,10 @@ impl<D: Dampers> Alternatives<D> {
 
     /// The row of a device at a drift; of several that are called the same the best.
     pub fn row(&self, which: Which, drift: f64) -> Option<&Row<D>> {
-        self.all(which, drift).next()
+        self.all(which, drift).min_by(|a, b| a.worst[0].total_cmp(&b.worst[0]))
     }
 
-    /// All of these, the best first.
+    /// All of these, that first which is best where nothing is off.
     pub fn all(&self, which: Which, drift: f64) -> impl Iterator<Item = &Row<D>> {
         self.rows.iter().filter(move |row| row.which() == which && row.drift == drift)
     }

@@ -3,14 +3,14 @@
 use super::Decided;
 use crate::case::ModalCase;
 use crate::executor::Executor;
-use crate::modal::{ModalAnswer, ModalError, looks, seconds};
+use crate::modal::{ModalAnswer, ModalError, looks, seconds, seconds_of_designs};
 use crate::operating_range::{Reliability, Together};
 
 /// Seconds up to which a case, and a probability beside it, which is that of 200 checks, are ordinary.
 pub const ORDINARY: f64 = 60.0;
 /// See [`ORDINARY`].
 pub const ORDINARY_PROBABILITY: f64 = 180.0;
-/// About how many times a `check` of the case the two structures of a drift take, with half of its starts each.
+/// About how many times a `check` of the case the two structures of a drift take, which are looked at more coarsely.
 const OF_DRIFT: f64 = 1.2;
 /// The same of another amplitude of a load and other natural frequencies: half of 16 are looked at in full.
 const OF_LOAD: f64 = 11.0;
@@ -45,7 +45,9 @@ pub fn decided(
         checks > 0.0 && affords(what, own * checks, own * (1.0 + checks) <= ordinary)
     };
     let drifts = if told.alternatives { case.alternatives.drift.len() } else { 0 };
-    let compares = affords(LeftOut::Alternatives, OF_DRIFT * drifts as f64, ORDINARY);
+    let designs = if told.alternatives { seconds_of_designs(case) } else { 0.0 };
+    let checks = OF_DRIFT * drifts as f64 + designs / own.max(f64::MIN_POSITIVE);
+    let compares = affords(LeftOut::Alternatives, checks, ORDINARY);
     let answer = if compares { answer.compared(case, on)? } else { answer };
     // Where a criterion fails there is no range.
     let may_hold = !answer.judged.is_empty() && Together::of(&answer.judged) != Together::Fail;

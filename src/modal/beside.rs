@@ -39,10 +39,11 @@ impl Beside {
         let compared = answer.alternatives.as_ref();
         let usual =
             compared.map(|all| all.all(Which::Damper, 0.0).filter_map(|row| row.damper.clone()));
-        let dampers = match usual {
+        let mut dampers: Vec<DamperChoice> = match usual {
             Some(usual) => usual.map(|one| DamperChoice::of(case, one)).collect(),
             None => choices(case),
         };
+        dampers.sort_by_key(|one| one.dampers.each.len());
         let orbits = at_resonances(case)?;
         let theory = orbits.into_iter().filter_map(|one| one.theory).collect();
         Ok(Self { dampers, alone: modes_alone(case, on)?, forces, theory })

@@ -7,8 +7,8 @@ use super::linear::{
     amplitudes, asked_of, largest, largest_peak, linear_most, places, resonances, response,
 };
 use super::{ModalAnswer, ModalError};
-use crate::alternatives::{Alternatives, Drifting, Own, Room};
-use crate::case::{Criterion, Load, ModalCase, Relation};
+use crate::alternatives::{Alternatives, Drifting, Own, Room, limit};
+use crate::case::{Criterion, Load, ModalCase, Of};
 use crate::dampers::Designing;
 use crate::executor::Executor;
 use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse};
@@ -18,7 +18,9 @@ use crate::numerics::scan;
 /// How far beside a single frequency dampers are to work, over it: one for that frequency alone is a spring without damping.
 const ASIDE: f64 = 0.02;
 /// Pieces of a range, and steps beside each mode, in which a design is looked at beside its resonances.
-const DESIGN: [u32; 2] = [64, 8];
+const LOOKED_AT: [u32; 2] = [64, 8];
+/// How far beside a resonance it is looked at too, over it: so that its top has even neighbours.
+const NEAR: f64 = 1e-3;
 /// What the largest displacement over that of the structure alone counts beside limits that are of something else: one that holds
 /// by a little more is not worth several times the vibration.
 const BESIDE: f64 = 0.1;
@@ -57,7 +59,7 @@ impl DriftedStructure {
 
     fn with(case: ModalCase, factor: f64) -> Self {
         let of_load = |load: &Load| {
-            let all = places(wide(load), &case, DESIGN).into_iter();
+            let all = places(wide(load), &case, LOOKED_AT).into_iter();
             all.map(|at| (at, response(&case, load, at))).collect()
         };
         let along = case.loads.iter().map(of_load).collect();
@@ -126,6 +128,7 @@ impl Drifting for DriftedStructure {
                 })
                 .collect();
             let resonant = resonances(wide(load), case, &on).into_iter();
+            let resonant = resonant.flat_map(|at| [at * (1.0 - NEAR), at, at * (1.0 + NEAR)]);
             there.extend(resonant.map(|at| (at, amplitudes(case, load, at, &on))));
             there.sort_by(|a, b| a.0.total_cmp(&b.0));
             let top = |of: &dyn Fn(f64, &ModalAmplitudes) -> f64| {
@@ -143,7 +146,9 @@ impl Drifting for DriftedStructure {
             }
         }
         let others = case.criteria.iter().any(|one| one.measure != Measure::Peak);
-        let missed = cost(&over) + if others { BESIDE * peak / self.bare } else { 0.0 };
+        // What nothing limits alone is nothing to compare with.
+        let beside = others && self.bare.is_finite();
+        let missed = cost(&over) + if beside { BESIDE * peak / self.bare } else { 0.0 };
         [if case.criteria.is_empty() { peak } else { missed }, stroke]
     }
 
@@ -176,9 +181,9 @@ pub(super) fn alternatives(
     on: &dyn Executor,
 ) -> Result<Option<Alternatives<PlacedDampers>>, ModalError> {
     let Some((worst, inactive)) = own(case, answer) else { return Ok(None) };
-    let asked = compared_by(case);
-    let limit = asked.filter(|one| one.relation == Relation::AtMost).map(|one| one.limit);
-    let measure = asked.map_or(Measure::Peak, |one| one.measure);
+    let (measure, of) =
+        compared_by(case).map_or((Measure::Peak, Of::Any), |one| (one.measure, one.of));
+    let limit = limit(&case.criteria, measure, of);
     let own = Own { measure, limit, inactive, worst };
     let here = DriftedStructure::of(case);
     Alternatives::beside(&here, own, designs(case), &case.alternatives, on)

@@ -34,7 +34,7 @@ use ranges::Known;
 
 pub use along::{AlongLoad, AtFrequency, seconds};
 pub use beside::Beside;
-pub use dampers::{DamperChoice, PlacedDampers, choices};
+pub use dampers::{DamperChoice, PlacedDampers, choices, seconds_of_designs};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};

@@ -240,11 +240,11 @@ fn designs_of_drawn_structures_are_best() {
         text += &format!(
             "[[absorber]]\nplace = 'a'\nmass = '{mass} kg'\nclearance = '1 mm'\nrestitution = 0.5\n"
         );
-        for k in 0..count {
-            let (from, to) = (own[k] * draw(0.85, 0.97), own[k] * draw(1.03, 1.15));
+        for own in own {
+            let (from, to) = (own * draw(0.85, 0.97), own * draw(1.03, 1.15));
             text += &format!(
                 "[[excitation]]\nkind = 'force'\nplace = 'a'\namplitude = '{} N'\nfrom = '{from} Hz'\nto = '{to} Hz'\n",
-                draw(0.5, 2.0) * own[k] * own[k]
+                draw(0.5, 2.0) * own * own
             );
         }
         text += "[criteria]\npeak_displacement = '<= 1 um'\n";

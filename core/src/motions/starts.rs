@@ -16,11 +16,6 @@ const LARGEST: f64 = 10.0;
 /// How far starts go, over the linear amplitude.
 pub(super) const REACH: f64 = 1.2;
 
-/// The largest start, of a linear amplitude, both over the clearance: beyond that, and beyond motions as large as the clearance.
-pub(super) fn reach(linear: f64) -> f64 {
-    REACH * linear.clamp(1.0, LARGEST)
-}
-
 /// The `index`-th place of the sequence on the axis of a prime, from 0 to 1.
 pub(super) fn position(prime: f64, index: u32) -> f64 {
     (0.5 + prime.sqrt() * f64::from(index + 1)).fract()
@@ -47,7 +42,7 @@ impl StartBox {
     /// A box that holds the linear response and motions as large as the clearance.
     pub fn around(system: &System) -> Self {
         let linear = system.linear_response().map_or(LARGEST, |response| response.amplitude());
-        Self { reach: reach(linear) }
+        Self { reach: REACH * linear.clamp(1.0, LARGEST) }
     }
 
     /// The `index`-th start: oscillator anywhere in the box, absorber anywhere in its cavity.

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::{closed, given, mass};
 use crate::alternatives::Row;
-use crate::case::ModalCase;
+use crate::case::{ModalCase, Of as Place};
 use crate::modal::{ModalAnswer, PlacedDampers};
 use crate::operating_range::Varies;
 use crate::quantity::Quantity;
@@ -17,7 +17,13 @@ pub(super) fn rows(case: &ModalCase, answer: &ModalAnswer) -> (Value, Value) {
     let kept_alone = Varies::kept_without_absorber(case);
     let of = Devices { physical: !case.reduced, kept_alone, damper: &damper };
     let found = answer.alternatives.as_ref().map(|found| alternatives(found, &of));
-    found.unwrap_or_default()
+    let (rows, mut choice) = found.unwrap_or_default();
+    // Which place is compared, where the first criterion names one.
+    let first = case.criteria.first().filter(|one| one.measure.of_sine(1.0, 1.0).is_some());
+    if let (Some(Place::Place(place)), true) = (first.map(|one| one.of), choice.is_object()) {
+        choice["place"] = json!(case.places[place]);
+    }
+    (rows, choice)
 }
 
 /// Each damper of a row.
@@ -26,7 +32,14 @@ fn damper(case: &ModalCase, row: &Row<PlacedDampers>) -> Map<String, Value> {
         .damper
         .as_ref()
         .map(|dampers| each(case, dampers, row.changed, row.given_damping.is_some()));
-    Map::from_iter([("each".to_owned(), json!(each))])
+    // What the search for all of them ended at.
+    let bounds = row.damper.as_ref().map(|one| one.at_bound(row.given_damping.is_some()));
+    let bounds = bounds.filter(|_| !row.changed).unwrap_or_default();
+    let alike = bounds.first().filter(|first| bounds.iter().all(|one| one == *first));
+    Map::from_iter([
+        ("each".to_owned(), json!(each)),
+        ("at_bound".to_owned(), json!(alike.copied().flatten())),
+    ])
 }
 
 /// What dampers are; their frequencies may have changed, and their damping ratios may be given.

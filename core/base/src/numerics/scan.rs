@@ -160,8 +160,12 @@ pub fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -
     if c < 0.0 { (-0.25 * p * p / c).max(0.0) } else { 0.0 }
 }
 
-/// The largest of values, each behind its place, ascending, or the top of the parabola through it and its neighbours: between places
-/// that are close enough a smooth top is known to the fourth power of their distance.
+/// How many times as far one neighbour may be as the other for a parabola through both: beyond, what a peak falls by on the way to the
+/// far one says nothing of its top.
+const UNEVEN: f64 = 4.0;
+
+/// The largest of values, each behind its place, ascending, or the top of the parabola through it and its neighbours where these are
+/// about as far: a smooth top between even places is known to the fourth power of their distance.
 pub fn top(values: &[[f64; 2]]) -> f64 {
     let highest = (0..values.len()).max_by(|a, b| values[*a][1].total_cmp(&values[*b][1]));
     let Some(k) = highest else { return f64::NEG_INFINITY };
@@ -171,7 +175,9 @@ pub fn top(values: &[[f64; 2]]) -> f64 {
         (at != here && value.is_finite()).then_some([at - here, value - own])
     };
     match (beside(k.checked_sub(1)), beside(Some(k + 1))) {
-        (Some(left), Some(right)) => own + top_above(left, right),
+        (Some(left), Some(right)) if (1.0 / UNEVEN..=UNEVEN).contains(&(-left[0] / right[0])) => {
+            own + top_above(left, right)
+        }
         _ => own,
     }
 }

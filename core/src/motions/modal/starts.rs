@@ -1,7 +1,7 @@
 //! States that starts begin in.
 
 use crate::linear::carried_state;
-use crate::motions::starts::{REACH, position, reach};
+use crate::motions::starts::{REACH, position};
 use crate::system::{MOST_MODES, ModalState, ModalSystem};
 
 /// One prime for displacement and velocity of each mode, then for place and velocity of each absorber.
@@ -11,7 +11,7 @@ const PRIMES: [f64; 4 * MOST_MODES] = [
     131.0,
 ];
 
-/// The `k`-th start: from rest, each absorber half way to a wall; then each mode anywhere in a box around its own steady motion and
+/// The `k`-th start: from rest, each absorber half way to a wall; then each mode anywhere in a box as large as its own steady motion and
 /// the absorbers anywhere in their cavities, evenly spread.
 pub(super) fn start(system: &ModalSystem, k: u32) -> ModalState {
     let mut start = ModalState::AT_REST;
@@ -35,12 +35,18 @@ pub(super) fn start(system: &ModalSystem, k: u32) -> ModalState {
     start
 }
 
-/// The largest start, over the structure's own steady motion: that of one mode, for the absorber that is farthest from rest.
+/// Most times as far starts go for the sake of a clearance that the motion does not reach.
+const FARTHEST: f64 = 10.0;
+
+/// The largest start, over the structure's own steady motion: beyond that, and beyond the clearance of the absorber that is nearest to
+/// its walls where the motion reaches none. What modes have at an absorber counts, where they cancel each other too.
 fn reach_of(system: &ModalSystem) -> f64 {
-    let absorbers = system.absorbers().iter().enumerate();
-    let over = absorbers.map(|(j, one)| system.steady_motion_at(j).amplitude() / one.clearance);
-    let over = over.fold(0.0, f64::max);
-    if over > 0.0 { reach(over) / over } else { REACH }
+    let over = system.absorbers().iter().enumerate().map(|(j, one)| {
+        let each = system.modes().iter().enumerate();
+        let modes = each.map(|(k, mode)| mode.shape[j].abs() * system.steady_motion(k).amplitude());
+        (system.base_amplitude().abs() + modes.sum::<f64>()) / one.clearance
+    });
+    REACH / over.fold(0.0, f64::max).clamp(1.0 / FARTHEST, 1.0)
 }
 
 /// States of the structure as it carries all of its absorbers, or `each` alone. Those that no start is near, which are of the structure
