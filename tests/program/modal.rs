@@ -995,13 +995,15 @@ fn each_mode_in_a_wide_range_is_looked_at() {
     let answer = ModalAnswer::of(&case, &Serial).expect("flown");
     let near = |[from, to]: [f64; 2]| {
         let places = answer.along[0].places.iter().filter(|one| (from..to).contains(&one.at));
-        let peaks = places.flat_map(|one| &one.motions).map(|one| one.sensors[1].peak);
-        peaks.fold(0.0, f64::max)
+        let sensors = places.flat_map(|one| &one.motions).map(|one| &one.sensors[1]);
+        let most = |all: [f64; 2], one: [f64; 2]| [all[0].max(one[0]), all[1].max(one[1])];
+        sensors.map(|one| [one.peak, one.peak + one.error]).fold([0.0; 2], most)
     };
     assert_eq!(case.places, ["mid", "top"]);
-    let (first, second) = (near([5.0, 7.0]), near([20.0, 24.0]));
+    let ([first, _], second) = (near([5.0, 7.0]), near([20.0, 24.0]));
     assert!(first > 2.062e-3 * 0.995 && first < 2.062e-3 * 1.02, "{first}");
-    assert!(second > 2.40e-3 * 0.9, "{second}");
+    // It does not repeat: a window of six times as many periods may have more by as much as is told.
+    assert!(second[0] > 2.0e-3 && second[1] > 2.40e-3, "{second:?}");
     let worst = answer.worst(&case, None).expect("a motion").found;
     assert!(worst.value + worst.error > 2.40e-3, "{worst:?}");
 }

@@ -70,14 +70,14 @@ const NUMBERS: [(Varied, &str, &str); 3] = [
 
 #[test]
 fn ranges_of_a_load_over_frequencies_end_where_check_says_so() {
-    let text = board("0.3 mm", "from = '165 Hz'\nto = '195 Hz'");
+    let text = board("0.35 mm", "from = '165 Hz'\nto = '195 Hz'");
     ends_where_check_says_so(&text, &NUMBERS[..1], [1, 2]);
 }
 
 #[test]
 #[ignore = "deep"]
 fn all_ranges_of_a_board_end_where_check_says_so() {
-    ends_where_check_says_so(&board("0.3 mm", "from = '165 Hz'\nto = '195 Hz'"), &NUMBERS, [1, 6]);
+    ends_where_check_says_so(&board("0.35 mm", "from = '165 Hz'\nto = '195 Hz'"), &NUMBERS, [1, 6]);
     ends_where_check_says_so(&board("0.3 mm", "frequency = '182 Hz'"), &NUMBERS, [1, 12]);
 }
 
