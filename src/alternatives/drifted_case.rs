@@ -1,7 +1,7 @@
 //! A structure whose natural frequency may be off, with a linear device or none.
 
 use super::drifting::{Dampers, Drifting};
-use super::{DESIGN, Known, Room};
+use super::{DESIGN, Known, Room, compared_by};
 use crate::band::{Survey, SurveySettings, Worst};
 use crate::case::Case;
 use crate::criteria;
@@ -181,13 +181,11 @@ impl Dampers for TunedMassDamper {
     }
 }
 
-/// What devices are compared by: what the first criterion asks about, where a damper has a closed form of it.
+/// What devices are compared by: of a release the time that it takes.
 pub(super) fn asked(case: &Case) -> Measure {
-    let first = case.criteria.first().map(|one| one.measure);
-    match (case.design.scene(), first) {
-        (Scene::Release, _) => Measure::DecayTime,
-        (_, Some(asked)) if asked.of_sine(1.0, 1.0).is_some() => asked,
-        _ => Measure::Peak,
+    match case.design.scene() {
+        Scene::Release => Measure::DecayTime,
+        _ => compared_by(&case.criteria).map_or(Measure::Peak, |one| one.measure),
     }
 }
 

@@ -83,6 +83,8 @@ pub struct Row<D = TunedMassDamper> {
 pub struct Alternatives<D = TunedMassDamper> {
     /// What is compared: the peak, or what the first criterion asks about.
     pub measure: Measure,
+    /// Of which place, or of any.
+    pub of: Of,
     /// What is asked at most of that, where it is.
     pub limit: Option<f64>,
     /// Whether the absorber's worst is that of one which stays at rest, so that the structure is as good as alone.
@@ -131,15 +133,20 @@ impl Alternatives {
         let measure = asked(case);
         let Some((worst, inactive)) = own(case, known, measure) else { return Ok(None) };
         let here = DriftedCase::of(case, measure, known.effort);
-        let limit = limit(&case.criteria, measure, Of::Any);
-        let own = Own { measure, limit, inactive, worst };
+        let own = Own { measure, of: Of::Any, inactive, worst };
         let usual = vec![as_designed(known, &here)];
-        Self::beside(&here, own, usual, &case.alternatives, on)
+        Self::beside(&here, own, usual, (&case.criteria, &case.alternatives), on)
     }
 }
 
+/// What devices are compared by where they are driven steadily: what the first criterion asks about, where dampers have a closed form
+/// of it; else the peak of any place.
+pub(crate) fn compared_by(criteria: &[Criterion]) -> Option<&Criterion> {
+    criteria.first().filter(|one| one.measure.of_sine(1.0, 1.0).is_some())
+}
+
 /// What is asked at most of a measure of a place, or of any.
-pub(crate) fn limit(criteria: &[Criterion], measure: Measure, of: Of) -> Option<f64> {
+fn limit(criteria: &[Criterion], measure: Measure, of: Of) -> Option<f64> {
     let about = |one: &&Criterion| one.measure == measure && one.of == of;
     let mut all = criteria.iter().filter(about);
     all.find(|one| one.relation == Relation::AtMost).map(|one| one.limit)
@@ -149,8 +156,8 @@ pub(crate) fn limit(criteria: &[Criterion], measure: Measure, of: Of) -> Option<
 pub(crate) struct Own {
     /// What is compared.
     pub measure: Measure,
-    /// What is asked at most of that.
-    pub limit: Option<f64>,
+    /// Of which place, or of any.
+    pub of: Of,
     /// Whether the worst is that of absorbers which stay at rest.
     pub inactive: bool,
     /// What is asked, with its error.
@@ -166,10 +173,11 @@ impl<D: Dampers> Alternatives<D> {
         here: &S,
         own: Own,
         mut usual: Vec<D>,
-        settings: &AlternativesSettings,
+        (criteria, settings): (&[Criterion], &AlternativesSettings),
         on: &dyn Executor,
     ) -> Result<Option<Self>, S::Error> {
-        let Own { measure, limit, inactive, worst } = own;
+        let Own { measure, of, inactive, worst } = own;
+        let limit = limit(criteria, measure, of);
         if worst[0].is_nan() || worst[0] <= 0.0 || usual.is_empty() {
             return Ok(None);
         }
@@ -178,7 +186,7 @@ impl<D: Dampers> Alternatives<D> {
         usual.sort_by(|a, b| reach(a).total_cmp(&reach(b)));
         let over_drift = OverDrift { absorber: vec![(0.0, worst)], ..OverDrift::default() };
         let rows = vec![Row::of(Device::Absorber, worst, 0.0).with_stroke(here.room())];
-        let mut found = Self { measure, limit, inactive, rows, over_drift };
+        let mut found = Self { measure, of, limit, inactive, rows, over_drift };
         let drifts = found.add_absorber(here, &settings.drift, on)?;
         // Designs for a drift are of no use at a single frequency.
         let robust = drifts.iter().filter(|_| !here.is_of_one_frequency()).map(Some);

@@ -204,7 +204,12 @@ impl Arguments {
     /// The files of the report of a structure of several modes, without options about one.
     fn of_several(&self, path: &Path, name: &str, case: &ModalCase) -> Result<Files> {
         several::without(path, &[("--fidelity", self.fidelity.is_some())])?;
-        several::report(path, name, case, self.long)
+        several::report(path, name, case, self.decided(), self.long)
+    }
+
+    /// What is looked at beside the criteria.
+    const fn decided(&self) -> Decided {
+        if self.criteria_only { Decided::NOTHING } else { Decided::ALL }
     }
 }
 
@@ -291,8 +296,7 @@ fn rendered(path: &Path, name: &str, case: &Case, arguments: &Arguments) -> Resu
     let plan = LayerPlan::of_case(case, arguments.fidelity).into_diagnostic()?;
     let work = Work::of(case, Asked::Report, plan.as_ref());
     arguments.long.allows(path, case, &work)?;
-    let asked = if arguments.criteria_only { Decided::NOTHING } else { Decided::ALL };
-    let decides = arguments.long.decides(path, case, &work, asked);
+    let decides = arguments.long.decides(path, case, &work, arguments.decided());
     let besides = ORDINARY + budget::of_decision(case, decides);
     let _progress = budget::progress(name, case, &work, besides);
     let report = Report::of(name, case, plan.as_ref(), decides, &Parallel).into_diagnostic()?;

@@ -51,10 +51,19 @@ pub fn decided(
 }
 
 /// The files of its report.
-pub fn report(path: &Path, name: &str, case: &ModalCase, long: Long) -> Result<Files> {
+pub fn report(
+    path: &Path,
+    name: &str,
+    case: &ModalCase,
+    told: Decided,
+    long: Long,
+) -> Result<Files> {
     let answer = answered(path, case, long)?;
-    let answer = decided(path, case, answer, Decided::ALL, long)?;
-    let beside = Beside::of(case, &answer, &Parallel).into_diagnostic()?;
+    let answer = decided(path, case, answer, told, long)?;
+    let mut beside = Beside::of(case, &answer, &Parallel).into_diagnostic()?;
+    if !told.alternatives {
+        beside.dampers.clear();
+    }
     files(name, case, &answer, &beside).into_diagnostic()
 }
 

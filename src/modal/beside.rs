@@ -1,6 +1,7 @@
 //! What a report has beside the motions along the loads.
 
-use super::dampers::{DamperChoice, choices};
+use super::alternatives::choices;
+use super::dampers::DamperChoice;
 use super::forces::OverForce;
 use super::orbits::at_resonances;
 use super::theory::LoadTheory;

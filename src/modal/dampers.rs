@@ -1,9 +1,8 @@
 //! Tuned mass dampers beside the absorbers of a structure of several modes.
 
-use super::drift::DriftedStructure;
-use super::linear::{amplitudes, largest, largest_peak, linear_most, linear_peak};
-use crate::alternatives::{Dampers, Drifting, Room};
-use crate::case::{ActsOn, Load, ModalCase};
+use super::linear::{amplitudes, largest, largest_peak, linear_most};
+use crate::alternatives::Dampers;
+use crate::case::{Load, ModalCase};
 use crate::dampers::AtBound;
 use crate::linear::{ModalDamper, TunedMassDamper};
 
@@ -35,7 +34,7 @@ impl Dampers for PlacedDampers {
 
 impl PlacedDampers {
     /// Den Hartog's for these modes.
-    fn den_hartog(case: &ModalCase, modes: &[usize]) -> Self {
+    pub(super) fn den_hartog(case: &ModalCase, modes: &[usize]) -> Self {
         let mass_kg =
             case.absorbers.iter().map(|one| one.mass_kg).sum::<f64>() / modes.len() as f64;
         let (mut each, mut places) = (Vec::new(), Vec::new());
@@ -109,63 +108,4 @@ impl DamperChoice {
             dampers,
         }
     }
-}
-
-/// The best one damper and, of structures that several modes drive, one for each of these modes: tuned and damped so that what criteria
-/// ask for is smallest over what they allow, or without criteria the largest displacement of any place, under any load; under loads of
-/// one frequency each Den Hartog's.
-pub fn designs(case: &ModalCase) -> Vec<PlacedDampers> {
-    let driven = driven_modes(case);
-    let mut counts = vec![1];
-    if driven.len() > 1 {
-        counts.push(driven.len());
-    }
-    let here = DriftedStructure::of(case);
-    let designed = |count: usize| {
-        let usual = PlacedDampers::den_hartog(case, &driven[..count]);
-        here.designed(&[], &usual, Room::AsDesigned, None)
-    };
-    counts.into_iter().map(designed).collect()
-}
-
-/// About how many seconds the designs of alternatives take on one processor: by the evaluations of a simplex for each number of dampers,
-/// each at some frequencies of each load, as designed, in the room, undamped, and for each drift on three structures.
-pub fn seconds_of_designs(case: &ModalCase) -> f64 {
-    const EVALUATIONS: f64 = 600.0;
-    const SECONDS: f64 = 2e-7;
-    let frequencies = (64 + 20 * case.modes.len()) * case.loads.len();
-    let designs = 3.0 + 3.0 * case.alternatives.drift.len() as f64;
-    let count = driven_modes(case).len();
-    let counts = if count > 1 { vec![1.0, count as f64] } else { vec![1.0] };
-    let each = counts.into_iter().map(|count: f64| count * count * (1.0 + count));
-    designs * EVALUATIONS * SECONDS * frequencies as f64 * each.sum::<f64>()
-}
-
-/// The same with what they do.
-pub fn choices(case: &ModalCase) -> Vec<DamperChoice> {
-    designs(case).into_iter().map(|one| DamperChoice::of(case, one)).collect()
-}
-
-/// The modes that a load is resonant with, the one that moves farthest first.
-fn driven_modes(case: &ModalCase) -> Vec<usize> {
-    let mut found: Vec<(usize, f64)> = Vec::new();
-    for load in &case.loads {
-        for (k, mode) in case.modes.iter().enumerate() {
-            let [from, to] = load.range_hz;
-            let near = mode.frequency_hz.clamp(from, to);
-            let driven = !matches!(load.on, ActsOn::Mode(other) if other != k);
-            // Within a twentieth of its frequency.
-            if !driven || (near / mode.frequency_hz - 1.0).abs() > 0.05 {
-                continue;
-            }
-            let most = linear_peak(case, load, near, &[]);
-            match found.iter_mut().find(|(known, _)| *known == k) {
-                Some((_, known)) => *known = known.max(most),
-                None => found.push((k, most)),
-            }
-        }
-    }
-    found.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let modes: Vec<usize> = found.into_iter().map(|(k, _)| k).collect();
-    if modes.is_empty() { vec![0] } else { modes }
 }

@@ -1,6 +1,6 @@
 //! What criteria ask of a structure of several modes, by what is known along its loads.
 
-use super::dampers::designs;
+use super::alternatives::designs;
 use super::linear::linear_most;
 use super::orbits;
 use super::sensors::{Look, measured, parts};

@@ -4,10 +4,10 @@
 //! For the program itself: this module may change at any time.
 
 mod along;
+mod alternatives;
 mod beside;
 mod cost;
 mod dampers;
-mod drift;
 mod forces;
 mod judge;
 mod linear;
@@ -33,8 +33,9 @@ use along::AlongEffort;
 use ranges::Known;
 
 pub use along::{AlongLoad, AtFrequency, seconds};
+pub use alternatives::{choices, seconds_of_designs};
 pub use beside::Beside;
-pub use dampers::{DamperChoice, PlacedDampers, choices, seconds_of_designs};
+pub use dampers::{DamperChoice, PlacedDampers};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
@@ -99,7 +100,7 @@ impl ModalAnswer {
     /// # Errors
     /// As [`ModalAnswer::of`].
     pub fn compared(self, case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
-        Ok(Self { alternatives: drift::alternatives(case, &self, on)?, ..self })
+        Ok(Self { alternatives: alternatives::alternatives(case, &self, on)?, ..self })
     }
 
     /// The same with how far these numbers may change, to where no criterion comes to less than `least`, and if `draws` with which

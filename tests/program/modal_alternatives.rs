@@ -9,6 +9,8 @@ use vinesink::case::{ActsOn, Case, ModalCase};
 use vinesink::executor::Serial;
 use vinesink::modal::{ModalAnswer, PlacedDampers, choices, linear_most};
 
+use super::run::vinesink;
+
 const SPRING: &str = "mass = '1 kg'\nfrequency = '5 Hz'\ndamping_ratio = 0.02\n";
 const ABSORBER: &str = "mass = '30 g'\nclearance = '2 mm'\nrestitution = 0.5\n";
 const ASKED: &str = "[alternatives]\ndrift = ['4 %', '12 %']\ndamper_frequency_factor = 1.2\n";
@@ -190,6 +192,28 @@ fn absorbers_of_a_structure_that_is_off_are_those_of_another_case() {
     }
     let [worst, error] = row.worst;
     assert!(most <= worst + error && worst <= 1.02 * most, "{row:?} {most}");
+}
+
+/// The criteria alone have nothing beside the absorbers.
+#[test]
+fn criteria_alone_have_no_dampers_beside_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    let two = "title = 't'\nsource = 's'\n[[mode]]\nmass = '1 kg'\nfrequency = '5 Hz'\ndamping_ratio = 0.02\n\
+               shape = { a = 1 }\n[[mode]]\nmass = '1 kg'\nfrequency = '17 Hz'\ndamping_ratio = 0.02\nshape = { a = 1 }\n\
+               [[absorber]]\nmass = '30 g'\nclearance = '2 mm'\nrestitution = 0.5\n[[excitation]]\nkind = 'force'\n\
+               amplitude = '0.1 N'\nfrequency = '5 Hz'\n[criteria]\npeak_displacement = '<= 1 mm'\n";
+    std::fs::write(&path, two).expect("written");
+    let (case, out) = (path.display().to_string(), folder.path().display().to_string());
+    let page = |more: &[&str]| {
+        let all = [&["report", &case, "--out", &out], more].concat();
+        let output = vinesink(&all);
+        assert!(output.status.success(), "{output:?}");
+        std::fs::read_to_string(folder.path().join("case/report.md")).expect("a page")
+    };
+    assert!(page(&[]).contains("## Alternatives"));
+    let alone = page(&["--criteria-only"]);
+    assert!(!alone.contains("## Alternatives") && !alone.contains("damper"), "{alone}");
 }
 
 /// What nobody could mean is refused where it stands.

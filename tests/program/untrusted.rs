@@ -716,7 +716,9 @@ fn characters_that_nobody_sees_reach_no_page_and_no_terminal() {
     let (_, tail) = rest.split_once("[criteria]").expect("a table");
     let load = load
         .replace("from = \"0.935 Hz\"", "frequency = \"1.1 Hz\"")
-        .replace("to = \"1.21 Hz\"", "");
+        .replace("to = \"1.21 Hz\"", "")
+        // Absorbers that rest are soon known.
+        .replace("0.3583 N", "0.01 N");
     let mast = format!("{head}[[excitation]]{load}[simulation]\nstarts = 2\n[criteria]{tail}");
     let folder = folder_with(&[
         ("one.toml", &case(&title)),

@@ -4,11 +4,7 @@
 //! enough; steep flanks and scatter make it wide. Where places are at uneven distances the top of the parabola through the worse
 //! of the two and its neighbours may be higher.
 
-use crate::numerics::scan::top_above;
-
-/// How many times as far a neighbour may be as the other: what two places that almost coincide differ by is chance, and a slope
-/// that chance decides has its top anywhere. Below 2.4 half of the differences is more than the top.
-const UNEVEN: f64 = 4.0;
+use crate::numerics::scan::top_of;
 
 /// The worst that a number may be between `around[right - 1]` and `around[right]`, of up to two places to either side, ascending,
 /// each with where it is and the number there, larger being worse.
@@ -18,13 +14,8 @@ pub(super) fn worst_between(around: &[[f64; 2]], right: usize) -> f64 {
     let smallest = around.iter().map(|one| one[1]).fold(f64::INFINITY, f64::min);
     let scatter = value(right - 1).max(value(right)) + 0.5 * (largest - smallest);
     let top = |k: usize| {
-        let beside = |other: usize| {
-            let ([at, value], [here, own]) = (*around.get(other)?, around[k]);
-            (value <= own).then_some([at - here, value - own])
-        };
-        let [left, right] = [beside(k.checked_sub(1)?)?, beside(k + 1)?];
-        let alike = (1.0 / UNEVEN..=UNEVEN).contains(&(-left[0] / right[0]));
-        alike.then(|| value(k) + top_above(left, right))
+        let around = around.get(k.checked_sub(1)?..k + 2)?;
+        top_of([around[0], around[1], around[2]])
     };
     [right - 1, right].into_iter().filter_map(top).fold(scatter, f64::max)
 }

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::{closed, given, mass};
 use crate::alternatives::Row;
-use crate::case::{ModalCase, Of as Place};
+use crate::case::{ModalCase, Of};
 use crate::modal::{ModalAnswer, PlacedDampers};
 use crate::operating_range::Varies;
 use crate::quantity::Quantity;
@@ -18,9 +18,7 @@ pub(super) fn rows(case: &ModalCase, answer: &ModalAnswer) -> (Value, Value) {
     let of = Devices { physical: !case.reduced, kept_alone, damper: &damper };
     let found = answer.alternatives.as_ref().map(|found| alternatives(found, &of));
     let (rows, mut choice) = found.unwrap_or_default();
-    // Which place is compared, where the first criterion names one.
-    let first = case.criteria.first().filter(|one| one.measure.of_sine(1.0, 1.0).is_some());
-    if let (Some(Place::Place(place)), true) = (first.map(|one| one.of), choice.is_object()) {
+    if let Some(Of::Place(place)) = answer.alternatives.as_ref().map(|found| found.of) {
         choice["place"] = json!(case.places[place]);
     }
     (rows, choice)

@@ -152,7 +152,7 @@ pub fn smallest([from, to]: [f64; 2], pieces: u32, mut f: impl FnMut(f64) -> f64
 
 /// By how much the top of the parabola through the origin and two points to its left and right, which are no higher, is above the
 /// origin.
-pub fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -> f64 {
+fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -> f64 {
     // y = p x + c x^2.
     let [a, b] = [below_left / left, below_right / right];
     let c = (b - a) / (right - left);
@@ -160,31 +160,45 @@ pub fn top_above([left, below_left]: [f64; 2], [right, below_right]: [f64; 2]) -
     if c < 0.0 { (-0.25 * p * p / c).max(0.0) } else { 0.0 }
 }
 
-/// How many times as far one neighbour may be as the other for a parabola through both: beyond, what a peak falls by on the way to the
-/// far one says nothing of its top.
+/// How many times as far a neighbour may be as the other: what two places that almost coincide differ by is chance, a slope that chance
+/// decides has its top anywhere, and what a peak falls by on the way to a far one says nothing of its top. Below 2.4 half of the
+/// differences is more than the top.
 const UNEVEN: f64 = 4.0;
+
+/// The top of the parabola through a place and its neighbours, each with its value, where these are no higher and about as far.
+pub fn top_of([left, own, right]: [[f64; 2]; 3]) -> Option<f64> {
+    let beside = |[at, value]: [f64; 2]| {
+        let lower = value <= own[1] && value.is_finite();
+        lower.then_some([at - own[0], value - own[1]])
+    };
+    let (left, right) = (beside(left)?, beside(right)?);
+    let alike = (1.0 / UNEVEN..=UNEVEN).contains(&(-left[0] / right[0]));
+    alike.then(|| own[1] + top_above(left, right))
+}
 
 /// The largest of values, each behind its place, ascending, or the top of the parabola through it and its neighbours where these are
 /// about as far: a smooth top between even places is known to the fourth power of their distance.
 pub fn top(values: &[[f64; 2]]) -> f64 {
     let highest = (0..values.len()).max_by(|a, b| values[*a][1].total_cmp(&values[*b][1]));
     let Some(k) = highest else { return f64::NEG_INFINITY };
-    let [here, own] = values[k];
-    let beside = |other: Option<usize>| {
-        let [at, value] = *values.get(other?)?;
-        (at != here && value.is_finite()).then_some([at - here, value - own])
-    };
-    match (beside(k.checked_sub(1)), beside(Some(k + 1))) {
-        (Some(left), Some(right)) if (1.0 / UNEVEN..=UNEVEN).contains(&(-left[0] / right[0])) => {
-            own + top_above(left, right)
-        }
-        _ => own,
-    }
+    let around = k.checked_sub(1).and_then(|before| values.get(before..k + 2));
+    around.and_then(|around| top_of([around[0], around[1], around[2]])).unwrap_or(values[k][1])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Of y = 1 - (x - 0.1)^2 / 2 between its places; on a narrow peak a far neighbour adds nothing.
+    #[test]
+    fn a_top_lies_between_even_places_and_nowhere_else() {
+        let smooth = |x: f64| [x, 1.0 - 0.5 * (x - 0.1) * (x - 0.1)];
+        assert!((top(&[-1.0, 0.0, 1.0].map(smooth)) - 1.0).abs() < 1e-12);
+        let narrow = |x: f64| [x, 1.0 / (1.0 + 1e6 * x * x)];
+        assert_eq!(top(&[-0.01, 0.0, 1.0].map(narrow)), 1.0);
+        // The largest at an end has no neighbour there.
+        assert_eq!(top(&[[0.0, 3.0], [1.0, 1.0]]), 3.0);
+    }
 
     #[test]
     fn a_pair_of_changes_within_one_piece_is_found() {

@@ -2,13 +2,14 @@
 
 use super::along::AlongEffort;
 use super::cost::cost;
-use super::dampers::{PlacedDampers, designs};
+use super::dampers::{DamperChoice, PlacedDampers};
 use super::linear::{
-    amplitudes, asked_of, largest, largest_peak, linear_most, places, resonances, response,
+    amplitudes, asked_of, largest, largest_peak, linear_most, linear_peak, places, resonances,
+    response,
 };
 use super::{ModalAnswer, ModalError};
-use crate::alternatives::{Alternatives, Drifting, Own, Room, limit};
-use crate::case::{Criterion, Load, ModalCase, Of};
+use crate::alternatives::{Alternatives, Drifting, Own, Room, compared_by};
+use crate::case::{ActsOn, Criterion, Load, ModalCase, Of};
 use crate::dampers::Designing;
 use crate::executor::Executor;
 use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse};
@@ -38,11 +39,6 @@ pub(super) struct DriftedStructure {
     bare: f64,
 }
 
-/// What devices are compared by: what the first criterion asks about, where dampers have a closed form of it.
-fn compared_by(case: &ModalCase) -> Option<&Criterion> {
-    case.criteria.first().filter(|one| one.measure.of_sine(1.0, 1.0).is_some())
-}
-
 /// Where dampers are looked at in a design, in Hz.
 fn wide(load: &Load) -> [f64; 2] {
     match load.range_hz {
@@ -64,7 +60,7 @@ impl DriftedStructure {
         };
         let along = case.loads.iter().map(of_load).collect();
         let bare = case.loads.iter().map(|load| largest_peak(&case, load, &[])).fold(0.0, f64::max);
-        Self { asked: compared_by(&case).cloned(), along, bare, case, factor }
+        Self { asked: compared_by(&case.criteria).cloned(), along, bare, case, factor }
     }
 
     /// What dampers come to, and their largest stroke.
@@ -163,7 +159,7 @@ impl Drifting for DriftedStructure {
 
 /// What devices are compared by as the absorbers have it, with its error, and whether they rest in that motion.
 fn own(case: &ModalCase, answer: &ModalAnswer) -> Option<([f64; 2], bool)> {
-    if compared_by(case).is_some() {
+    if compared_by(&case.criteria).is_some() {
         let judged = answer.judged.first()?;
         return Some(([judged.found?, judged.error], judged.inactive.is_some()));
     }
@@ -182,9 +178,67 @@ pub(super) fn alternatives(
 ) -> Result<Option<Alternatives<PlacedDampers>>, ModalError> {
     let Some((worst, inactive)) = own(case, answer) else { return Ok(None) };
     let (measure, of) =
-        compared_by(case).map_or((Measure::Peak, Of::Any), |one| (one.measure, one.of));
-    let limit = limit(&case.criteria, measure, of);
-    let own = Own { measure, limit, inactive, worst };
+        compared_by(&case.criteria).map_or((Measure::Peak, Of::Any), |one| (one.measure, one.of));
+    let own = Own { measure, of, inactive, worst };
     let here = DriftedStructure::of(case);
-    Alternatives::beside(&here, own, designs(case), &case.alternatives, on)
+    Alternatives::beside(&here, own, designs(case), (&case.criteria, &case.alternatives), on)
+}
+
+/// The best one damper and, of structures that several modes drive, one for each of these modes: tuned and damped so that what criteria
+/// ask for is smallest over what they allow, or without criteria the largest displacement of any place, under any load; under loads of
+/// one frequency each Den Hartog's.
+pub fn designs(case: &ModalCase) -> Vec<PlacedDampers> {
+    let driven = driven_modes(case);
+    let mut counts = vec![1];
+    if driven.len() > 1 {
+        counts.push(driven.len());
+    }
+    let here = DriftedStructure::of(case);
+    let designed = |count: usize| {
+        let usual = PlacedDampers::den_hartog(case, &driven[..count]);
+        here.designed(&[], &usual, Room::AsDesigned, None)
+    };
+    counts.into_iter().map(designed).collect()
+}
+
+/// About how many seconds the designs of alternatives take on one processor: by the evaluations of a simplex for each number of dampers,
+/// each at some frequencies of each load, as designed, in the room, undamped, and for each drift on three structures.
+pub fn seconds_of_designs(case: &ModalCase) -> f64 {
+    const EVALUATIONS: f64 = 600.0;
+    const SECONDS: f64 = 2e-7;
+    let frequencies = (64 + 20 * case.modes.len()) * case.loads.len();
+    let designs = 3.0 + 3.0 * case.alternatives.drift.len() as f64;
+    let count = driven_modes(case).len();
+    let counts = if count > 1 { vec![1.0, count as f64] } else { vec![1.0] };
+    let each = counts.into_iter().map(|count: f64| count * count * (1.0 + count));
+    designs * EVALUATIONS * SECONDS * frequencies as f64 * each.sum::<f64>()
+}
+
+/// The same with what they do.
+pub fn choices(case: &ModalCase) -> Vec<DamperChoice> {
+    designs(case).into_iter().map(|one| DamperChoice::of(case, one)).collect()
+}
+
+/// The modes that a load is resonant with, the one that moves farthest first.
+fn driven_modes(case: &ModalCase) -> Vec<usize> {
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for load in &case.loads {
+        for (k, mode) in case.modes.iter().enumerate() {
+            let [from, to] = load.range_hz;
+            let near = mode.frequency_hz.clamp(from, to);
+            let driven = !matches!(load.on, ActsOn::Mode(other) if other != k);
+            // Within a twentieth of its frequency.
+            if !driven || (near / mode.frequency_hz - 1.0).abs() > 0.05 {
+                continue;
+            }
+            let most = linear_peak(case, load, near, &[]);
+            match found.iter_mut().find(|(known, _)| *known == k) {
+                Some((_, known)) => *known = known.max(most),
+                None => found.push((k, most)),
+            }
+        }
+    }
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let modes: Vec<usize> = found.into_iter().map(|(k, _)| k).collect();
+    if modes.is_empty() { vec![0] } else { modes }
 }
