@@ -15,6 +15,7 @@ use crate::executor::Executor;
 use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse};
 use crate::measure::Measure;
 use crate::numerics::scan;
+use crate::operating_range::Varies;
 
 /// How far beside a single frequency dampers are to work, over it: one for that frequency alone is a spring without damping.
 const ASIDE: f64 = 0.02;
@@ -92,7 +93,7 @@ impl Drifting for DriftedStructure {
     }
 
     fn is_of_one_frequency(&self) -> bool {
-        self.case.loads.iter().all(|load| load.range_hz[0] == load.range_hz[1])
+        self.case.is_point()
     }
 
     fn has_stops(&self) -> bool {
@@ -206,6 +207,10 @@ pub fn designs(case: &ModalCase) -> Vec<PlacedDampers> {
 pub fn seconds_of_designs(case: &ModalCase) -> f64 {
     const EVALUATIONS: f64 = 600.0;
     const SECONDS: f64 = 2e-7;
+    // Nothing is looked for there.
+    if case.is_point() {
+        return 0.0;
+    }
     let frequencies = (64 + 20 * case.modes.len()) * case.loads.len();
     let designs = 3.0 + 3.0 * case.alternatives.drift.len() as f64;
     let count = driven_modes(case).len();
