@@ -6,6 +6,7 @@
 mod dynamics_kind;
 mod energetics;
 pub mod lyapunov;
+mod modal;
 #[doc(hidden)]
 pub mod modulation;
 #[doc(hidden)]
@@ -15,10 +16,11 @@ mod sequence;
 
 use serde::Serialize;
 
-use crate::simulation::{Impact, Statistics};
+use crate::simulation::{Impact, PeriodRecord, Statistics};
 pub use dynamics_kind::DynamicsKind;
 pub use energetics::Energetics;
 pub use lyapunov::{Exponent, Lyapunov};
+pub use modal::{ModalRecords, ModalRegimes};
 pub use modulation::{AbsorberAmplitude, Amplitudes, Captures};
 pub use periodicity::Periodicity;
 pub use sequence::ImpactSequence;
@@ -78,6 +80,19 @@ impl Regime {
     /// The regime that results name so.
     pub fn of_key(key: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|regime| regime.key() == key)
+    }
+
+    /// The worst word for several absorbers of one structure: that of the one that drains energy least steadily.
+    pub fn worst(each: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let order = |one: &Self| match one {
+            Self::TwoSymmetric => 0,
+            Self::TwoAsymmetric => 1,
+            Self::AboveTwo => 2,
+            Self::StronglyModulated => 3,
+            Self::BelowTwo => 4,
+            Self::AtRest => 5,
+        };
+        each.into_iter().max_by_key(order)
     }
 
     /// Its place in [`Regime::ALL`].
@@ -192,16 +207,29 @@ impl Evidence {
     #[doc(hidden)]
     pub fn of_impacts(statistics: &Statistics, impacts: &[Impact], period: f64) -> Self {
         let records = statistics.records();
-        let periodicity = periodicity::find(records);
+        let per_period = [statistics.impacts_per_period(), statistics.visits_per_period()];
+        let times = impacts.iter().map(|impact| impact.tau);
+        let times: Vec<f64> = times.collect();
+        Self::of_records(records, periodicity::find(records), per_period, &times, period)
+    }
+
+    /// The same of the records of periods, the repetition that they show, impacts and visits in a period, and the times of impacts.
+    fn of_records(
+        records: &[PeriodRecord],
+        periodicity: Option<Periodicity>,
+        per_period: [f64; 2],
+        times: &[f64],
+        period: f64,
+    ) -> Self {
         let (per_period, last) = match periodicity {
             Some(found) => {
                 let per = |count: u32| f64::from(count) / f64::from(found.periods);
                 let visits = found.last(records).iter().flat_map(|record| record.visits).sum();
                 // Two impacts more make as many intervals follow each other as there are impacts.
-                let from = impacts.len().saturating_sub(found.impacts as usize + 2);
-                ([per(found.impacts), per(visits)], &impacts[from..])
+                let from = times.len().saturating_sub(found.impacts as usize + 2);
+                ([per(found.impacts), per(visits)], &times[from..])
             }
-            None => ([statistics.impacts_per_period(), statistics.visits_per_period()], impacts),
+            None => (per_period, times),
         };
         Self {
             impacts_per_period: per_period[0],

@@ -90,17 +90,14 @@ fn repeats_after(records: &[PeriodRecord], periods: usize) -> Option<Periodicity
     (closure <= CLOSURE).then_some(Periodicity { impacts, periods: periods as u32, closure })
 }
 
-/// Mean absolute difference of successive impact intervals over the excitation period; 0 for
-/// fewer than three impacts.
-pub fn asymmetry(impacts: &[Impact], period: f64) -> f64 {
-    if impacts.len() < 3 {
+/// Mean absolute difference of successive intervals between these times of impacts over the excitation period; 0 for fewer than three.
+pub fn asymmetry(times: &[f64], period: f64) -> f64 {
+    if times.len() < 3 {
         return 0.0;
     }
-    let sum: f64 = impacts
-        .windows(3)
-        .map(|three| (three[2].tau - 2.0 * three[1].tau + three[0].tau).abs() / period)
-        .sum();
-    sum / (impacts.len() - 2) as f64
+    let sum: f64 =
+        times.windows(3).map(|three| (three[2] - 2.0 * three[1] + three[0]).abs() / period).sum();
+    sum / (times.len() - 2) as f64
 }
 
 #[cfg(test)]

@@ -45,5 +45,6 @@ pub use shaking::ShakingMeter;
 #[doc(hidden)]
 pub use statistics::{Course, lost_in};
 pub use statistics::{Energy, Measurement, PeriodRecord, Statistics, SustainedContact};
+pub(crate) use statistics::{WallRun, share_of_impacts};
 pub use tangent::Tangent;
 pub use trust::{Doubt, doubts};

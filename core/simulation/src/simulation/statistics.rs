@@ -85,8 +85,7 @@ pub struct Statistics {
     end: State,
     impacts: u64,
     visits: u64,
-    /// Successive impacts on one wall since the last impact on the other or the last contact.
-    run: Option<(Side, u32)>,
+    run: WallRun,
     peak: f64,
     impact_speed: f64,
     squared: f64,
@@ -115,7 +114,7 @@ impl Statistics {
             end: start,
             impacts: 0,
             visits: 0,
-            run: None,
+            run: WallRun::default(),
             peak: start.x.abs(),
             impact_speed: 0.0,
             squared: 0.0,
@@ -236,19 +235,8 @@ impl Statistics {
     /// Share of what the kept periods dissipate that impacts take, with two standard errors between stretches of them; none
     /// where nothing is dissipated. In the long run that is the share of the excitation's work.
     pub fn efficiency(&self) -> Option<[f64; 2]> {
-        let [whole, impact] = lost_in(None, &self.records);
-        let share = impact / whole;
         // Of a long run the first record that was kept has lost what all before it have.
-        let earlier = usize::from(self.periods > self.records.len() as u64);
-        let mut before = self.records.first().filter(|_| earlier > 0).copied();
-        let each = self.records.iter().skip(earlier).map(|record| {
-            let [dissipated, impact] = lost_in(before, std::slice::from_ref(record));
-            before = Some(*record);
-            impact - share * dissipated
-        });
-        let each: Vec<f64> = each.collect();
-        let mean = whole / self.records.len().max(1) as f64;
-        (whole > 0.0).then(|| [share, twice_error_of_mean(&[&each]) / mean])
+        share_of_impacts(&self.records, self.periods > self.records.len() as u64)
     }
 
     /// Mean first harmonics of oscillator and absorber over the kept periods: coefficients of `sin` and `cos`.
@@ -299,20 +287,8 @@ impl Statistics {
 
     /// Turns the chattering sequence that has just ended into the visit that its first impact began.
     fn close_sequence(&mut self) {
-        let Some((side, length)) = self.run.take() else { return };
-        let wall = side.index();
-        let mut further = length.saturating_sub(1);
-        self.visits -= u64::from(further);
-        // The latest impacts on this wall are the sequence's; it may have lasted several periods.
-        let earlier = self.records.iter_mut().rev().map(|record| &mut record.visits[wall]);
-        for visits in std::iter::once(&mut self.current.visits[wall]).chain(earlier) {
-            if further == 0 {
-                break;
-            }
-            let here = further.min(*visits);
-            *visits -= here;
-            further -= here;
-        }
+        let latest = std::iter::once(&mut self.current).chain(self.records.iter_mut().rev());
+        self.visits -= u64::from(self.run.close(latest));
     }
 
     fn impact(&mut self, impact: &Impact) {
@@ -325,10 +301,7 @@ impl Statistics {
         self.current.impacts[wall] += 1;
         self.current.visits[wall] += 1;
         self.visits += 1;
-        self.run = match self.run {
-            Some((side, length)) if side == impact.side => Some((side, length + 1)),
-            _ => Some((impact.side, 1)),
-        };
+        self.run.impact(impact.side);
     }
 
     fn sticks(&mut self, loss: f64) {
@@ -359,6 +332,53 @@ impl Statistics {
             ..current
         });
     }
+}
+
+/// Successive impacts on one wall since the last impact on the other or the last contact.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct WallRun(Option<(Side, u32)>);
+
+impl WallRun {
+    pub fn impact(&mut self, side: Side) {
+        self.0 = match self.0 {
+            Some((last, length)) if last == side => Some((side, length + 1)),
+            _ => Some((side, 1)),
+        };
+    }
+
+    /// Turns a chattering sequence that has just ended into the visit that its first impact began: by how many visits fewer that makes.
+    /// Periods are given from the one under way backwards.
+    pub fn close<'a>(&mut self, periods: impl Iterator<Item = &'a mut PeriodRecord>) -> u32 {
+        let Some((side, length)) = self.0.take() else { return 0 };
+        let fewer = length.saturating_sub(1);
+        let mut further = fewer;
+        // The latest impacts on this wall are the sequence's; it may have lasted several periods.
+        for visits in periods.map(|record| &mut record.visits[side.index()]) {
+            if further == 0 {
+                break;
+            }
+            let here = further.min(*visits);
+            *visits -= here;
+            further -= here;
+        }
+        fewer
+    }
+}
+
+/// Share of what some periods dissipate that impacts take, with two standard errors between stretches of them; none where nothing is
+/// dissipated. The first of them may have lost what others before it have.
+pub(crate) fn share_of_impacts(records: &[PeriodRecord], has_earlier: bool) -> Option<[f64; 2]> {
+    let [whole, impact] = lost_in(None, records);
+    let share = impact / whole;
+    let mut before = records.first().filter(|_| has_earlier).copied();
+    let each = records.iter().skip(usize::from(has_earlier)).map(|record| {
+        let [dissipated, impact] = lost_in(before, std::slice::from_ref(record));
+        before = Some(*record);
+        impact - share * dissipated
+    });
+    let each: Vec<f64> = each.collect();
+    let mean = whole / records.len().max(1) as f64;
+    (whole > 0.0).then(|| [share, twice_error_of_mean(&[&each]) / mean])
 }
 
 /// What some successive periods dissipate, and what impacts take of it; `before` is the period before them.

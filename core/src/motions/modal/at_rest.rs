@@ -1,9 +1,29 @@
-//! Every absorber at rest, in closed form.
+//! Every absorber at rest, in closed form; and where an excitation that begins at once leaves them there.
 
 use super::motion::{ModalMotion, SensorExtent};
 use crate::linear::ModalAmplitudes;
-use crate::simulation::Sensor;
-use crate::system::{ModalAbsorber, ModalSystem};
+use crate::regimes::ModalRegimes;
+use crate::simulation::{ModalMeter, ModalSimulation, Sensor};
+use crate::system::{ModalAbsorber, ModalState, ModalSystem};
+
+/// Clearances, over their own, that no motion reaches.
+const FAR: f64 = 1e9;
+
+/// The share of the resting places of all absorbers, together, in which no wall reaches them where the excitation begins at once, at
+/// phase 0, beside a structure at rest; its motion is followed for so many periods. None where the structure's motion is not finite.
+pub(super) fn sudden_share(system: &ModalSystem, periods: u64) -> Option<f64> {
+    let mut parameters = system.parameters().clone();
+    parameters.absorbers.iter_mut().for_each(|one| one.clearance *= FAR);
+    let alone = ModalSystem::new(parameters).ok()?;
+    let at = |j: usize| system.modes().iter().map(|mode| mode.shape[j]).collect();
+    let sensors = (0..system.absorbers().len()).map(|j| Sensor::displacement(at(j)));
+    let mut meter = ModalMeter::new(&alone, &sensors.collect::<Vec<_>>());
+    let mut simulation = ModalSimulation::new(&alone, &ModalState::AT_REST, 0.0).ok()?;
+    simulation.run(periods, u64::MAX, &mut meter);
+    let records = meter.records();
+    let each = records.iter().zip(system.absorbers());
+    Some(each.map(|(read, one)| (1.0 - read.peak / one.clearance).max(0.0)).product())
+}
 
 /// Every absorber at rest where no wall reaches it, as these sensors read it: in closed form. None where a wall reaches one.
 pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMotion> {
@@ -32,6 +52,9 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
         starts: 0,
         state: None,
         resting: shares.into_iter().map(Some).collect(),
+        regimes: Some(ModalRegimes::at_rest(system.absorbers().len())),
+        sudden: None,
+        followed: 0,
         periods: 0,
         flights: Vec::new(),
     })

@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
-use crate::motions::NEGLIGIBLE;
 use crate::motions::cluster::{ERRORS, NO_DIFFERENCE};
+use crate::motions::{NEGLIGIBLE, WhyNot};
 use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
-use crate::simulation::{Reading, SensorRecord};
-use crate::system::{MOST_MODES, ModalState};
+use crate::regimes::{ModalRecords, ModalRegimes, Regime};
+use crate::simulation::{ModalSimulation, Reading, SensorRecord, Stop};
+use crate::system::{MOST_MODES, ModalState, ModalSystem};
 
 /// What a sensor reads in a long-term motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -44,6 +45,13 @@ pub struct ModalMotion {
     pub starts: u32,
     /// Of each absorber that rests in it the share of its cavity within which it may; none of one that impacts.
     pub resting: Vec<Option<f64>>,
+    /// What its absorbers do in words, and where its energy goes; none where a search only ranks designs.
+    pub regimes: Option<ModalRegimes>,
+    /// Of every absorber at rest the share of their places, together, in which they stay where the excitation begins at once; none of
+    /// another motion, and where a search only ranks designs.
+    pub sudden: Option<f64>,
+    /// Excitation periods until the last start had come to it; of one that still settles those that it was followed.
+    pub followed: u64,
     /// A state on it at excitation phase 0; none at rest, and where an absorber rests.
     #[serde(skip)]
     pub state: Option<ModalState>,
@@ -99,6 +107,12 @@ impl FlightCourse {
     }
 }
 
+/// Periods in which it is seen what absorbers do: of what repeats so many repetitions, as two impacts more than one has say how far
+/// intervals differ; else at least so many, which strongly modulated responses need to be captured and to escape some times, or a part
+/// of the window.
+const REPETITIONS: u32 = 3;
+const WINDOW: u64 = 512;
+const PART: u64 = 4;
 /// Relative difference up to which peaks, root mean squares and impacts of two motions that repeat are the same.
 const SAME_REPEATING: f64 = 1e-6;
 
@@ -124,6 +138,9 @@ impl ModalMotion {
             is_orbit: false,
             starts: 0,
             resting: vec![None; absorbers],
+            regimes: None,
+            sudden: None,
+            followed: 0,
             state: None,
             periods,
             flights,
@@ -155,11 +172,29 @@ impl ModalMotion {
     pub(super) fn insert_at_rest(&mut self, j: usize) {
         self.impacts_per_period.insert(j, [0.0; 2]);
         self.impact_speed.insert(j, [0.0; 2]);
+        if let Some(regimes) = &mut self.regimes {
+            regimes.insert_at_rest(j);
+        }
         for flight in &mut self.flights {
             let stretches = flight.squares.first().map_or(0, Vec::len);
             flight.impacts.insert(j, vec![0.0; stretches]);
             flight.speeds.insert(j, vec![0.0; stretches]);
         }
+    }
+
+    /// The same with what the absorbers of its structure do, seen from its own state on.
+    pub(super) fn with_regimes(self, system: &ModalSystem, most_impacts: u64) -> Self {
+        let recorded = || {
+            let mut simulation = ModalSimulation::new(system, self.state.as_ref()?, 0.0).ok()?;
+            let mut records = ModalRecords::new(system);
+            let periods = match self.repeats_after {
+                Some(after) => u64::from(after * REPETITIONS),
+                None => WINDOW.max(self.periods / PART),
+            };
+            let stop = simulation.run(periods, periods * most_impacts, &mut records);
+            (stop == Stop::EndTime).then(|| records.found(self.repeats_after))
+        };
+        Self { regimes: recorded(), ..self }
     }
 
     /// Its numbers by all that was seen of it.
@@ -203,10 +238,35 @@ impl ModalMotion {
         self.resting.iter().flatten().copied().reduce(|all, share| all * share)
     }
 
-    /// Whether it is one that may be met: a start led to it, or absorbers that rest do so in a share of their places that is not
-    /// negligible; none in which one rests where these do not count.
+    /// Why it does not count; none of one that may be met: a start led to it, or absorbers that rest do so in a share of their places
+    /// that is not negligible.
+    pub fn why_not(&self, count_rest: bool) -> Option<WhyNot> {
+        let share = self.rest_share()?;
+        match () {
+            () if !count_rest => Some(WhyNot::LeftOut),
+            () if share < NEGLIGIBLE && self.starts == 0 => Some(WhyNot::BelowThreshold),
+            () => None,
+        }
+    }
+
+    /// Whether it is one that may be met.
     pub fn counts(&self, count_rest: bool) -> bool {
-        self.rest_share().is_none_or(|share| count_rest && (self.starts > 0 || share >= NEGLIGIBLE))
+        self.why_not(count_rest).is_none()
+    }
+
+    /// What it is, as results name it.
+    pub fn kind_name(&self) -> &'static str {
+        match () {
+            () if self.rests() => "rest",
+            () if self.is_orbit => "orbit",
+            () if self.repeats_after.is_some() => "repeats",
+            () => "wanders",
+        }
+    }
+
+    /// What its absorbers do, as the worst word for them; none where a search only ranks designs.
+    pub fn regime(&self) -> Option<Regime> {
+        Regime::worst(self.regimes.as_ref()?.regimes.iter().copied())
     }
 
     /// What sensors of a kind read, in their order.

@@ -1,7 +1,8 @@
 //! The search: starts, with every set of absorbers at rest that no wall reaches.
 
+use super::at_rest::sudden_share;
 use super::motion::ModalMotion;
-use super::sensed::{Sensed, most_impacts, window};
+use super::sensed::{Sensed, most_impacts, transient, window};
 use super::starts::{carried, start};
 use crate::executor::Serial;
 use crate::motions::Effort;
@@ -116,7 +117,8 @@ impl Search<'_> {
             vague,
             ..Effort::default()
         };
-        let model = Sensed::new(system, self.without(rest));
+        let most_impacts = effort.most_impacts;
+        let model = Sensed::new(system.clone(), self.without(rest));
         // Its place may be just outside of a cavity here.
         let begins = |state: &&ModalState| model.begin(state, 0.0).is_ok();
         let further = further.iter().chain(&carried).filter(begins).copied().collect();
@@ -125,7 +127,18 @@ impl Search<'_> {
         let mut found = searched(&[place], &effort, &Serial, &|_| ())?.remove(0).all;
         let still = |one: &ModalMotion| one.rests() && one.resting.iter().all(Option::is_some);
         let at_rest = found.iter().position(still).map(|index| found.remove(index));
-        let found = found.into_iter().filter_map(|one| self.with_resting(one, rest)).collect();
+        let sudden =
+            || if patience > 0.0 { sudden_share(&system, transient(&system)) } else { None };
+        let at_rest = at_rest.map(|one| match rest.is_empty() {
+            true => ModalMotion { sudden: sudden(), ..one },
+            false => one,
+        });
+        let told = |one: ModalMotion| match patience > 0.0 {
+            true => one.with_regimes(&system, most_impacts),
+            false => one,
+        };
+        let found = found.into_iter().map(told);
+        let found = found.filter_map(|one| self.with_resting(one, rest)).collect();
         Ok((found, at_rest))
     }
 

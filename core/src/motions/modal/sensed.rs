@@ -19,6 +19,8 @@ use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
 const DECAYS: u32 = 8;
 const QUICKEST: f64 = 32.0;
 const LONGEST: f64 = 8192.0;
+/// Periods of a transient whose largest value is looked for: as with one mode.
+const MOST_OF_TRANSIENT: u64 = 5000;
 /// Such times of the shortest window, and the fewest excitation periods of the windows of a place together.
 const DECAYS_OF_WINDOW: f64 = 2.0;
 const SHORTEST: u64 = 1024;
@@ -41,6 +43,11 @@ fn decay_periods(system: &ModalSystem) -> f64 {
 /// Excitation periods of a time in which the slowest mode decays.
 fn decay(system: &ModalSystem) -> u64 {
     decay_periods(system).clamp(QUICKEST, LONGEST).ceil() as u64
+}
+
+/// Excitation periods after which nothing is left of a start from rest, and at most so many.
+pub(super) fn transient(system: &ModalSystem) -> u64 {
+    (u64::from(DECAYS) * decay(system)).min(MOST_OF_TRANSIENT)
 }
 
 /// Excitation periods over which a motion that does not repeat is measured at first, in a case with a window of so many.
@@ -350,11 +357,11 @@ impl LongTerm for ModalMotion {
     }
 
     fn reached(&self) -> Reached {
-        Reached { starts: self.starts, ..Reached::default() }
+        Reached { starts: self.starts, followed: self.followed, ..Reached::default() }
     }
 
     fn with(self, reached: Reached) -> Self {
-        Self { starts: reached.starts, ..self }
+        Self { starts: reached.starts, followed: reached.followed, ..self }
     }
 
     fn has_settled(&self) -> bool {
