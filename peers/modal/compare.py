@@ -67,7 +67,7 @@ def main():
                 worst = found["worst"]
                 place, frequency = worst["place"], worst["at"]["value"]
                 p = answer["places_of_shapes"].index(place)
-                motions = [one["places"][p] for one in found["motions"] if not one["rests"]]
+                motions = [one["places"][p] for one in found["at_worst"] if one["kind"] != "rest"]
                 other = [simulated(program, case, load, place, frequency, seed) for seed in range(1, STARTS + 1)]
                 for name, column, unit in READINGS:
                     read = [one if name == "displacement" else one.get(name) for one in motions]

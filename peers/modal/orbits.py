@@ -98,7 +98,7 @@ def main():
                 case = design(noise, modes, absorbers, base)
                 path.write_text(text(case))
                 run = subprocess.run([vinesink, "analyze", path, "--format", "json"], capture_output=True, text=True, check=True)
-                orbits = json.loads(run.stdout)["loads"][0]["orbits"]
+                orbits = json.loads(run.stdout)["orbits"]
                 orbit = next((one for one in orbits if one["stable"] and one["admissible"]), None)
                 # One that attracts slowly takes too long.
                 found = orbit and orbit["largest_multiplier"] < 0.99 and compared(program, case, orbit)

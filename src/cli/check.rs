@@ -86,7 +86,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         CheckFormat::Junit => output::print(junit(&cases).into_diagnostic()?)?,
         CheckFormat::Json => {
             let cases: Vec<_> = cases.iter().map(|one| &one.document).collect();
-            let document = json!({ "format": "vinesink/check@2", "holds": holds, "cases": cases });
+            let document = json!({ "format": "vinesink/check@3", "holds": holds, "cases": cases });
             output::print_json(&document)?;
         }
     }

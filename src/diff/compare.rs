@@ -66,14 +66,16 @@ const NATURAL_KEYS: [(&str, &[&str]); 12] = [
 
 /// Lists of a structure of several modes that are counted, as those along a band are: what they say stands in its worst values,
 /// criteria and limits.
-const COUNTED: [&str; 7] = [
+const COUNTED: [&str; 9] = [
     "compared",
+    "loads/at_worst",
     "loads/forces/limits/fails",
     "loads/forces/limits/open",
     "loads/forces/steps",
     "loads/forces/working",
     "loads/motions",
     "loads/places",
+    "places",
 ];
 
 /// What changed in a report that is on both sides.

@@ -269,6 +269,11 @@ impl Line for OfLoad<'_> {
 }
 
 impl AlongLoad {
+    /// Whether the load has one frequency.
+    pub fn is_point(&self) -> bool {
+        self.load.range_hz[0] == self.load.range_hz[1]
+    }
+
     pub(super) fn of(
         case: &ModalCase,
         load: &Load,

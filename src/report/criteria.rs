@@ -16,7 +16,7 @@ use crate::quantity::{Quantity, Units};
 /// What became of one case of several.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checked {
-    /// As `vinesink/check@2` has it: judged with `criteria`, or not checked with `error` and `problems`.
+    /// As `vinesink/check@3` has it: judged with `criteria`, or not checked with `error` and `problems`.
     pub document: Value,
     /// The facts of the templates.
     page: Value,

@@ -206,7 +206,7 @@ mod tests {
         let number =
             |id: &str, value: f64| serde_json::json!({"id": id, "value": value, "error": 0});
         let text = serde_json::json!({
-            "format": "vinesink/answer@1", "asked": "report", "title": "T", "units": units, "notes": [], "figures": [],
+            "format": "vinesink/answer@2", "asked": "report", "title": "T", "units": units, "notes": [], "figures": [],
             "verdict": {"tone": "good", "word": word}, "criteria": null, "band": null,
             "quantities": {"clearance": number("clearance", 0.02), "peak_displacement": number("peak_displacement", peak)},
         });

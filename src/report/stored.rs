@@ -56,8 +56,29 @@ pub(crate) fn quantities_are_known(place: &str, part: &Value) -> Result<(), Read
     }
 }
 
-/// The format of before, whose fields are the same.
-const EARLIER: &str = "vinesink/report@2";
+/// Formats of before. Those of one mode have the same fields.
+const EARLIER: [&str; 2] = ["vinesink/report@2", "vinesink/answer@1"];
+
+/// A report of an earlier format of several modes, whose loads were numbered from 0.
+fn upgraded(mut report: Value) -> Value {
+    fn later(of: &mut Value) {
+        if let Some(load) = of.get("load").and_then(Value::as_u64) {
+            of["load"] = json!(load + 1);
+        }
+    }
+    if report["loads"].is_array() {
+        for (k, one) in report["loads"].as_array_mut().into_iter().flatten().enumerate() {
+            one["excitation"] = std::mem::replace(&mut one["load"], json!(k + 1));
+            one["at_worst"] = one["motions"].take();
+            later(&mut one["worst"]);
+        }
+        later(&mut report["worst"]);
+        let rows = report["criteria"]["all"].as_array_mut().into_iter().flatten();
+        rows.for_each(later);
+        report["compared"].as_array_mut().into_iter().flatten().for_each(later);
+    }
+    report
+}
 
 /// The document in the text of a `report.json`; `place` says where it came from.
 ///
@@ -66,10 +87,11 @@ const EARLIER: &str = "vinesink/report@2";
 pub fn read(place: &str, text: &str) -> Result<Value, ReadError> {
     let report: Value = serde_json::from_str(text)
         .map_err(|cause| error(format!("{place} is not JSON: {cause}"), CONFLICT))?;
+    let is_report = report["asked"].is_null() || report["asked"] == json!(Content::Report);
     match report["format"].as_str() {
-        Some(EARLIER) => Ok(report),
+        Some(earlier) if is_report && EARLIER.contains(&earlier) => Ok(upgraded(report)),
         Some(FORMAT) if report["asked"] == json!(Content::Report) => Ok(report),
-        Some(FORMAT) => {
+        Some(found) if found == FORMAT || EARLIER.contains(&found) => {
             let asked = report["asked"].as_str().unwrap_or("nothing");
             Err(error(format!("{place} is what was asked with `{asked}`, not a report"), NO_REPORT))
         }
@@ -89,16 +111,33 @@ pub fn read(place: &str, text: &str) -> Result<Value, ReadError> {
 mod tests {
     use super::*;
 
+    /// What a reader of this version asks for is there in a report of several modes of the version before.
+    #[test]
+    fn loads_of_before_are_numbered_from_one() {
+        let before = r#"{"format": "vinesink/answer@1", "asked": "report", "worst": {"load": 1, "at": 2},
+            "criteria": {"all": [{"load": 0}]}, "compared": [{"load": 1}],
+            "loads": [{"load": {"from": 5}, "motions": [7], "worst": {"load": 0}}]}"#;
+        let found = read("x/report.json", before).expect("a report");
+        let load = &found["loads"][0];
+        assert_eq!([&load["load"], &load["excitation"]["from"], &load["at_worst"][0]], [1, 5, 7]);
+        let worst = [&found["worst"]["load"], &load["worst"]["load"]];
+        assert_eq!(worst, [2, 1]);
+        assert_eq!([&found["criteria"]["all"][0]["load"], &found["compared"][0]["load"]], [1, 2]);
+        let again = read("x/report.json", &before.replace("answer@1", "answer@2"));
+        assert_eq!(again.expect("a report")["worst"]["load"], 1);
+    }
+
     #[test]
     fn other_documents_are_refused() {
         let read = |text: &str| read("x/report.json", text);
+        assert!(read(r#"{"format": "vinesink/answer@2", "asked": "report"}"#).is_ok());
         assert!(read(r#"{"format": "vinesink/answer@1", "asked": "report"}"#).is_ok());
-        let other = read(r#"{"format": "vinesink/answer@1", "asked": "analysis"}"#);
+        let other = read(r#"{"format": "vinesink/answer@2", "asked": "analysis"}"#);
         assert!(other.expect_err("no report").to_string().contains("asked with `analysis`"));
         assert!(read(r#"{"format": "vinesink/report@2"}"#).is_ok());
         let newer = read(r#"{"format": "vinesink/report@1"}"#).expect_err("another version");
         let newer = newer.to_string();
-        assert!(newer.contains("`vinesink/answer@1`") && newer.contains("`vinesink/report@1`"));
+        assert!(newer.contains("`vinesink/answer@2`") && newer.contains("`vinesink/report@1`"));
         for text in ["[]", "{}", "3", "\"x\"", "null", "{\"format\": 1}", "{\"title\": \"T\"}"] {
             let error = read(text).expect_err("no report");
             let said = error.to_string();

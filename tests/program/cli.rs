@@ -221,7 +221,7 @@ fn analyze_prints_the_contract_for_every_shipped_case() {
         let case = path.to_str().expect("UTF-8");
         let document = json(&["analyze", case]);
         has(&document, &ANALYSIS);
-        assert_eq!(document["format"], "vinesink/answer@1");
+        assert_eq!(document["format"], "vinesink/answer@2");
         assert_eq!(document["asked"], "analysis");
         assert!(one_of(&document["area"], &["Z1", "Z2", "Z3", "Z4"]), "{case}");
         assert!(document["strip"].is_null() || one_of(&document["strip"], &["A1", "A2"]));
@@ -250,7 +250,7 @@ fn simulate_prints_the_contract_for_every_shipped_case() {
         let case = path.to_str().expect("UTF-8");
         let document = json(&[&["simulate", case], &QUICK[..]].concat());
         has(&document, &SIMULATION);
-        assert_eq!(document["format"], "vinesink/answer@1");
+        assert_eq!(document["format"], "vinesink/answer@2");
         assert_eq!(document["asked"], "simulation");
         assert_eq!((&document["periods"], &document["stop"]), (&30.into(), &"end-time".into()));
         let z = document["impacts"].as_f64().expect("a number") / 30.0;

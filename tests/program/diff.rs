@@ -615,7 +615,7 @@ fn a_report_of_the_old_format_is_out_of_date() {
     );
     for name in [STEADY, CHAOTIC] {
         let line = format!(
-            "- `old/{name}/report.json` has the old format `vinesink/report@1`, without errors to compare by; this version writes `vinesink/answer@1`: run `vinesink report cases/{name}.toml --out old`.\n"
+            "- `old/{name}/report.json` has the old format `vinesink/report@1`, without errors to compare by; this version writes `vinesink/answer@2`: run `vinesink report cases/{name}.toml --out old`.\n"
         );
         assert!(printed.contains(&line), "{printed}");
     }
@@ -839,7 +839,7 @@ fn every_key_of_a_case_is_an_input() {
             case[&path[0]] = json!([table, { "restitution": 0.5 }]);
         }
         let report =
-            json!({"format": "vinesink/answer@1", "asked": "report", "title": "T", "case": case});
+            json!({"format": "vinesink/answer@2", "asked": "report", "title": "T", "case": case});
         let report = Document::parse("c/report.json", &report.to_string(), BTreeMap::new());
         Reports::from([("c".to_owned(), report.expect("a report"))])
     };
@@ -945,7 +945,7 @@ fn the_worst_comes_first_and_no_flip_is_cut() {
 fn every_flip_is_named() {
     let side = |count: usize, flips: bool| -> Reports {
         let report = |k: usize| {
-            let mut report = json!({"format": "vinesink/answer@1", "asked": "report", "title": "T",
+            let mut report = json!({"format": "vinesink/answer@2", "asked": "report", "title": "T",
                 "verdict": {"word": "holds", "headline": "less"}, "units": "si",
                 "quantities": {"clearance": {"id": "clearance", "value": 1e-3, "error": 0.0, "method": "given"}},
                 "criteria": {"count": 1, "failing": 0,

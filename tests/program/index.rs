@@ -176,7 +176,7 @@ fn what_is_no_report_is_refused_and_nothing_is_written() {
     fs::write(&path, "{\n  \"format\": oops\n}").expect("writable");
     refused(&broken, &["report.json", "line 2 column", "write the report again"]);
     fs::write(&path, "{\"format\": \"vinesink/report@7\"}").expect("writable");
-    refused(&broken, &["vinesink/report@7", "vinesink/answer@1", "write the report again"]);
+    refused(&broken, &["vinesink/report@7", "vinesink/answer@2", "write the report again"]);
     fs::write(&path, b"\xff").expect("writable");
     refused(&broken, &["not UTF-8"]);
     let (code, _, message) = index(Path::new("/nowhere/at all"));

@@ -41,6 +41,7 @@ mod modal_ranges;
 mod modal_reduced;
 mod modal_sweep;
 mod modal_theory;
+mod motion_lists;
 mod optimize;
 mod proposal;
 mod readers;

@@ -207,7 +207,7 @@ fn figures_are_small_and_all_numbers_are_json() {
     }
     let json: serde_json::Value =
         serde_json::from_str(&text(&folder, "report.json")).expect("one JSON document");
-    assert_eq!(json["format"], "vinesink/answer@1");
+    assert_eq!(json["format"], "vinesink/answer@2");
     let clearance = json!({"id": "clearance", "value": 3e-4, "error": 0.0, "method": "given"});
     assert_eq!(json["quantities"]["clearance"], clearance);
     assert_eq!(json["motions"][0]["peak"]["id"], "peak_displacement");

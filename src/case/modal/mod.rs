@@ -66,6 +66,8 @@ pub struct ModalCase {
     pub absorbers: Vec<PlacedAbsorber>,
     /// What may drive it, one at a time.
     pub loads: Vec<Load>,
+    /// Whether they are written as a list, `[[excitation]]`.
+    pub lists_loads: bool,
     /// Whether motions count in which absorbers rest.
     pub count_inactive: bool,
     /// Limits of what it does.

@@ -242,6 +242,7 @@ pub(super) fn read(
             spans.frequencies.push(written);
         }
     }
+    let lists_loads = root.value("excitation").is_some_and(|one| one.get_ref().is_array());
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
     if simulation.as_ref().is_some_and(|one| one.discard.is_some()) {
         reader.report(
@@ -306,6 +307,7 @@ pub(super) fn read(
         modes,
         absorbers,
         loads,
+        lists_loads,
         count_inactive,
         criteria,
         starts,

@@ -37,7 +37,7 @@ pub use scale::{Scale, cavity, support};
 pub use word::{Tone, Word};
 
 /// Name and version of the format of what is known of a case: `report.json`, and what `analyze` and `simulate` print.
-pub const FORMAT: &str = "vinesink/answer@1";
+pub const FORMAT: &str = "vinesink/answer@2";
 
 /// What a document holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

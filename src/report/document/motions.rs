@@ -8,7 +8,7 @@ use crate::linear::level_error;
 use crate::measure::with_pulse;
 use crate::method::Method::{self, ExactOrbit, Simulation};
 use crate::motions::Along;
-use crate::motions::{self, Facts, Measured, Motions, wilson};
+use crate::motions::{self, Facts, Measured, Motions, RestKind, WhyNot, wilson};
 use crate::orbits::Orbit;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
@@ -44,41 +44,98 @@ pub fn places(scale: &Scale, along: &Along, count_rest: bool) -> Vec<Value> {
     along.places().iter().map(place).collect()
 }
 
+/// What a list says of a motion, whatever the structure is: numbers in the case's units.
+pub(crate) struct Listed<'a> {
+    pub id: String,
+    pub kind: &'static str,
+    pub regime: Option<Regime>,
+    pub settled: bool,
+    pub why_not: Option<WhyNot>,
+    /// How an absorber at rest rests.
+    pub rest: Option<RestKind>,
+    /// Largest displacement of any place, its root mean square; impacts in a period and impact speed, the largest of any absorber.
+    pub peak: [f64; 2],
+    pub rms: [f64; 2],
+    pub impacts_per_period: [f64; 2],
+    /// None at rest.
+    pub impact_speed: Option<[f64; 2]>,
+    pub efficiency: Option<[f64; 2]>,
+    /// How many starts led to it, of how many.
+    pub starts: [u32; 2],
+    /// Of these starts, or of resting places under an excitation that grows slowly.
+    pub share: f64,
+    /// Of resting places when the excitation begins at once.
+    pub share_sudden: Option<f64>,
+    pub repeats_after: Option<u32>,
+    pub largest_multiplier: Option<f64>,
+    /// A chattering sequence that ends in contact is one visit to a wall, and many impacts.
+    pub visits_per_period: Option<f64>,
+    /// Excitation periods until the last start had come to it; of one that still settles those that it was followed.
+    pub followed: u64,
+    /// Further fields.
+    pub further: &'a [(&'static str, Value)],
+}
+
+impl Listed<'_> {
+    pub fn row(&self) -> Value {
+        let pair = |[value, error]: [f64; 2]| json!({ "value": value, "error": error });
+        let mut row = json!({
+            "id": self.id,
+            "kind": self.kind,
+            "regime": self.regime,
+            "settled": self.settled,
+            "counts": self.why_not.is_none(),
+            "why_not": self.why_not,
+            "rest": self.rest,
+            "peak": pair(self.peak),
+            "rms": pair(self.rms),
+            "impacts_per_period": pair(self.impacts_per_period),
+            "impact_speed": self.impact_speed.map(pair),
+            "efficiency": self.efficiency.map(pair),
+            "starts": self.starts[0],
+            "of_starts": self.starts[1],
+            "share": self.share,
+            "share_sudden": self.share_sudden,
+            "repeats_after": self.repeats_after,
+            "largest_multiplier": self.largest_multiplier,
+            "visits_per_period": self.visits_per_period,
+            "followed": self.followed,
+        });
+        for (key, value) in self.further {
+            row[*key] = value.clone();
+        }
+        row
+    }
+}
+
 /// One of the motions of a place.
 fn one(scale: &Scale, motions: &Motions, index: usize, count_rest: bool) -> Option<Value> {
     let motion = motions.get(index)?;
-    let why_not = motion.why_not(count_rest);
-    let pair = |of: Quantity| json!({ "value": of.value, "error": of.error });
-    let mut told = json!({
-        "id": Motions::id(index),
-        "kind": motion.kind_name(),
-        "regime": motion.regime(),
-        "settled": motion.settled(),
-        "counts": why_not.is_none(),
-        "why_not": why_not,
-        "impact_speed": null,
-        "efficiency": motion.facts().efficiency,
-        // How an absorber at rest rests.
-        "rest": motion.rest().map(|rest| rest.rest),
-        // Its share of resting places when the excitation begins at once.
-        "share_sudden": motion.rest().map(|rest| rest.sudden),
-        "starts": motion.reached().starts,
-        "of_starts": motions.of_starts(),
-        "share": motions.share(motion),
-        "repeats_after": motion.repeats_after(),
-        "largest_multiplier": motion.largest_multiplier(),
-        // A chattering sequence that ends in contact is one visit to a wall, and many impacts.
-        "visits_per_period": motion.facts().visits_per_period,
-        // Excitation periods until the last start had come to it; of one that still settles those that it was followed.
-        "followed": motion.reached().followed,
-    });
-    let moves = motion.rest().is_none();
-    for (key, quantity) in numbers(scale, motion.facts(), method(motion)) {
-        if moves || key != "impact_speed" {
-            told[key] = pair(quantity);
-        }
-    }
-    Some(told)
+    let rest = motion.rest();
+    let [peak, rms, impacts_per_period, impact_speed] =
+        numbers(scale, motion.facts(), method(motion)).map(|(_, one)| [one.value, one.error]);
+    let listed = Listed {
+        id: Motions::id(index),
+        kind: motion.kind_name(),
+        regime: Some(motion.regime()),
+        settled: motion.settled(),
+        why_not: motion.why_not(count_rest),
+        rest: rest.map(|rest| rest.rest),
+        peak,
+        rms,
+        impacts_per_period,
+        impact_speed: rest.is_none().then_some(impact_speed),
+        efficiency: motion.facts().efficiency.map(|one| [one.value, one.error]),
+        starts: [motion.reached().starts, motions.of_starts()],
+        share: motions.share(motion),
+        share_sudden: rest.map(|rest| rest.sudden),
+        repeats_after: motion.repeats_after(),
+        largest_multiplier: motion.largest_multiplier(),
+        visits_per_period: Some(motion.facts().visits_per_period),
+        followed: motion.reached().followed,
+        further: &[],
+    };
+    Some(listed.row())
 }
 
 /// The motions of a case with all that was measured of them.

@@ -15,13 +15,24 @@ use crate::report::error::RenderError;
 use crate::report::template::render;
 use crate::system::ModalParameter;
 
-/// `vinesink/answer@1`: for each load and each mode in its range the frequency in Hz, the orbits there and where one attracts,
-/// in SI.
+/// For each load and each mode in its range the frequency in Hz, the orbits there and where one attracts, in SI; orbits of a case that
+/// lists no loads are at the top.
 pub fn analysis(case: &ModalCase, found: &[LoadOrbits]) -> Value {
+    let mut document = of_loads(case, found);
+    if !case.lists_loads {
+        let rows = document["loads"].as_array_mut().into_iter().flatten();
+        let each = rows.filter_map(|row| row.as_object_mut()?.remove("orbits"));
+        document["orbits"] = each.filter_map(|one| one.as_array().cloned()).flatten().collect();
+    }
+    document
+}
+
+fn of_loads(case: &ModalCase, found: &[LoadOrbits]) -> Value {
     let omega = case.omega();
-    let orbit = |one: &ModalOrbit| {
+    let orbit = |one: &ModalOrbit, at: f64| {
         let radius = one.spectral_radius();
         let mut told = json!(one);
+        told["at"] = json!(at);
         told["impact_times"] = one.impact_times.iter().map(|time| json!(time / omega)).collect();
         told["impact_speeds"] =
             one.impact_speeds.iter().map(|speed| json!(speed * omega)).collect();
@@ -36,7 +47,7 @@ pub fn analysis(case: &ModalCase, found: &[LoadOrbits]) -> Value {
             "load": one.load + 1,
             "at": one.at,
             "unit": frequency_unit(case),
-            "orbits": one.orbits.iter().map(orbit).collect::<Vec<_>>(),
+            "orbits": one.orbits.iter().map(|orbit_of| orbit(orbit_of, one.at)).collect::<Vec<_>>(),
             "theory": one.theory.as_ref().map(|found| theory::row(case, found)),
             "stable": one.along.iter().map(|along| stretches(case, one.load, along)).collect::<Vec<_>>(),
         })
@@ -84,13 +95,13 @@ fn varied(
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
 pub fn analysis_text(case: &ModalCase, found: &[LoadOrbits]) -> Result<String, RenderError> {
-    let mut facts = analysis(case, found);
+    let mut facts = of_loads(case, found);
     let quantities = |numbers: &Value, kind: &'static Kind| -> Value {
         let numbers = numbers.as_array().into_iter().flatten().filter_map(Value::as_f64);
         numbers.map(|one| json!(Quantity::new(kind, one, Method::ExactOrbit))).collect()
     };
     for (k, one) in found.iter().enumerate() {
-        facts["loads"][k]["load"] = load_row(case, &case.loads[one.load]);
+        facts["loads"][k]["excitation"] = load_row(case, &case.loads[one.load]);
         facts["loads"][k]["at"] = json!(given(&of::EXCITATION_FREQUENCY, one.at));
         for (told, along) in
             facts["loads"][k]["stable"].as_array_mut().into_iter().flatten().zip(&one.along)

@@ -2,7 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::{Beside, absorbers, along, alternatives, closed, given, ranges, units, warnings};
+use super::{
+    Beside, absorbers, along, alternatives, closed, given, ranges, told_of_one, units, warnings,
+};
 use crate::case::{ModalCase, Of};
 use crate::criteria::Judged;
 use crate::measure::{Device, Part};
@@ -34,7 +36,7 @@ fn placed(case: &ModalCase, one: &Judged, mut row: Value) -> Value {
     if !worst.is_empty() {
         row[worst] = named(one.of);
     }
-    row["load"] = json!(one.load);
+    row["load"] = json!(one.load + 1);
     row
 }
 
@@ -116,5 +118,5 @@ pub fn checked(path: &str, name: &str, case: &ModalCase, answer: &ModalAnswer) -
         "alternatives": devices, "absorbers": absorbers(case), "ranges": ranges, "combined": ranges::combined(case, answer), "reliability": reliability,
         "modes_from": case.modes_from,
     });
-    Checked::of(document, page, units)
+    Checked::of(told_of_one(case, document), page, units)
 }

@@ -7,6 +7,7 @@ mod criteria;
 mod figure;
 mod listing;
 mod live;
+mod motions;
 mod optimum;
 mod ranges;
 mod theory;
@@ -24,11 +25,9 @@ use crate::case::{ActsOn, Load, ModalCase, Of, StructuralMode};
 use crate::criteria::Worst;
 use crate::method::Method;
 use crate::modal::{Beside, ForceStep, ModalAnswer, OverForce, Stretches};
-use crate::motions::{ModalMotion, SensorExtent};
 use crate::orbits::ReachEnd;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind, Quantity, Units};
-use crate::simulation::Reading;
 use crate::system::Scales;
 
 pub use analysis::{analysis, analysis_text};
@@ -120,7 +119,7 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
         .working
         .iter()
         .map(|range| range.map(|range| range.map(|at| closed(&of::PEAK, at))));
-    let step = |one: &ForceStep| json!({ "amplitude": amplitude(one.times), "motions": motion_rows(case, &one.motions) });
+    let step = |one: &ForceStep| json!({ "amplitude": amplitude(one.times), "motions": motions::rows(case, &one.motions) });
     json!({
         "at": of_load.at.iter().map(|at| given(&of::EXCITATION_FREQUENCY, *at)).collect::<Vec<_>>(),
         "limits": limits,
@@ -164,55 +163,12 @@ fn load_row(case: &ModalCase, load: &Load) -> Value {
     json!({ "amplitude": given(kind, load.amplitude), "place": place, "mode": mode, "from": from, "to": to })
 }
 
-fn motion_rows(case: &ModalCase, motions: &[ModalMotion]) -> Vec<Value> {
-    motions.iter().map(|one| motion_row(case, one)).collect()
-}
-
-fn motion_row(case: &ModalCase, motion: &ModalMotion) -> Value {
-    let row = |[peak, rms]: [&'static Kind; 2], one: &SensorExtent| {
-        json!({
-            "peak": simulated(peak, one.peak).with_error(one.error),
-            "rms": simulated(rms, one.rms[0]).with_error(one.rms[1]),
-        })
-    };
-    let displaced = motion.read(Reading::Displacement);
-    let mut places: Vec<Value> = displaced.map(|one| row([&of::PEAK, &of::RMS], one)).collect();
-    // What else criteria ask for.
-    for (reads, name, kinds) in [
-        (Reading::Velocity, "velocity", [&of::PEAK_VELOCITY, &of::RMS_VELOCITY]),
-        (Reading::Acceleration, "acceleration", [&of::PEAK_ACCELERATION, &of::RMS_ACCELERATION]),
-    ] {
-        for (place, one) in places.iter_mut().zip(motion.read(reads)) {
-            place[name] = row(kinds, one);
-        }
-    }
-    let rests = motion.resting.iter().zip(1_u32..).filter(|(share, _)| share.is_some());
-    json!({
-        "starts": motion.starts,
-        "repeats_after": motion.repeats_after,
-        "settled": motion.settled,
-        // Whether every absorber rests where no wall reaches it.
-        "rests": motion.rests(),
-        // Absorbers that do, from 1, the share of their places in which they may, together, and whether that is enough.
-        "resting": rests.map(|(_, j)| j).collect::<Vec<_>>(),
-        "share": motion.rest_share(),
-        "counts": motion.counts(case.count_inactive),
-        "impacts_per_period": motion.impacts_per_period.iter().map(|[count, _]| count).collect::<Vec<_>>(),
-        "impact_speed": motion.impact_speed.iter().map(|speed| {
-            let [most, error] = speed.map(|one| case.omega() * one);
-            simulated(&of::IMPACT_SPEED, most).with_error(error)
-        }).collect::<Vec<_>>(),
-        "largest_multiplier": motion.largest_multiplier,
-        "places": places,
-    })
-}
-
 fn worst_row(case: &ModalCase, worst: &Worst) -> Value {
     let (all_settled, worst) = (worst.all_settled(), &worst.found);
     let known = |value: f64| Quantity::new(&of::PEAK, value, worst.known_by);
     let place = if let Of::Place(place) = worst.of { Some(&case.places[place]) } else { None };
     json!({
-        "load": worst.load,
+        "load": worst.load + 1,
         "place": place,
         "at": worst.at.map(|at| given(&of::EXCITATION_FREQUENCY, at)),
         "peak": known(worst.value).with_error(worst.error),
@@ -232,23 +188,22 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
         let worst = answer.worst(case, Some(k));
         let here = worst.and_then(|worst| along.at(worst.found.at?));
         json!({
-            "load": load_row(case, &along.load),
+            "load": k + 1,
+            "excitation": load_row(case, &along.load),
             "bare": largest.map(|[most, at]| json!({
                 "peak": closed(&of::BARE_PEAK, *most), "at": given(&of::EXCITATION_FREQUENCY, *at),
             })),
             "worst": worst.map(|worst| worst_row(case, &worst)),
-            // Starts at that frequency.
-            "searched": here.map(|one| one.motions.iter().map(|motion| motion.starts).sum::<u32>()),
-            "motions": here.map(|one| motion_rows(case, &one.motions)),
+            // The motions there.
+            "at_worst": here.map(|one| motions::rows(case, &one.motions)).unwrap_or_default(),
             "alone": beside.alone.get(k).and_then(|one| one.as_ref()).map(|[value, error]| {
                 simulated(&of::PEAK, *value).with_error(*error)
             }),
             "dampers": beside.dampers.iter().map(|one| closed(&of::DAMPER_PEAK, one.worst[k])).collect::<Vec<_>>(),
             "forces": beside.forces.get(k).and_then(|one| one.as_ref()).map(|one| forces_row(case, &along.load, one)),
             "theory": beside.theory.iter().filter(|one| one.load == k).map(|one| theory::row(case, one)).collect::<Vec<_>>(),
-            "places": along.places.iter().map(|one| json!({
-                "at": one.at, "unit": frequency_unit(case), "motions": motion_rows(case, &one.motions),
-            })).collect::<Vec<_>>(),
+            "motions": along.is_point().then(|| motions::rows(case, &along.places[0].motions)),
+            "places": (!along.is_point()).then(|| motions::over_frequencies(case, along)),
         })
     });
     rows.collect()
@@ -278,7 +233,7 @@ fn starts(case: &ModalCase) -> u32 {
     case.loads.iter().map(|load| case.starts_of(load)).min().unwrap_or_default()
 }
 
-/// The report: `vinesink/answer@1` with the fields that an index and a comparison read, and those of several modes.
+/// The report: [`FORMAT`](super::document::FORMAT) with the fields that an index and a comparison read, and those of several modes.
 pub fn document(
     name: &str,
     case: &ModalCase,
@@ -393,13 +348,29 @@ pub fn files(
     let tone = document["verdict"]["tone"].as_str().unwrap_or_default().to_owned();
     let mut files =
         page_files("report", "modal.md", Some(&tone), &units(case), document.clone(), &figures)?;
+    let document = told_of_one(case, document);
     files.insert("report.json".into(), format!("{}\n", in_lines(&document, 0)).into_bytes());
     Ok(files)
 }
 
-/// What simulation says of it, with nothing beside: `vinesink/answer@1`.
+/// What a document says of the loads of a case, of which there is no list, at its top as that of one mode does: the motions of its
+/// excitation, and those along its range.
+fn told_of_one(case: &ModalCase, mut document: Value) -> Value {
+    if !case.lists_loads
+        && let Some(Value::Object(of_load)) = document["loads"].get_mut(0)
+    {
+        let told: Vec<_> = ["motions", "places"]
+            .into_iter()
+            .filter_map(|key| Some((key, of_load.remove(key)?)))
+            .collect();
+        told.into_iter().for_each(|(key, value)| document[key] = value);
+    }
+    document
+}
+
+/// What simulation says of it, with nothing beside: [`FORMAT`](super::document::FORMAT).
 pub fn simulation(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Value {
-    document(name, case, answer, &Beside::default(), Content::Simulation)
+    told_of_one(case, document(name, case, answer, &Beside::default(), Content::Simulation))
 }
 
 /// The same on a terminal.
@@ -407,7 +378,8 @@ pub fn simulation(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Value {
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
 pub fn text(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Result<String, RenderError> {
-    render("modal.txt", &units(case), &simulation(name, case, answer))
+    let facts = document(name, case, answer, &Beside::default(), Content::Simulation);
+    render("modal.txt", &units(case), &facts)
 }
 
 /// What is almost surely a slip in its file.
