@@ -21,6 +21,9 @@ pub(super) fn rows(case: &ModalCase, answer: &ModalAnswer) -> (Value, Value) {
     if let Some(Of::Place(place)) = answer.alternatives.as_ref().map(|found| found.of) {
         choice["place"] = json!(case.places[place]);
     }
+    if case.modes.len() > 1 && choice.is_object() {
+        choice["of_all_modes"] = json!(true);
+    }
     (rows, choice)
 }
 

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::{Evidence, Periodicity, Regime};
 use crate::simulation::{
     ModalImpact, ModalMeter, ModalObserver, ModalSegment, PeriodRecord, Reading, Sensor, WallRun,
-    share_of_impacts,
+    lost_in, share_of_impacts,
 };
 use crate::system::{ModalState, ModalSystem};
 
@@ -93,7 +93,16 @@ impl ModalRecords {
         ModalRegimes {
             regimes: each.iter().map(Regime::of).collect(),
             visits_per_period: each.iter().map(|one| one.visits_per_period).collect(),
-            efficiency: share_of_impacts(&self.energy, false),
+            efficiency: match repeats_after {
+                None => share_of_impacts(&self.energy, false),
+                // Over its last repetition, which is all of it.
+                Some(periods) => {
+                    let from = self.energy.len().saturating_sub(periods as usize);
+                    let before = from.checked_sub(1).map(|last| self.energy[last]);
+                    let [whole, impact] = lost_in(before, &self.energy[from..]);
+                    (whole > 0.0).then(|| [impact / whole, 0.0])
+                }
+            },
         }
     }
 }
