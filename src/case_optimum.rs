@@ -18,7 +18,7 @@ use crate::transient::best_clearance;
 /// What was found.
 #[derive(Debug, Clone)]
 pub struct Optimum {
-    /// `vinesink/optimization@3`.
+    /// `vinesink/optimization@4`.
     pub document: Value,
     /// The case with it, where it is better than the case's own and meets all criteria; its comments fit.
     pub better: Option<Rewritten>,

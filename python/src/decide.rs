@@ -38,6 +38,25 @@ pub fn checked(case: &Case, stem: &str, alone: bool, work: &WorkState) -> PyResu
     json(&Checked::judged(stem, stem, case, &answer).document)
 }
 
+/// The objective of a name.
+fn objective_of(name: &str) -> PyResult<Objective> {
+    let known = Objective::ALL.into_iter().find(|one| one.name() == name);
+    known.ok_or_else(|| {
+        let all = Objective::ALL.map(Objective::name).join(", ");
+        refused(format!("there is no objective \"{name}\"; there are {all}"))
+    })
+}
+
+/// The same for a structure of several modes.
+pub fn objective_of_several(name: &str) -> PyResult<Objective> {
+    match objective_of(name)? {
+        Objective::Z3Share => Err(refused(
+            "z3-share is an area of the theory of one mode and one absorber: ask for stable-share",
+        )),
+        objective => Ok(objective),
+    }
+}
+
 /// What `vinesink optimize --format json` says, the text of the case with the optimum, where there is one, and whether it is
 /// better than the case's own and meets all criteria.
 pub fn optimum(
@@ -46,14 +65,7 @@ pub fn optimum(
     objective: Option<&str>,
     work: &WorkState,
 ) -> PyResult<(String, Option<String>, bool)> {
-    let named = |name: &str| {
-        let known = Objective::ALL.into_iter().find(|one| one.name() == name);
-        known.ok_or_else(|| {
-            let all = Objective::ALL.map(Objective::name).join(", ");
-            refused(format!("there is no objective \"{name}\"; there are {all}"))
-        })
-    };
-    let objective = objective.map(named).transpose()?;
+    let objective = objective.map(objective_of).transpose()?;
     let found = Optimum::of("the case", case, text, objective, work).map_err(refused)?;
     let better = found.better.map(|better| better.text);
     Ok((json(&found.document)?, better, found.succeeds))

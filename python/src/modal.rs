@@ -116,10 +116,13 @@ impl ModalCase {
     fn optimize(
         &self,
         py: Python<'_>,
+        objective: Option<&str>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<(String, Option<String>, bool)> {
+        let objective = objective.map(decide::objective_of_several).transpose()?;
         work::done(py, progress, |work| {
-            let found = ModalOptimum::of(&self.inner, &self.text, work).map_err(refused)?;
+            let found =
+                ModalOptimum::of(&self.inner, &self.text, objective, work).map_err(refused)?;
             let better = found.best.first().filter(|_| found.succeeds());
             let better = better.map(|best| best.text.clone());
             Ok((json(&optimum(&self.inner, &found))?, better, found.succeeds()))

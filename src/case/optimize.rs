@@ -4,10 +4,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::criteria::{AREAS_ARE_IDEAL, EXACT_INSTEAD};
+use super::criteria::{AREAS_ARE_IDEAL, Criterion, EXACT_INSTEAD};
 use super::reader::{Reader, Table};
 use super::schema::in_design;
 use crate::excitation::Scene;
+use crate::measure::Measure;
 use vinesink_core::names;
 
 names! { name:
@@ -22,6 +23,18 @@ names! { name:
         WorstAmplitude = "worst-amplitude",
         /// The largest smallest relative distance of the clearance from the ends of the stable 1:1 motion.
         Margin = "margin",
+    }
+}
+
+impl Objective {
+    /// What criteria ask for first; else the smallest vibration.
+    pub fn asked(criteria: &[Criterion]) -> Self {
+        match criteria.first().map(|one| one.measure) {
+            Some(Measure::Z3Share) => Self::Z3Share,
+            Some(Measure::StableShare) => Self::StableShare,
+            Some(Measure::MarginClearance) => Self::Margin,
+            _ => Self::WorstAmplitude,
+        }
     }
 }
 

@@ -93,17 +93,15 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         AnyCase::Several(case) => return several(&arguments, &case, &text),
     };
     let steady = case.design.scene() == Scene::Steady;
-    if arguments.robust && !(steady && case.uncertainty.is_any()) {
+    if arguments.robust && !steady {
         return Err(miette!(
-            help = match steady {
-                true => "add a table [uncertainty], or leave out --robust",
-                false =>
-                    "leave out --robust; what a release may be off by is `releases` in [optimize]",
-            },
-            "{}: {}, so that there is no robust optimum",
-            path.display(),
-            if steady { "nothing is uncertain" } else { "the case is not driven steadily" }
+            help = "leave out --robust; what a release may be off by is `releases` in [optimize]",
+            "{}: the case is not driven steadily, so that there is no robust optimum",
+            path.display()
         ));
+    }
+    if arguments.robust && !case.uncertainty.is_any() {
+        return Err(nothing_uncertain(path));
     }
     let given =
         [("--objective", arguments.objective.is_some()), ("--out", arguments.out.is_some())];
@@ -147,15 +145,31 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     Ok(found.succeeds)
 }
 
+/// That there is nothing that a robust optimum could allow for.
+fn nothing_uncertain(path: &Path) -> miette::Report {
+    miette!(
+        help = "add a table [uncertainty], or leave out --robust",
+        "{}: nothing is uncertain, so that there is no robust optimum",
+        path.display()
+    )
+}
+
 /// The same of a structure of several modes or absorbers.
 fn several(arguments: &Arguments, case: &ModalCase, text: &str) -> Result<bool> {
-    let given = [
-        ("--objective", arguments.objective.is_some()),
-        ("--out", arguments.out.is_some()),
-        ("--robust", arguments.robust),
-    ];
-    several::without(&arguments.one.path, &given)?;
-    let better = several::optimize(&arguments.one, case, text)?;
+    let path = &arguments.one.path;
+    several::without(path, &[("--out", arguments.out.is_some())])?;
+    if arguments.objective == Some(Objective::Z3Share) {
+        return Err(miette!(
+            help = "ask for --objective stable-share, the same of the exact orbits of all modes",
+            "{}: z3-share is an area of the theory of one mode and one absorber",
+            path.display()
+        ));
+    }
+    if arguments.robust && !case.uncertainty.is_any() {
+        return Err(nothing_uncertain(path));
+    }
+    let asked = (arguments.objective, arguments.robust);
+    let better = several::optimize(&arguments.one, case, text, asked)?;
     if let (Some(new), Some(better)) = (&arguments.write, &better) {
         store::write_new(new, better.as_bytes())?;
         arguments.tell(&format!("written: {}", new.display()), "\n")?;

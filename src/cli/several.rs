@@ -5,7 +5,7 @@ use std::path::Path;
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::answer::Decided;
 use vinesink::answer::several::{self, LeftOut};
-use vinesink::case::ModalCase;
+use vinesink::case::{ModalCase, Objective};
 use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, checks, orbits, seconds};
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
@@ -82,13 +82,24 @@ pub fn analyze(one: &OneCase, case: &ModalCase) -> Result<bool> {
     Ok(true)
 }
 
-/// Prints better absorbers; the text of the case with them, where there are any.
-pub fn optimize(one: &OneCase, case: &ModalCase, text: &str) -> Result<Option<String>> {
+/// Prints better absorbers, by this objective in place of the case's own; the text of the case with them, where there are any: of those
+/// that are best on average where that is asked for.
+pub fn optimize(
+    one: &OneCase,
+    case: &ModalCase,
+    text: &str,
+    (objective, robust): (Option<Objective>, bool),
+) -> Result<Option<String>> {
     let seconds = seconds(case) * checks(case);
     one.long.allows_seconds(&one.path, seconds, "candidates under each load")?;
-    let found = ModalOptimum::of(case, text, &Parallel).into_diagnostic()?;
+    let found = ModalOptimum::of(case, text, objective, &Parallel).into_diagnostic()?;
     let document = optimum(case, &found);
     one.print(|| optimum_text(case, &document), || &document)?;
     let best = found.best.first().filter(|_| found.succeeds());
-    Ok(best.map(|best| best.text.clone()))
+    let of_robust = found
+        .robust
+        .as_ref()
+        .map(|one| &one.design)
+        .filter(|one| robust && one.is_feasible() && one.case.absorbers != case.absorbers);
+    Ok(of_robust.or(best).map(|best| best.text.clone()))
 }

@@ -44,6 +44,11 @@ impl ModalAnswer {
     }
 }
 
+/// The loads of a case where no motion is known.
+pub(super) fn unflown(case: &ModalCase) -> Vec<AlongLoad> {
+    case.loads.iter().map(|load| AlongLoad::at_some(*load, Vec::new(), Vec::new())).collect()
+}
+
 /// The layer that a motion is known by.
 fn method(motion: &ModalMotion) -> Method {
     match (motion.rests(), motion.is_orbit) {

@@ -38,7 +38,7 @@ pub use beside::Beside;
 pub use dampers::{DamperChoice, PlacedDampers};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
-pub use optimum::{JudgedAbsorbers, ModalOptimum, checks, clearance_bounds};
+pub use optimum::{Aim, JudgedAbsorbers, ModalOptimum, RobustAbsorbers, checks, clearance_bounds};
 pub use orbits::{LoadOrbits, Stretches, at_resonances, orbits};
 pub use ranges::looks;
 pub use sensors::sensors;

@@ -3,7 +3,7 @@
 
 use super::along::AlongEffort;
 use super::linear::linear_most;
-use super::{AlongLoad, ModalAnswer, ModalError};
+use super::{AlongLoad, ModalAnswer, ModalError, judge};
 use crate::case::{Criterion, ModalCase, Uncertainty};
 use crate::criteria::Judged;
 use crate::executor::Serial;
@@ -111,8 +111,7 @@ impl Varies for ModalCase {
     fn fails_unflown(&self) -> Result<bool, ModalError> {
         let mut unflown = self.clone();
         unflown.criteria.retain(|one| !one.measure.is_of_motions());
-        let loads = self.loads.iter();
-        let unknown = loads.map(|load| AlongLoad::at_some(*load, Vec::new(), Vec::new())).collect();
+        let unknown = judge::unflown(self);
         Ok(Together::of(&ModalAnswer::judged(&unflown, unknown).judged) == Together::Fail)
     }
 }

@@ -21,6 +21,7 @@ use crate::system::Parameter;
 
 pub use combined::{Combined, combined};
 pub use edges::{Edge, edges};
+pub(crate) use reliability::drawn;
 pub use reliability::{Reliability, Uncertain};
 pub use varied::Varied;
 pub use varies::{Depth, Varies};

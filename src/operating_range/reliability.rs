@@ -114,7 +114,7 @@ impl Reliability {
 
 /// Errors of some designs, by a Latin hypercube (McKay, Beckman and Conover 1979): each number is drawn once from each of
 /// as many equally probable strata, in an order of its own.
-fn drawn(uncertain: &[Uncertain], count: u32) -> Vec<Vec<(Uncertain, f64)>> {
+pub(crate) fn drawn(uncertain: &[Uncertain], count: u32) -> Vec<Vec<(Uncertain, f64)>> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let mut uniform = || ((random.next_u64() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
     let mut designs = vec![Vec::new(); count as usize];

@@ -6,10 +6,11 @@ use super::choose::Proposed;
 use super::design::{Judge, JudgedDesign};
 use super::search::{self, SearchEffort};
 use super::task::Task;
-use crate::case::{self, Distribution, Objective, Uncertainty};
+use crate::case::{self, Distribution, Objective};
 use crate::executor::{Executor, Serial, map};
 use crate::motions::Effort;
 use crate::numerics::gauss;
+use crate::operating_range::{Uncertain, Varies};
 use crate::system::Parameter;
 
 /// The best in expectation. Values are those of the objective.
@@ -30,8 +31,13 @@ pub struct UnderDeviations {
     pub worst_corner: f64,
 }
 
-/// Errors of some parameters, and the weight that they have in an average.
-pub type WeightedErrors = (Vec<(Parameter, f64)>, f64);
+/// Errors of some numbers, and the weight that they have in an average.
+pub type WeightedErrors = (Vec<(Uncertain, f64)>, f64);
+
+/// The same of parameters of a design.
+fn of_design(errors: &[(Uncertain, f64)]) -> Vec<(Parameter, f64)> {
+    errors.iter().map(|(one, error)| (one.parameter, *error)).collect()
+}
 
 /// How thoroughly the expectation of an exact objective is looked for.
 const ROBUST: SearchEffort =
@@ -53,6 +59,16 @@ const PERIODS: u64 = 300;
 const PATIENCE: f64 = 0.25;
 /// Judged absorbers that are looked at under deviations.
 const CANDIDATES: usize = 5;
+
+/// So many for so many numbers.
+fn nodes_of(counts: &[usize; 7], uncertain: usize) -> usize {
+    counts[uncertain.min(counts.len() - 1)]
+}
+
+/// Nodes of each of so many uncertain numbers where each combination is simulated.
+pub fn nodes_simulated(uncertain: usize) -> usize {
+    nodes_of(&SIMULATED, uncertain)
+}
 
 /// The best in expectation of those that are not worse than the case's `own`; `None` where nothing is
 /// uncertain.
@@ -112,7 +128,7 @@ fn expected_best(
     deviations: &[WeightedErrors],
     executor: &dyn Executor,
 ) -> Result<Vec<f64>, OptimizeError> {
-    let fewer = combinations(&task.case.uncertainty, task.nodes_looked_at());
+    let fewer = combinations(&task.case.uncertain(), task.nodes_looked_at());
     let deviations = if fewer.len() < deviations.len() { fewer.as_slice() } else { deviations };
     let score = |parts: &[f64]| {
         let found = task.expected(&task.choice(parts), deviations, &Serial);
@@ -126,11 +142,11 @@ fn expected_best(
 /// Judged absorbers in the order in which the coarse survey likes them once it is averaged over the deviation
 /// of the clearance.
 fn smoothed(task: &Task, proposed: &Proposed, designs: &[JudgedDesign]) -> Vec<JudgedDesign> {
-    let only_clearance =
-        Uncertainty { clearance: task.case.uncertainty.clearance, ..Uncertainty::default() };
+    let mut only_clearance = task.case.uncertain();
+    only_clearance.retain(|one| one.parameter == Parameter::Clearance);
     let nodes = combinations(&only_clearance, SIMULATED[1]);
     let expected = |design: &JudgedDesign| -> f64 {
-        let at = |off: &[(Parameter, f64)]| design.choice.deviating(off).clearance();
+        let at = |off: &[(Uncertain, f64)]| design.choice.deviating(&of_design(off)).clearance();
         nodes.iter().map(|(off, weight)| weight * coarse(&proposed.landscape, at(off))).sum()
     };
     let mut order: Vec<(f64, &JudgedDesign)> =
@@ -166,21 +182,26 @@ fn ends(distribution: Distribution) -> Vec<(f64, f64)> {
 }
 
 /// All combinations of deviations with their weights, which add up to 1; `count` nodes of each
-/// uncertain parameter.
-pub fn combinations(uncertainty: &Uncertainty, count: usize) -> Vec<WeightedErrors> {
-    products(uncertainty, |one| nodes(one, count))
+/// uncertain number.
+pub fn combinations(uncertain: &[Uncertain], count: usize) -> Vec<WeightedErrors> {
+    products(uncertain, |one| nodes(one, count))
+}
+
+/// All combinations of the ends of deviations.
+pub fn corners(uncertain: &[Uncertain]) -> Vec<WeightedErrors> {
+    products(uncertain, ends)
 }
 
 fn products(
-    uncertainty: &Uncertainty,
+    uncertain: &[Uncertain],
     values: impl Fn(Distribution) -> Vec<(f64, f64)>,
 ) -> Vec<WeightedErrors> {
     let mut found = vec![(Vec::new(), 1.0)];
-    for (parameter, distribution) in uncertainty.parameters() {
-        let values = values(distribution);
+    for one in uncertain {
+        let values = values(one.errors);
         let combined = found.iter().flat_map(|(off, weight): &WeightedErrors| {
             values.iter().map(move |(value, share)| {
-                ([off.as_slice(), &[(parameter, *value)]].concat(), weight * share)
+                ([off.as_slice(), &[(*one, *value)]].concat(), weight * share)
             })
         });
         found = combined.collect();
@@ -189,7 +210,7 @@ fn products(
 }
 
 impl Task {
-    /// Nodes of each uncertain parameter.
+    /// Nodes of each uncertain number.
     pub fn nodes(&self) -> usize {
         let counts = match self.objective {
             Objective::Z3Share => CLOSED_FORM,
@@ -200,7 +221,7 @@ impl Task {
     }
 
     fn nodes_of(&self, counts: &[usize; 7]) -> usize {
-        counts[self.case.uncertainty.parameters().count().min(counts.len() - 1)]
+        nodes_of(counts, self.case.uncertain().len())
     }
 
     /// The same while the best is looked for, which is then averaged over more.
@@ -213,7 +234,7 @@ impl Task {
 
     /// The combinations of deviations over which is averaged.
     pub fn deviations(&self) -> Vec<WeightedErrors> {
-        combinations(&self.case.uncertainty, self.nodes())
+        combinations(&self.case.uncertain(), self.nodes())
     }
 
     /// The average score over deviations with weights; `None` where one leaves no system.
@@ -223,7 +244,7 @@ impl Task {
         deviations: &[WeightedErrors],
         executor: &dyn Executor,
     ) -> Option<f64> {
-        let score = |k: usize| self.score(&choice.deviating(&deviations[k].0), &Serial);
+        let score = |k: usize| self.score(&choice.deviating(&of_design(&deviations[k].0)), &Serial);
         let scores = map(executor, "", deviations.len(), score);
         scores.into_iter().zip(deviations).map(|(score, (_, weight))| Some(weight * score?)).sum()
     }
@@ -236,9 +257,9 @@ impl Task {
         deviations: &[WeightedErrors],
         executor: &dyn Executor,
     ) -> UnderDeviations {
-        let corners = products(&self.case.uncertainty, ends);
+        let corners = corners(&self.case.uncertain());
         let worst = map(executor, "", corners.len(), |k| {
-            self.score(&choice.deviating(&corners[k].0), &Serial)
+            self.score(&choice.deviating(&of_design(&corners[k].0)), &Serial)
         });
         let worst = worst.into_iter().map(|score| score.unwrap_or(f64::NEG_INFINITY));
         let expected = self.expected(choice, deviations, executor);
@@ -256,20 +277,17 @@ mod tests {
     /// Averages of squares are s² for a normal error and a²/3 for one up to a.
     #[test]
     fn combinations_have_the_moments_of_their_errors() {
-        let two = Uncertainty {
-            clearance: Some(Distribution::Normal(0.1)),
-            amplitude: Some(Distribution::Uniform(0.2)),
-            ..Uncertainty::default()
-        };
+        let of = |parameter, errors| Uncertain { parameter, of: None, errors };
+        let two = [
+            of(Parameter::Clearance, Distribution::Normal(0.1)),
+            of(Parameter::Amplitude, Distribution::Uniform(0.2)),
+        ];
         let all = combinations(&two, 7);
         assert_eq!(all.len(), 49);
         let mean = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
-            let values = |off: &Vec<(Parameter, f64)>| (off[0], off[1]);
-            let weighted = all.iter().map(|(off, weight)| match values(off) {
-                ((Parameter::Clearance, clearance), (Parameter::Amplitude, amplitude)) => {
-                    weight * of(clearance, amplitude)
-                }
-                other => panic!("{other:?}"),
+            let weighted = all.iter().map(|(off, weight)| {
+                assert_eq!([off[0].0, off[1].0], two);
+                weight * of(off[0].1, off[1].1)
             });
             weighted.sum()
         };
@@ -277,6 +295,6 @@ mod tests {
         assert!((mean(&|clearance, _| clearance * clearance) - 0.01).abs() < 1e-14);
         assert!((mean(&|_, amplitude| amplitude * amplitude) - 0.04 / 3.0).abs() < 1e-14);
         assert!(mean(&|clearance, amplitude| clearance * amplitude).abs() < 1e-16);
-        assert_eq!(combinations(&Uncertainty::default(), 7), [(Vec::new(), 1.0)]);
+        assert_eq!(combinations(&[], 7), [(Vec::new(), 1.0)]);
     }
 }

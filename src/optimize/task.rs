@@ -3,9 +3,8 @@
 use super::OptimizeError;
 use crate::analysis::{Boundaries, Manifold};
 use crate::band::{Band, Worst, margin, theory};
-use crate::case::{Case, Criterion, Design, Objective};
+use crate::case::{Case, Design, Objective};
 use crate::executor::Executor;
-use crate::measure::Measure;
 use crate::motions::{Effort, along, stability};
 use crate::quantity::numbers::rounded_to;
 use crate::system::Parameter;
@@ -99,16 +98,6 @@ fn usual_clearances(case: &Case) -> [f64; 2] {
     }
 }
 
-/// What criteria ask for first; else the smallest vibration.
-fn asked(criteria: &[Criterion]) -> Objective {
-    match criteria.first().map(|one| one.measure) {
-        Some(Measure::Z3Share) => Objective::Z3Share,
-        Some(Measure::StableShare) => Objective::StableShare,
-        Some(Measure::MarginClearance) => Objective::Margin,
-        _ => Objective::WorstAmplitude,
-    }
-}
-
 impl Task {
     /// That of a case; `objective` overrides the case's own.
     ///
@@ -121,7 +110,8 @@ impl Task {
             return Err(OptimizeError::NotDriven);
         }
         let ideal = case.design.has_ideal_cavity();
-        let objective = objective.or(settings.objective).unwrap_or_else(|| asked(&case.criteria));
+        let objective =
+            objective.or(settings.objective).unwrap_or_else(|| Objective::asked(&case.criteria));
         if !ideal && objective == Objective::Z3Share {
             return Err(OptimizeError::RealCavity);
         }

@@ -248,7 +248,7 @@ fn every_format_says_what_fails_and_the_exit_code_too() {
     assert!(text.contains("\nNext: `vinesink optimize` looks for the clearance"), "{text}");
     let (code, json) = check(&fails, "json");
     let document: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!((code, &document["format"]), (Some(1), &"vinesink/check@2".into()));
+    assert_eq!((code, &document["format"]), (Some(1), &"vinesink/check@3".into()));
     assert_eq!(document["cases"][0]["criteria"][1]["holds"], false);
     let (_, markdown) = checked(&fails, &["--format", "markdown"]);
     assert!(markdown.contains("| ≥ 90 % |") && markdown.lines().count() == 8, "{markdown}");

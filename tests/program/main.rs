@@ -36,6 +36,7 @@ mod modal;
 mod modal_alternatives;
 mod modal_criteria;
 mod modal_files;
+mod modal_optimum;
 mod modal_orbits;
 mod modal_ranges;
 mod modal_reduced;

@@ -187,7 +187,7 @@ fn other_commands_say_who_reads_it() {
         ["simulate", "--periods", "9"],
         ["analyze", "--fidelity", "orbit"],
         ["report", "--fidelity", "orbit"],
-        ["optimize", "--objective", "margin"],
+        ["optimize", "--out", "reports"],
     ] {
         let [command, option, value] = arguments;
         let output = vinesink(&[command, MAST, option, value]);
@@ -360,9 +360,9 @@ fn better_absorbers_of_one_mode_are_those_of_its_own_search() {
     let output = vinesink(&["optimize", &path("hard.toml"), "--write", &path("none.toml")]);
     assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stdout));
     assert!(!folder.path().join("none.toml").exists());
-    let refused = vinesink(&["optimize", &to, "--objective", "margin"]);
+    let refused = vinesink(&["optimize", &to, "--objective", "z3-share"]);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("leave out --objective"));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("stable-share"));
 }
 
 /// A case with a file beside it; of one that is refused, what is told of each line.

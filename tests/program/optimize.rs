@@ -504,7 +504,7 @@ fn the_command_writes_a_page_and_a_case() {
     let second = run(&["--format", "json"]);
     assert_eq!(first.stdout, second.stdout, "the same bytes, whatever the number of threads");
     let document: serde_json::Value = serde_json::from_slice(&first.stdout).expect("JSON");
-    assert_eq!(document["format"], "vinesink/optimization@3");
+    assert_eq!(document["format"], "vinesink/optimization@4");
     assert_eq!(document["reached"], true);
     let page = out.join("li2016-8p5hz-fig4a");
     for file in [

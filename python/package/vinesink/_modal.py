@@ -132,12 +132,13 @@ class ModalCase:
         """
         return Check(json.loads(self._core.check(criteria_only, long, _told(progress))))
 
-    def optimize(self, *, progress: Progress | None = None) -> ModalOptimum:
+    def optimize(self, *, objective: str | None = None, progress: Progress | None = None) -> ModalOptimum:
         """The absorbers that serve the case best: what `vinesink optimize --format json` says.
 
-        The clearances are looked for, and what its table `[optimize]` names; each is judged as `check` judges it.
+        `objective` is "worst-amplitude", "stable-share" or "margin"; what the first criterion asks unless given, or else that all
+        criteria hold with the most room. The clearances are looked for, and what its table `[optimize]` names; each is judged as `check` judges it.
         """
-        text, better, succeeds = self._core.optimize(_told(progress))
+        text, better, succeeds = self._core.optimize(objective, _told(progress))
         case = None if better is None else _of_text(better, self._folder, self._allow_outside)
         return ModalOptimum(json.loads(text), case, succeeds)
 

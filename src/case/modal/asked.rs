@@ -9,6 +9,7 @@ use serde_json::Value;
 use super::place::find_place;
 use super::{Bounds, PlacedAbsorber, StructuralMode};
 use crate::case::criteria::{Criterion, sensor_sees, with_placed_subjects};
+use crate::case::optimize::Objective;
 use crate::case::physical::MOST_CONTACT;
 use crate::case::reader::{Reader, Table};
 use crate::case::schema::in_design;
@@ -33,6 +34,10 @@ pub(super) struct ModalCriteriaTable {
 #[derive(Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields)]
 pub(super) struct ModalOptimizeTable {
+    /// What is looked for; what the first criterion asks unless given, or else that all criteria hold with the most room, and without
+    /// criteria the smallest displacement of any place. `z3-share` is of one mode.
+    #[schemars(example = "stable-share")]
+    objective: Option<Objective>,
     /// Bounds of each absorber's clearance; a third to three times its own unless given.
     #[schemars(with = "Option<[Value; 2]>", extend("x-ascending" = true))]
     #[schemars(extend("items" = in_design("clearance")))]
@@ -57,12 +62,20 @@ pub(super) fn read_bounds(reader: &mut Reader, root: &Table, places: &[String]) 
     let Some((table, read)) = reader.optional::<ModalOptimizeTable>(root, "optimize") else {
         return Bounds::default();
     };
+    if read.objective == Some(Objective::Z3Share) {
+        let help =
+            "ask for `objective = \"stable-share\"`, the same of the exact orbits of all modes";
+        let expected = "expected an objective of the whole structure";
+        let message = "`z3-share` is an area of the theory of one mode and one absorber";
+        reader.report(table.span_of_value("objective"), message, expected, help);
+    }
     let span = table.span_of_value("places");
     let of = |name: &String| find_place(reader, span.clone(), Some(name), places);
     let mut at: Vec<usize> = read.places.iter().filter_map(of).collect();
     at.sort_unstable();
     at.dedup();
     Bounds {
+        objective: read.objective,
         clearance_m: read.clearance,
         restitution: read.restitution,
         places: at,

@@ -26,6 +26,7 @@ use super::criteria::Criterion;
 use super::document;
 use super::error::{CaseError, Problem};
 use super::one::OneMode;
+use super::optimize::Objective;
 use super::reader::Reader;
 use super::rewrite::{RewriteError, Rounding, in_unit_of};
 use crate::contact::Impacts;
@@ -103,6 +104,8 @@ pub struct ModalCase {
 /// Within which bounds better absorbers are looked for: the table `[optimize]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Bounds {
+    /// What they are looked for by; what the first criterion asks where there is none.
+    pub objective: Option<Objective>,
     /// Bounds of each clearance in m; a third to three times its own where there are none.
     pub clearance_m: Option<[f64; 2]>,
     /// Bounds of the restitution of all of them; each its own where there are none.

@@ -20,6 +20,8 @@ use crate::system::Parameter;
 
 pub use figure::figures;
 
+/// The format of documents of what an optimisation found, whatever moves.
+pub const FORMAT: &str = "vinesink/optimization@4";
 /// Relative distance from a bound within which a value lies on it: it may have been rounded.
 const ON_BOUND: f64 = 1e-3;
 /// Share of a band in strips from which on the reader is told.
@@ -27,7 +29,7 @@ const STRIPS: f64 = 0.01;
 /// Places of the band that the table shows, the worst one included.
 const SHOWN: usize = 9;
 
-/// What an optimisation found: `vinesink/optimization@3`. Lengths in metres or the case's own unit.
+/// What an optimisation found. Lengths in metres or the case's own unit.
 pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
     let (best, task) = (&found.best, &found.task);
     let row = |design: &JudgedDesign| absorber(case, task, design);
@@ -53,7 +55,7 @@ pub fn document(case: &Case, found: &Optimization) -> serde_json::Value {
     };
     beside["detuned"] = [1.0 - drift, 1.0 + drift].into_iter().filter_map(off).collect();
     let mut page = json!({
-        "format": "vinesink/optimization@3",
+        "format": FORMAT,
         "title": case.title,
         "answer": match (found.reached(), best.is_feasible(), found.improves()) {
             // The objective has no value above 0.
@@ -170,7 +172,7 @@ fn absorber(case: &Case, task: &Task, design: &JudgedDesign) -> serde_json::Valu
 }
 
 /// The kind of an objective's value.
-fn kind(objective: Objective) -> &'static Kind {
+pub(super) fn kind(objective: Objective) -> &'static Kind {
     match objective {
         Objective::Z3Share => &catalogue::Z3_SHARE,
         Objective::StableShare => &catalogue::STABLE_SHARE,

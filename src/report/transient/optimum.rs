@@ -9,11 +9,12 @@ use crate::operating_range::Edge;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::report::document::{NOTICEABLE, edges};
+use crate::report::optimize::FORMAT;
 use crate::report::render::RenderError;
 use crate::report::template::render;
 use crate::transient::{ClearanceOptimum, WithError};
 
-/// What was found: `vinesink/optimization@3`, in SI. `written` is the document of the case with the best clearance, `beside`
+/// What was found, in SI. `written` is the document of the case with the best clearance, `beside`
 /// the edges of that.
 pub fn optimum(case: &Case, best: &ClearanceOptimum, written: &Value, beside: &[Edge]) -> Value {
     let records = written["records"].as_u64().unwrap_or(1);
@@ -42,7 +43,7 @@ pub fn optimum(case: &Case, best: &ClearanceOptimum, written: &Value, beside: &[
         _ => "found",
     };
     json!({
-        "format": "vinesink/optimization@3",
+        "format": FORMAT,
         "title": case.title,
         "objective": objective,
         "answer": answer,

@@ -1,0 +1,142 @@
+//! What absorbers of several modes are looked for by: shares and margins of exact orbits as with one mode, and the best on average.
+
+use std::f64::consts::TAU;
+use std::fs;
+
+use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::tempdir;
+
+/// What a command says of a case, as JSON.
+fn told(text: &str, arguments: &[&str]) -> Value {
+    let folder = tempdir().expect("a folder");
+    let path = folder.path().join("case.toml");
+    fs::write(&path, text).expect("written");
+    let path = path.to_str().expect("UTF-8");
+    let all = [&[arguments[0], path, "--format", "json"], &arguments[1..]].concat();
+    let mut command = Command::cargo_bin("vinesink").expect("built");
+    let output = command.args(&all).output().expect("it runs");
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{all:?}: {error}"))
+}
+
+const IDLE: &str = "[[mode]]\nfrequency = \"33.7 Hz\"\ndamping_ratio = 0.02\nmass = \"10 kg\"\nshape = { tip = 0, other = 1 }\n";
+
+/// A structure at 10 Hz that moves by 1 mm without its absorber of so many per cent, over a range of frequencies.
+fn case(heavy: f64, range: [f64; 2], idle: bool, more: &str) -> String {
+    let stiffness = 10.0 * TAU * TAU * 100.0;
+    let (shape, further) = if idle { ("tip = 1, other = 0", IDLE) } else { ("tip = 1", "") };
+    let [from, to] = range;
+    let at = match from == to {
+        true => format!("frequency = \"{from} Hz\"\n"),
+        false => format!("from = \"{from} Hz\"\nto = \"{to} Hz\"\n"),
+    };
+    format!(
+        "title = \"t\"\nsource = \"s\"\n[[mode]]\nfrequency = \"10 Hz\"\ndamping_ratio = 0.01\nmass = \"10 kg\"\nshape = {{ {shape} }}\n{further}\
+         [[absorber]]\nplace = \"tip\"\nmass = \"{} g\"\nclearance = \"2 mm\"\nrestitution = 0.6\n\
+         [excitation]\nkind = \"force\"\nplace = \"tip\"\namplitude = \"{} N\"\n{at}{more}",
+        1e2 * heavy,
+        1e-3 * stiffness * 0.02
+    )
+}
+
+/// A mode that takes no part leaves the objectives what they are with one mode, whose orbits are a closed form and whose search is another.
+#[test]
+fn objectives_are_those_of_one_mode() {
+    for (objective, range, error) in
+        // Shares have kinks between the candidates; a margin is the least along a range.
+        [("stable-share", [9.7, 10.3], 0.02), ("margin", [9.95, 10.05], 0.02)]
+    {
+        let more = format!(
+            "[optimize]\nobjective = \"{objective}\"\nclearance = [\"0.3 mm\", \"4 mm\"]\n"
+        );
+        let [one, two] =
+            [false, true].map(|idle| told(&case(2.0, range, idle, &more), &["optimize"]));
+        for key in ["format", "objective", "reached", "feasible", "improves"] {
+            assert_eq!(one[key], two[key], "{objective}");
+        }
+        let value = |of: &Value| of["checked"]["value"].as_f64().expect("a value");
+        assert!(value(&one) > 0.05, "{one}");
+        // The search of several modes looks at fewer candidates.
+        assert!(
+            value(&two) > value(&one) - error && value(&two) < value(&one) + 1e-3,
+            "{one} {two}"
+        );
+        let clearance = |of: &Value| of["optimum"]["clearance"].as_f64().expect("a length");
+        println!(
+            "{objective}: {} {}, {} {}",
+            value(&one),
+            value(&two),
+            clearance(&one),
+            clearance(&two)
+        );
+        assert_eq!(two["optimum"]["absorbers"][0]["clearance"], two["optimum"]["clearance"]);
+    }
+    // At the ends nothing is stable: an honest nothing.
+    let more = "[optimize]\nobjective = \"margin\"\n[uncertainty]\nrestitution = \"± 0.05\"\n";
+    let nothing = told(&case(2.0, [8.0, 12.0], true, more), &["optimize"]);
+    assert_eq!(nothing["answer"], "not-reached", "{nothing}");
+    assert!(nothing["optimum"].is_null() && nothing["robust"].is_null(), "{nothing}");
+}
+
+/// The share of a design is that of the frequencies at which `analyze` finds a stable orbit.
+#[test]
+fn a_share_is_that_of_single_frequencies() {
+    let range = [9.7, 10.3];
+    let more = "[optimize]\nobjective = \"stable-share\"\nclearance = [\"0.3 mm\", \"4 mm\"]\n";
+    let found = told(&case(2.0, range, true, more), &["optimize"]);
+    let share = found["checked"]["value"].as_f64().expect("a share");
+    let clearance = found["optimum"]["clearance"].as_f64().expect("a length");
+    let steps = 40;
+    let stable = (0..steps).filter(|k| {
+        let at = range[0] + (range[1] - range[0]) * (f64::from(*k) + 0.5) / f64::from(steps);
+        let text = case(2.0, [at, at], true, "");
+        let text = text.replace("2 mm", &format!("{} mm", 1e3 * clearance));
+        let orbits = &told(&text, &["analyze"])["orbits"];
+        orbits.as_array().expect("a list").iter().any(|one| one["stable"] == true)
+    });
+    let counted = stable.count() as f64 / f64::from(steps);
+    // Each end of a stretch lies within a step.
+    assert!((counted - share).abs() < 2.0 / f64::from(steps), "{counted} {share}");
+}
+
+/// The average of absorbers is that of `check` of cases whose clearance is off, by the nodes and weights of Gauss.
+#[test]
+fn an_average_is_that_of_cases_that_are_off() {
+    const NODES: [[f64; 2]; 5] = [
+        [-0.906_179_845_938_664, 0.118_463_442_528_094_54],
+        [-0.538_469_310_105_683, 0.239_314_335_249_683_23],
+        [0.0, 0.284_444_444_444_444_44],
+        [0.538_469_310_105_683, 0.239_314_335_249_683_23],
+        [0.906_179_845_938_664, 0.118_463_442_528_094_54],
+    ];
+    let point = |clearance: f64, more: &str| {
+        case(3.0, [10.0, 10.0], true, more).replace("\"2 mm\"", &format!("\"{clearance} mm\""))
+    };
+    let more =
+        "[uncertainty]\nclearance = \"± 0.6 mm\"\n[optimize]\nclearance = [\"1 mm\", \"9 mm\"]\n";
+    let found = told(&point(4.0, more), &["optimize"]);
+    let robust = &found["robust"];
+    let number = |of: &Value| of["value"].as_f64().expect("a number");
+    assert_eq!(robust["combinations"], 5, "{robust}");
+    assert!(number(&robust["expected"]) <= number(&robust["optimum_expected"]), "{robust}");
+    let clearance = 1e3 * robust["optimum"]["clearance"].as_f64().expect("a length");
+    let worst_of = |off: f64| {
+        let text = point(clearance + off, "[criteria]\npeak_displacement = \"<= 1 m\"\n");
+        let checked = told(&text, &["check", "--criteria-only"]);
+        let one = &checked["cases"][0]["criteria"][0];
+        let [found, error] = ["found", "error"].map(|key| one[key].as_f64().expect("a number"));
+        [found, error]
+    };
+    let mut sum = [0.0; 2];
+    for [node, weight] in NODES {
+        let [value, error] = worst_of(0.6 * node);
+        sum = [sum[0] + weight * value, sum[1] + weight * error];
+    }
+    let expected = number(&robust["expected"]);
+    // Few starts may miss the worst motion of one node in five, and runs of another length have other largest values.
+    assert!((expected - sum[0]).abs() < 0.05 * sum[0] + sum[1], "{expected} {sum:?} {robust}");
+    let corner = [-0.6, 0.6].map(|off| worst_of(off)[0]).into_iter().fold(0.0, f64::max);
+    let worst = number(&robust["worst_corner"]);
+    assert!((worst - corner).abs() < 0.1 * corner + sum[1], "{worst} {corner}");
+}
