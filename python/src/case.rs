@@ -44,11 +44,18 @@ pub fn warned(name: &str, text: &str, warnings: &[case::Problem]) -> Vec<String>
     warnings.iter().map(shown).collect()
 }
 
+impl Case {
+    /// A case that was read from the file of a name.
+    pub fn of(inner: vinesink::case::Case, text: String, name: String, stem: String) -> Self {
+        Self { inner, text, name, stem }
+    }
+}
+
 #[pymethods]
 impl Case {
     /// From its text; a record that it names is below `folder`, unless it may be anywhere.
     #[staticmethod]
-    fn parse(
+    pub fn parse(
         py: Python<'_>,
         name: &str,
         text: &str,
@@ -58,15 +65,6 @@ impl Case {
         let inner = case_input::parse(name, text, &folder, reach(allow_outside));
         let inner = inner.map_err(|error| not_read(py, &error))?;
         Ok(Self { inner, text: text.to_owned(), name: name.to_owned(), stem: String::new() })
-    }
-
-    /// From its file.
-    #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Self> {
-        let read = case_input::read(&path, reach(allow_outside));
-        let (inner, text) = read.map_err(|error| not_read(py, &error))?;
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { inner, text, name: path.display().to_string(), stem })
     }
 
     #[getter]

@@ -19,6 +19,8 @@ fn _vinesink(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<case::Case>()?;
     module.add_class::<modal::ModalCase>()?;
+    module.add_function(wrap_pyfunction!(modal::parse, module)?)?;
+    module.add_function(wrap_pyfunction!(modal::read, module)?)?;
     module.add_function(wrap_pyfunction!(case::schema, module)?)?;
     module.add_function(wrap_pyfunction!(many::simulate_many, module)?)?;
     module.add_function(wrap_pyfunction!(case::compare, module)?)?;

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use vinesink::answer::Decided;
 use vinesink::answer::several::{self, LeftOut};
-use vinesink::case::ModalCase as Inner;
-use vinesink::case_input;
+use vinesink::case::{ModalCase as Inner, is_modal};
+use vinesink::case_input::{self, AnyCase};
 use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, orbits};
 use vinesink::report::modal::{analysis, checked, files, optimum, simulation};
 
-use crate::case::{not_read, reach, warned};
+use crate::case::{Case, not_read, reach, warned};
 use crate::decide;
 use crate::report;
 use crate::work::{self, Columns, WorkState, json, refused};
@@ -26,29 +26,6 @@ pub struct ModalCase {
 
 #[pymethods]
 impl ModalCase {
-    /// From its text; the file of its modes is below `folder`, unless it may be anywhere.
-    #[staticmethod]
-    fn parse(
-        py: Python<'_>,
-        name: &str,
-        text: &str,
-        folder: PathBuf,
-        allow_outside: bool,
-    ) -> PyResult<Self> {
-        let inner = case_input::parse_several(name, text, &folder, reach(allow_outside));
-        let inner = inner.map_err(|error| not_read(py, &error))?;
-        Ok(Self { inner, text: text.to_owned(), stem: String::new() })
-    }
-
-    /// From its file.
-    #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Self> {
-        let read = case_input::read_several(&path, reach(allow_outside));
-        let (inner, text) = read.map_err(|error| not_read(py, &error))?;
-        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        Ok(Self { inner, text, stem })
-    }
-
     #[getter]
     fn title(&self) -> &str {
         &self.inner.title
@@ -169,4 +146,44 @@ impl ModalCase {
         let answer = self.answer(work)?;
         several::decided(&self.inner, answer, told, &affords, work).map_err(refused)
     }
+}
+
+/// A case of either kind from its text.
+#[pyfunction]
+pub fn parse(
+    py: Python<'_>,
+    name: &str,
+    text: &str,
+    folder: PathBuf,
+    allow_outside: bool,
+) -> PyResult<Py<PyAny>> {
+    match is_modal(text) {
+        true => {
+            let inner = case_input::parse_several(name, text, &folder, reach(allow_outside));
+            let inner = inner.map_err(|error| not_read(py, &error))?;
+            of_python(py, ModalCase { inner, text: text.to_owned(), stem: String::new() })
+        }
+        false => of_python(py, Case::parse(py, name, text, folder, allow_outside)?),
+    }
+}
+
+/// A case of either kind from its file.
+#[pyfunction]
+pub fn read(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Py<PyAny>> {
+    let read = case_input::read_any(&path, reach(allow_outside));
+    let (case, text) = read.map_err(|error| not_read(py, &error))?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    match case {
+        AnyCase::Several(inner) => of_python(py, ModalCase { inner: *inner, text, stem }),
+        AnyCase::One(inner) => {
+            of_python(py, Case::of(*inner, text, path.display().to_string(), stem))
+        }
+    }
+}
+
+fn of_python<T: pyo3::PyClass + Into<pyo3::PyClassInitializer<T>>>(
+    py: Python<'_>,
+    case: T,
+) -> PyResult<Py<PyAny>> {
+    Ok(Py::new(py, case)?.into_any())
 }

@@ -340,7 +340,7 @@ fn read(reader: &mut Reader, document: &DeTable, text_hash: String) -> Option<Ca
         let message =
             "the case is of several modes or absorbers, of which this command knows nothing";
         let expected = "expected [oscillator], [absorber] and [excitation], or [reduced]";
-        let help = "`vinesink check`, `report`, `simulate`, `analyze`, `optimize` and `sweep` read it, and `ModalCase` in Python";
+        let help = "`vinesink check`, `report`, `simulate`, `analyze`, `optimize` and `sweep` read it, and `Case.from_toml` in Python";
         reader.report(key, message, expected, help);
         return None;
     }

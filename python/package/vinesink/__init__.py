@@ -10,7 +10,8 @@
     case.optimize().case         # the absorber that serves it best
     case.report("reports/damper")
 
-`ModalCase` is a structure of several modes with several absorbers.
+A case may be of several modes and absorbers; what is of one mode alone, such as `orbits` and `scales`, refuses it then. `ModalCase` and
+`ModalOptimum` are other names of `Case` and `Optimum`, for a version.
 
 Lengths and times are in SI for a case in physical units, and in its own units for a reduced one, unless a name or a
 docstring says otherwise: states and impacts are over the clearance and in fast time tau = omega0 t, as in the files of

@@ -112,7 +112,9 @@ class Optimum(Record):
         return self._case
 
     def __repr__(self) -> str:
-        return f"Optimum(clearance={self._document['optimum']['clearance']:.6g}, succeeds={self._succeeds})"
+        found = self._document["optimum"] or {}
+        clearance = f"clearance={found['clearance']:.6g}, " if "clearance" in found else ""
+        return f"Optimum({clearance}succeeds={self._succeeds})"
 
     @property
     def succeeds(self) -> bool:
@@ -124,7 +126,8 @@ class Optimum(Record):
 
 
 class Case:
-    """A design: structure, absorber, excitation, and what is asked of them.
+    """A design: structure, absorbers, excitation, and what is asked of them. `Case.from_toml` reads any case file; keywords make one of
+    one mode with one absorber.
 
     Keywords are the keys of a case file, quantities with their unit as there::
 
@@ -157,7 +160,7 @@ class Case:
         A keyword that no case has.
     """
 
-    _core: _vinesink.Case
+    _core: _vinesink.Case | _vinesink.ModalCase
     _folder: str
     _allow_outside: bool
 
@@ -170,9 +173,9 @@ class Case:
         self._read("Case(...)", text_of(title, source, given), os.getcwd(), True)
 
     def _read(self, name: str, text: str, folder: str, allow_outside: bool) -> None:
-        self._keep(_vinesink.Case.parse(name, text, folder, allow_outside), folder, allow_outside)
+        self._keep(_vinesink.parse(name, text, folder, allow_outside), folder, allow_outside)
 
-    def _keep(self, core: _vinesink.Case, folder: str, allow_outside: bool) -> None:
+    def _keep(self, core: _vinesink.Case | _vinesink.ModalCase, folder: str, allow_outside: bool) -> None:
         for attribute, value in (("_core", core), ("_folder", folder), ("_allow_outside", allow_outside)):
             object.__setattr__(self, attribute, value)
         for warning in core.warnings():
@@ -196,8 +199,17 @@ class Case:
         if isinstance(source, str) and "\n" in source and "=" in source:
             case._read("text", source, os.getcwd(), allow_outside)
         else:
-            case._keep(_vinesink.Case.read(source, allow_outside), str(Path(source).resolve().parent), allow_outside)
+            case._keep(_vinesink.read(source, allow_outside), str(Path(source).resolve().parent), allow_outside)
         return case
+
+    @property
+    def _one(self) -> _vinesink.Case:
+        """What only a structure of one mode with one absorber can be asked."""
+        if isinstance(self._core, _vinesink.ModalCase):
+            raise RefusedError(
+                "the structure has several modes or absorbers: analyze, simulate, motions, check, optimize, sweep and report tell of it"
+            )
+        return self._core
 
     @classmethod
     def _of_text(cls, text: str, folder: str, allow_outside: bool) -> Case:
@@ -207,7 +219,7 @@ class Case:
 
     def _with(self, given: Mapping[str, Any]) -> str:
         """The text of the case with other keywords."""
-        document = json.loads(self._core.document())
+        document = json.loads(self._one.document())
         all_of = given_of(document)
         for name in given:
             for either in EITHER:
@@ -228,6 +240,8 @@ class Case:
         return self._of_text(self._with(keys), self._folder, self._allow_outside)
 
     def __repr__(self) -> str:
+        if isinstance(self._core, _vinesink.ModalCase):
+            return f"Case({self.title!r}, places={self.places!r})"
         return f"Case({self.title!r}, clearance={self.value('clearance'):.6g})"
 
     def _repr_html_(self) -> str:
@@ -236,7 +250,7 @@ class Case:
         return f"<pre>{html.escape(self.text)}</pre>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (Case._of_text, (self.text, self._folder, self._allow_outside))
+        return (type(self)._of_text, (self.text, self._folder, self._allow_outside))
 
     @property
     def title(self) -> str:
@@ -253,12 +267,17 @@ class Case:
         """The text of its case file."""
         return self._core.text
 
+    @property
+    def places(self) -> list[str]:
+        """The places at which its modes have a shape; none of one mode with one absorber."""
+        return self._core.places if isinstance(self._core, _vinesink.ModalCase) else []
+
     def value(self, name: str) -> float:
         """A number of the case by its keyword, such as "clearance", in SI or the units of a reduced case.
 
         Raises `RefusedError` where the case has no such number.
         """
-        found = self._core.value(name)
+        found = self._one.value(name)
         if found is None:
             raise RefusedError(f"the case has no number `{name}`{meant(name, list(Parameters.__annotations__))}")
         return found
@@ -266,43 +285,57 @@ class Case:
     @property
     def scales(self) -> Scales:
         """What turns dimensionless numbers into the case's units."""
-        return Scales(**self._core.scales())
+        return Scales(**self._one.scales())
 
     def analyze(self, *, progress: Progress | None = None) -> Analysis:
-        """What theory and exact orbits say: the document of `vinesink analyze --format json`.
+        """What theory and exact orbits say: the document of `vinesink analyze --format json`; of several modes the orbits with two
+        impacts of each absorber in a period, and the theory of the mode that each load drives.
 
         Raises `RefusedError` where the case cannot be analysed, such as one that is swept.
         """
         return Analysis(json.loads(self._core.analyze(_told(progress))))
 
     def motions(self, *, progress: Progress | None = None) -> Table:
-        """Every long-term motion at the case's own excitation, one a row: `id`, `kind`, `regime`, `settled`, `counts` (for
+        """Every long-term motion at the case's own excitation, of several modes where each load displaces most, one a row: there `load` (from 1), `id`, `kind`, `regime`, `settled`, `counts` (for
         criteria), `peak` and `rms` (m) with their errors, `impacts_per_period`, `impact_speed` (m/s), `efficiency`, `starts`
         that lead to it, `share`, `repeats_after` (periods) and `largest_multiplier`; NaN where one is not defined.
 
         Raises `RefusedError` of a structure that is not driven steadily.
         """
-        if not self._core.steady:
+        if isinstance(self._core, _vinesink.Case) and not self._core.steady:
             raise RefusedError("its structure is not driven steadily and has no long-term motion: simulate() says what becomes of it")
         return self.simulate(progress=progress)._rows()
 
-    def check(self, *, criteria_only: bool = False, progress: Progress | None = None) -> Check:
-        """Holds the case against its criteria, over its band if it has one: what `vinesink check --format json` says of it.
+    def check(self, *, criteria_only: bool = False, long: bool = False, progress: Progress | None = None) -> Check:
+        """Holds the case against its criteria, over its band or along its loads: what `vinesink check --format json` says of it.
 
         The worst of all motions counts. `criteria_only` leaves out what a tuned mass damper would do, and how far each number
-        may change. Raises `RefusedError` of a case without criteria.
+        may change. Of several modes what would take more than some minutes is left out unless `long` is given.
+        Raises `RefusedError` of a case without criteria.
         """
-        return Check(json.loads(self._core.check(criteria_only, _told(progress))))
+        told = _told(progress)
+        if isinstance(self._core, _vinesink.ModalCase):
+            return Check(json.loads(self._core.check(criteria_only, long, told)))
+        return Check(json.loads(self._core.check(criteria_only, told)))
 
     def optimize(self, *, objective: str | None = None, progress: Progress | None = None) -> Optimum:
         """The absorber that serves the case best: what `vinesink optimize --format json` says.
 
-        `objective` is "worst-amplitude", "z3-share", "stable-share" or "margin"; what the first criterion asks unless given. The
-        clearance, and what else `optimize` of the case names, is judged as `check` judges it, over the whole band.
+        `objective` is "worst-amplitude", "z3-share" (of one mode), "stable-share" or "margin"; what the first criterion asks unless
+        given. The clearance, and what else `optimize` of the case names, is judged as `check` judges it, over the whole band or all
+        loads.
         """
         text, better, succeeds = self._core.optimize(objective, _told(progress))
         case = None if better is None else self._of_text(better, self._folder, self._allow_outside)
         return Optimum(json.loads(text), case, succeeds)
+
+    def sweep(self, *, progress: Progress | None = None) -> Sweep:
+        """Every point of its table `[sweep]`: the columns of `vinesink sweep`, one row a point.
+
+        Raises `RefusedError` of a case without that table.
+        """
+        columns, units = self._core.sweep(_told(progress))
+        return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"}, units)
 
     def plot_motion(self, *, periods: float = 6, ax: Axes | None = None) -> Axes:
         """Draws the motion that most starts lead to: structure and absorber over time, with the walls. Needs matplotlib."""
@@ -340,7 +373,7 @@ class Case:
         return _plots.regimes(ax, (axis, clearances * size), words, (self.value(name), own * size), labels)
 
     def _needs_steady(self, what: str) -> None:
-        if not self._core.steady:
+        if not self._one.steady:
             raise RefusedError(f"its structure is not driven steadily, and {what} is of one that is")
 
     def _millimetres(self) -> tuple[float, str]:
@@ -356,7 +389,7 @@ class Case:
         name = "frequency" if self.scales.physical else "frequency_ratio"
         own = self.value(name)
         low, high = 0.85 * own, 1.15 * own
-        band = given_of(json.loads(self._core.document())).get("band", {})
+        band = given_of(json.loads(self._one.document())).get("band", {})
         if self.scales.physical and "from" in band and band.get("of", "frequency") == "frequency":
             low, high = self._numbers(name, [band["from"], band["to"]])
         return {name: np.linspace(low, high, points)}
@@ -367,8 +400,8 @@ class Case:
         def one(written: str | float) -> float:
             # Read as a case file has it; what else the case asks for does not matter.
             given = {name: written, "band": None, "criteria": None, "sweep": None}
-            found = _vinesink.Case.parse(f"{name} = {written}", self._with(given), self._folder, self._allow_outside)
-            number = found.value(name)
+            found = _vinesink.parse(f"{name} = {written}", self._with(given), self._folder, self._allow_outside)
+            number = found.value(name) if isinstance(found, _vinesink.Case) else None
             if number is None:
                 raise RefusedError(f"the case has no `{name}`")
             return number
@@ -389,15 +422,14 @@ class Case:
             if name not in Parameters.__annotations__:
                 raise RefusedError(f"there is no `{name}` to vary{meant(name, list(Parameters.__annotations__))}")
             plain = self._numbers(name, values).reshape(-1).tolist()
-            unit = self._core.unit(name)
+            unit = self._one.unit(name)
             table[name] = {"values": plain if unit == "1" else [f"{one!r} {unit}" for one in plain]}
         planned = self._of_text(self._with({"sweep": table}), self._folder, self._allow_outside)
-        columns, units = planned._core.sweep(_told(progress))
-        return Sweep({name: np.array(column) for name, column in columns.items() if name != "point"}, units)
+        return planned.sweep(progress=progress)
 
     def orbits(self) -> Orbits:
         """The exact periodic orbits with two impacts per period: in an ideal cavity the symmetric ones, else all."""
-        return Orbits(json.loads(self._core.orbits()))
+        return Orbits(json.loads(self._one.orbits()))
 
     def simulate(
         self,
@@ -430,7 +462,8 @@ class Case:
         progress
             Called with the steps done and all steps, about ten times a second.
 
-        A structure that is not driven steadily has no impacts and no trajectory here, only its document.
+        A structure that is not driven steadily, or that has several modes or absorbers, has no impacts and no trajectory here, only its
+        document.
         Warns with `SimulationWarning` where the numbers are not to be trusted. Raises `RefusedError` for a start outside
         of the cavity.
         """
@@ -439,6 +472,10 @@ class Case:
         start = None if initial is None else [float(one) for one in initial]
         if start is not None and len(start) != 4:
             raise RefusedError(f"initial has {len(start)} numbers, expected four: x, xdot, y, ydot")
+        if isinstance(self._core, _vinesink.ModalCase):
+            if any(given is not None for given in (periods, discard, initial, times)) or not measure:
+                raise RefusedError("the structure has several modes or absorbers, whose starts are those of the search; call simulate()")
+            return Simulation(json.loads(self._core.simulate(told)), Table({}), None)
         if not self._core.steady:
             if any(given is not None for given in (periods, discard, initial, times)) or not measure:
                 raise RefusedError("the structure is not driven steadily: the case itself says what becomes of it; call simulate()")
@@ -464,14 +501,18 @@ class Case:
         return Simulation(document, Table(impacts), trajectory)
 
     def report(
-        self, folder: str | os.PathLike[str], *, name: str | None = None, progress: Progress | None = None
+        self, folder: str | os.PathLike[str], *, name: str | None = None, long: bool = False, progress: Progress | None = None
     ) -> bool:
         """Writes the design report into a folder, the same files as `vinesink report`: report.md, report.html,
         report.json and figures.
 
         A report appears whole or not at all; other files in the folder stay. `name` is that of the case's file, else of the
-        folder. Returns whether its simulations are to be trusted and what the case asks of accuracy holds. Raises
+        folder; of several modes what would take long is left out unless `long` is given. Returns whether its simulations are to be trusted and what the case asks of accuracy holds. Raises
         `FileError` where the folder cannot be written.
         """
         name = name or self._core.stem or Path(folder).resolve().name
-        return self._core.report(os.fspath(folder), name, _told(progress))
+        told = _told(progress)
+        if isinstance(self._core, _vinesink.ModalCase):
+            self._core.report(os.fspath(folder), name, long, told)
+            return True
+        return self._core.report(os.fspath(folder), name, told)

@@ -227,7 +227,7 @@ class Simulation(_WithRows):
 
     `regime`, `impacts` (their number), `impacts_per_period`, `displacement.peak` and `.rms` (m), `impact_speed` (m/s), `energy`, `settled`,
     `trusted`; `motions`, every long-term motion, where no start was given. It has none of these where
-    nothing was measured (`measure=False`).
+    nothing was measured (`measure=False`). Of several modes `loads` has the motions `at_worst` of each, and their `places`.
     """
 
     def __init__(self, document: dict[str, Any], impacts: Table, trajectory: Table | None) -> None:
@@ -248,6 +248,10 @@ class Simulation(_WithRows):
         return self._trajectory
 
     def _rows(self) -> Table:
+        if "loads" in self._document:
+            loads = self._document["loads"]
+            rows = [{"load": of["load"], **_motion_row(one)} for of in loads for one in of["at_worst"]]
+            return Table(_of_records(rows, ("load", *_MOTION)))
         rows = [_motion_row(one) for one in self._document.get("motions") or []]
         if not rows and "regime" in self._document:
             rows = [_motion_row(self._document["motion"])]

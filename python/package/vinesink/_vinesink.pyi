@@ -7,7 +7,7 @@ from typing import Any, Final, final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["__version__", "Case", "ModalCase", "compare", "simulate_many", "regimes", "_fail", "schema"]
+__all__ = ["__version__", "Case", "ModalCase", "parse", "read", "compare", "simulate_many", "regimes", "_fail", "schema"]
 
 __version__: Final[str]
 
@@ -17,10 +17,6 @@ _Progress = Callable[[int, int], object]
 
 @final
 class ModalCase:
-    @staticmethod
-    def parse(name: str, text: str, folder: str | os.PathLike[str], allow_outside: bool) -> ModalCase: ...
-    @staticmethod
-    def read(path: str | os.PathLike[str], allow_outside: bool) -> ModalCase: ...
     @property
     def title(self) -> str: ...
     @property
@@ -43,8 +39,6 @@ class ModalCase:
 class Case:
     @staticmethod
     def parse(name: str, text: str, folder: str | os.PathLike[str], allow_outside: bool) -> Case: ...
-    @staticmethod
-    def read(path: str | os.PathLike[str], allow_outside: bool) -> Case: ...
     @property
     def title(self) -> str: ...
     @property
@@ -85,6 +79,8 @@ class Case:
         self, parameter: str, range: Sequence[float], orbit: int | None, most_points: int
     ) -> tuple[_Columns, str]: ...
 
+def parse(name: str, text: str, folder: str | os.PathLike[str], allow_outside: bool) -> Case | ModalCase: ...
+def read(path: str | os.PathLike[str], allow_outside: bool) -> Case | ModalCase: ...
 def compare(old: Case, new: Case, progress: _Progress | None) -> tuple[str, str]: ...
 def schema() -> str: ...
 def simulate_many(
