@@ -27,15 +27,60 @@ fn case(design: [f64; 4], shape: &str, further: &str) -> String {
 const IDLE: &str = "[[mode]]\nfrequency = \"33.7 Hz\"\ndamping_ratio = 0.02\nmass = \"10 kg\"\nshape = { tip = 0, other = 1 }\n";
 
 fn motions(text: &str) -> Vec<Value> {
+    told(text, &["simulate"])["motions"].as_array().expect("a list").clone()
+}
+
+/// What a command says of a case, as JSON.
+fn told(text: &str, arguments: &[&str]) -> Value {
     let folder = tempdir().expect("a folder");
     let path = folder.path().join("case.toml");
     fs::write(&path, text).expect("written");
     let mut command = Command::cargo_bin("vinesink").expect("built");
     let path = path.to_str().expect("UTF-8");
-    let output = command.args(["simulate", path, "--format", "json"]).output().expect("it runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let told: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-    told["motions"].as_array().expect("a list").clone()
+    let all = [&[arguments[0], path, "--format", "json"], &arguments[1..]].concat();
+    let output = command.args(&all).output().expect("it runs");
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{all:?}: {error}"))
+}
+
+/// What is said of an excitation stands at the top of a document, and of a list of them under each, numbered from 1.
+#[test]
+fn a_list_of_loads_has_lists_of_motions() {
+    let limits = "[criteria]\npeak_displacement = \"<= 9 mm\"\n";
+    let one = case([0.02, 0.6, 3.0, 1.0], "{ tip = 1, other = 0.2 }", IDLE) + limits;
+    let load = "[[excitation]]\nkind = \"force\"\nplace = \"other\"\namplitude = \"9 N\"\nfrequency = \"33 Hz\"\n";
+    let two = one
+        .replace("[excitation]", "[[excitation]]")
+        .replace("[criteria]", &format!("{load}[criteria]"));
+    let checked = |text: &str| told(text, &["check", "--criteria-only"])["cases"][0].clone();
+    let rows = |of: &Value| of.as_array().map_or(0, Vec::len);
+    for told_of in [told(&one, &["simulate"]), checked(&one)] {
+        assert!(rows(&told_of["motions"]) > 0 && told_of["places"].is_null(), "{told_of}");
+        assert!(told_of["loads"][0].get("motions").is_none(), "{told_of}");
+    }
+    for told_of in [told(&two, &["simulate"]), checked(&two)] {
+        assert!(told_of.get("motions").is_none(), "{told_of}");
+        for (k, load) in told_of["loads"].as_array().expect("a list").iter().enumerate() {
+            assert!(load["load"] == k + 1 && rows(&load["motions"]) > 0, "{load}");
+            assert_eq!(load["motions"], load["at_worst"], "{load}");
+        }
+    }
+    // The motion that decides is one of the list of its load.
+    let of_two = checked(&two);
+    let decides = &of_two["criteria"][0];
+    let load = &of_two["loads"][decides["load"].as_u64().expect("a number") as usize - 1];
+    let motions = load["motions"].as_array().expect("a list");
+    let motion = motions.iter().find(|one| one["id"] == decides["motion"]).expect("it is listed");
+    assert_eq!(motion["peak"]["value"], decides["found"], "{motion} {decides}");
+    // Over a range the list is that of the range.
+    let range = one.replace(
+        "frequency = \"10 Hz\"\n[criteria]",
+        "from = \"9.9 Hz\"\nto = \"10.1 Hz\"\n[criteria]",
+    );
+    let over = checked(&range);
+    assert!(over["motions"].is_null() && rows(&over["places"]) > 2, "{over}");
+    let orbits = told(&one, &["analyze"]);
+    assert!(orbits["orbits"].is_array() && orbits["loads"][0].get("orbits").is_none(), "{orbits}");
 }
 
 #[test]
