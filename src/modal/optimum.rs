@@ -199,11 +199,11 @@ impl ModalOptimum {
         value.is_finite() && (value != 0.0 || self.aim.of_orbits().is_none())
     }
 
-    /// Whether absorbers were found that are better than the case's own, and meet all criteria.
+    /// Whether absorbers were found that reach what was looked for, are better than the case's own, and meet all criteria.
     pub fn succeeds(&self) -> bool {
         let succeeds =
             |one: &JudgedAbsorbers| one.order(&self.own, self.aim).is_lt() && one.is_feasible();
-        self.best.first().is_some_and(succeeds)
+        self.reached() && self.best.first().is_some_and(succeeds)
     }
 
     /// The best absorbers of a case, whose file has this text, by its own objective unless another is asked for.

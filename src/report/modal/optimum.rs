@@ -150,7 +150,7 @@ pub fn optimum(case: &ModalCase, found: &ModalOptimum) -> Value {
         // Whether all criteria hold at the optimum; true without criteria.
         "feasible": nearest.is_feasible(),
         // Whether the optimum is other absorbers than the case's own, and better.
-        "improves": nearest.case.absorbers != case.absorbers,
+        "improves": found.reached() && nearest.case.absorbers != case.absorbers,
         // Rounded as it is written.
         "optimum": found.reached().then(|| built(nearest)),
         // What is looked for, of the case as it is written.
