@@ -117,6 +117,18 @@ fn a_reduced_case_is_the_same_structure() {
     }
 }
 
+/// What drives it may be said: forces in its modes, and nothing else.
+#[test]
+fn what_drives_it_may_be_said() {
+    let text = reduced();
+    let of = |kind: &str| text.replace("[reduced]\n", &format!("[reduced]\nkind = \"{kind}\"\n"));
+    let [own, said] = [text.clone(), of("force")].map(|text| json(&text, "analyze"));
+    assert_eq!(own["orbits"], said["orbits"]);
+    let error = ModalCase::parse("case.toml", &of("base-displacement")).expect_err("no such kind");
+    let problem = error.problems().next().expect("one");
+    assert!(problem.expected.contains("\"force\"") && problem.line == 6, "{problem:?}");
+}
+
 /// Dampers beside it, and its masses on a page, which are over the first mode's.
 #[test]
 fn its_report_is_that_of_the_same_structure() {

@@ -14,6 +14,10 @@ use crate::system::LARGEST_DAMPING_RATIO;
 #[derive(Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields, extend("oneOf" = one_of("frequency_ratio", "from")))]
 pub(super) struct ModalReducedTable {
+    /// What drives it: forces in the modes, whose `forcing` says them. May be left out.
+    #[schemars(example = &"force")]
+    #[expect(dead_code, reason = "there is one")]
+    kind: Option<ReducedKind>,
     /// Omega, the excitation's frequency over that of the first mode, above 0; or give a range, `from` and `to`.
     #[schemars(extend("exclusiveMinimum" = 0), example = 6.27)]
     frequency_ratio: Option<f64>,
@@ -33,6 +37,14 @@ pub(super) struct ModalReducedTable {
     #[expect(dead_code, reason = "read one by one")]
     #[serde(default)]
     absorber: (),
+}
+
+/// What drives a reduced structure of several modes.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum ReducedKind {
+    /// Forces in the modes.
+    Force,
 }
 
 /// A mode, over the first one.
