@@ -301,7 +301,8 @@ impl AlongLoad {
         let bare = (0..case.places.len()).map(|p| {
             largest(load.range_hz, case, &[], |at| amplitudes(case, load, at, &[]).places[p])
         });
-        let places = places.into_iter().map(|one| one.1).collect();
+        let mut places: Vec<AtFrequency> = places.into_iter().map(|one| one.1).collect();
+        places.iter_mut().for_each(|one| ModalMotion::sort(&mut one.motions));
         Ok(Self { load: *load, bare: bare.collect(), places, between })
     }
 

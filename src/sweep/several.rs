@@ -136,8 +136,7 @@ impl ModalPlan {
         };
         let bare = answer.bare();
         let here = self.at_a_frequency().then(|| &answer.along[0].places[0]);
-        // The most common comes first.
-        let main = here.map(|here| number(peak(here.motions.first()?)));
+        let main = here.map(|here| number(peak(ModalMotion::main(&here.motions)?)));
         let mut cells: Vec<Option<Cell>> = main.into_iter().collect();
         cells.extend([
             number(worst.value),

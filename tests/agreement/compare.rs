@@ -168,6 +168,54 @@ pub fn compared(design: &Design, more: bool, optimised: bool) -> Tally {
     judge.tally
 }
 
+/// The same of a structure of several modes under one load: lists of motions, their order, and criteria.
+pub fn compared_of_several(design: &Design) -> Tally {
+    let bench = Bench::new(design);
+    let mut judge = Judge { design: &design.name, tally: Tally::default() };
+    let documents =
+        [bench.json("simulate", &[]), bench.json("check", &["--criteria-only"]), bench.report()];
+    let [Some(simulated), Some(checked), Some(report)] = documents else {
+        judge.holds(false, || "a command gives no document".into());
+        return judge.tally;
+    };
+    let checked = &checked["cases"][0];
+    // At one frequency, or at each of a range.
+    let lists = |of: &Value| -> Vec<Vec<Value>> {
+        match of["places"].as_array() {
+            Some(places) => places.iter().map(|one| list(&one["motions"]).to_vec()).collect(),
+            None => vec![list(&of["motions"]).to_vec()],
+        }
+    };
+    let own = lists(&simulated);
+    for (command, document) in [("check", checked), ("report", &report)] {
+        let others = lists(document);
+        judge.holds(others.len() == own.len(), || format!("{command}: other frequencies"));
+        for (own, other) in own.iter().zip(&others) {
+            judge.lists(&format!("simulate and {command}"), own, other);
+        }
+    }
+    own.iter().for_each(|motions| order(&mut judge, motions));
+    for one in own.iter().flatten() {
+        // The largest of its parts.
+        let largest = |part: &str, key: &str| {
+            let each = list(&one[part]).iter().map(|of| number(&of[key]["value"]));
+            each.fold(0.0, f64::max)
+        };
+        for (part, key) in
+            [("places", "peak"), ("places", "rms"), ("absorbers", "impacts_per_period")]
+        {
+            judge.near(
+                &format!("{key} of {part}"),
+                number(&one[key]["value"]),
+                largest(part, key),
+                SAME,
+            );
+        }
+    }
+    criteria(&mut judge, list(&simulated["motions"]), checked, &report);
+    judge.tally
+}
+
 /// Keeps the case of a contradiction, so that it can be looked at.
 pub fn kept(design: &Design) -> PathBuf {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.toml", design.name));
@@ -184,12 +232,13 @@ fn order(judge: &mut Judge, motions: &[Value]) {
         });
         judge.holds(one["counts"] == one["why_not"].is_null(), || format!("counts: {one}"));
         let share = number(&one["share"]);
-        if one["kind"] != "rest" {
+        let rests = one["kind"] == "rest" || !list(&one["resting"]).is_empty();
+        if !rests {
             let of_starts = number(&one["starts"]) / number(&one["of_starts"]).max(1.0);
             judge.near("share of starts", share, of_starts, SAME);
         }
         let below = one["why_not"] == "below-threshold";
-        let rare = one["kind"] == "rest" && share < 0.01 && one["starts"] == 0;
+        let rare = rests && share < 0.01 && one["starts"] == 0;
         judge.holds(below == rare || one["why_not"] == "left-out", || format!("threshold: {one}"));
     }
     for pair in motions.windows(2) {
@@ -370,8 +419,8 @@ fn criteria(judge: &mut Judge, motions: &[Value], checked: &Value, report: &Valu
         judge
             .holds(one["decided"] == true || one["holds"] == false, || format!("undecided: {one}"));
         let here = match one["at_value"].as_f64() {
-            Some(at) => places.iter().find(|place| place.0 == at),
-            None => places.first().filter(|_| places.len() == 1),
+            Some(at) if checked["places"].is_array() => places.iter().find(|place| place.0 == at),
+            _ => places.first().filter(|_| places.len() == 1),
         };
         let value = |motion: &Value| {
             let [peak, rms, speed] =

@@ -53,6 +53,66 @@ pub fn generated(seed: u64, count: usize) -> Vec<Design> {
     (0..count).map(|number| design(seed, number)).collect()
 }
 
+/// Structures of two or three modes with one or two absorbers, driven near one of their modes by a force or their base, at one frequency
+/// or over a range.
+pub fn of_several(seed: u64, count: usize) -> Vec<Design> {
+    (0..count).map(|number| several(seed, number)).collect()
+}
+
+fn several(seed: u64, number: usize) -> Design {
+    let mut random = Random(seed.wrapping_mul(1_000_033).wrapping_add(number as u64));
+    let first = random.ratio(0.5, 200.0);
+    let modes = 2 + usize::from(random.one_in(2.0));
+    let absorbers = 1 + usize::from(random.one_in(2.0));
+    let frequencies: Vec<f64> = (0..modes).map(|k| first * (1.0 + 2.3 * k as f64)).collect();
+    let driven = usize::from(random.one_in(3.0));
+    let zeta = random.ratio(0.004, 0.02);
+    let natural = frequencies[driven];
+    let omega = std::f64::consts::TAU * natural;
+    // What the driven mode does alone at its resonance, over the displacement that gravity gives.
+    let alone = random.ratio(1e-3, 0.1) * 9.81 / (omega * omega);
+    let mut text = format!("title = \"design {number} of {seed}\"\nsource = \"generated\"\n");
+    let mut line = |line: String| writeln!(text, "{line}").expect("written");
+    for frequency in &frequencies {
+        let other = random.within(-1.0, 1.0);
+        line(format!(
+            "[[mode]]\nfrequency = \"{frequency:.6} Hz\"\ndamping_ratio = {zeta:.5}\nmass = \"10 kg\"\nparticipation = 1\n\
+             shape = {{ tip = 1, other = {other:.4} }}"
+        ));
+    }
+    for j in 0..absorbers {
+        let (mass, clearance) = (random.ratio(0.05, 0.8), alone * random.ratio(0.3, 5.0));
+        let (place, restitution) = (["tip", "other"][j], random.within(0.2, 0.9));
+        line(format!(
+            "[[absorber]]\nplace = \"{place}\"\nmass = \"{mass:.5} kg\"\nclearance = \"{clearance:.6e} m\"\nrestitution = {restitution:.4}"
+        ));
+    }
+    line(String::from("[excitation]"));
+    if random.one_in(3.0) {
+        line(format!("kind = \"base-displacement\"\namplitude = \"{:.6e} m\"", 2.0 * zeta * alone));
+    } else {
+        let force = 10.0 * omega * omega * 2.0 * zeta * alone;
+        line(format!("kind = \"force\"\nplace = \"tip\"\namplitude = \"{force:.6e} N\""));
+    }
+    match number % 3 {
+        0 => {
+            line(format!("from = \"{:.6} Hz\"\nto = \"{:.6} Hz\"", 0.98 * natural, 1.03 * natural))
+        }
+        _ => line(format!("frequency = \"{:.6} Hz\"", natural * random.within(0.98, 1.02))),
+    }
+    line(String::from("[criteria]"));
+    if random.one_in(4.0) {
+        line(String::from("count_inactive = false"));
+    }
+    let mut part = || random.ratio(0.2, 1.5);
+    line(format!("peak_displacement = \"<= {:.6e} m\"", part() * alone));
+    line(format!("rms_displacement = \"<= {:.6e} m\"", 0.7 * part() * alone));
+    line(format!("impact_velocity = \"<= {:.6e} m/s\"", 3.0 * part() * alone * omega));
+    line(format!("reduction_db = \">= {:.3}\"", 6.0 * part() - 2.0));
+    line(String::from("no_coexistence = true"));
+    Design { name: format!("several-{seed}-{number}"), text, number: Some(number) }
+}
+
 fn design(seed: u64, number: usize) -> Design {
     let mut random = Random(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
     let (mass, natural) = (random.ratio(1.0, 2000.0), random.ratio(1.0, 500.0));

@@ -49,9 +49,7 @@ fn row(case: &ModalCase, index: usize, motion: &ModalMotion, of_starts: u32) -> 
         impact_speed: (!motion.rests()).then(|| speed(fastest)),
         efficiency: told.and_then(|one| one.efficiency),
         starts: [motion.starts, of_starts],
-        share: motion
-            .rest_share()
-            .unwrap_or_else(|| f64::from(motion.starts) / f64::from(of_starts.max(1))),
+        share: motion.share(of_starts),
         share_sudden: motion.sudden,
         repeats_after: motion.repeats_after,
         largest_multiplier: motion.largest_multiplier,

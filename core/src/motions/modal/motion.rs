@@ -254,6 +254,32 @@ impl ModalMotion {
         self.why_not(count_rest).is_none()
     }
 
+    /// Its share of so many starts, or of the resting places of absorbers that rest in it.
+    pub fn share(&self, of_starts: u32) -> f64 {
+        let of_starts = || f64::from(self.starts) / f64::from(of_starts.max(1));
+        self.rest_share().unwrap_or_else(of_starts)
+    }
+
+    /// Puts motions of one place in the order of lists: by their shares, then by the largest displacement of any place.
+    pub fn sort(motions: &mut [Self]) {
+        let of_starts = motions.iter().map(|one| one.starts).sum();
+        let largest = |one: &Self| {
+            one.read(Reading::Displacement).map(|extent| extent.peak).fold(0.0, f64::max)
+        };
+        let order = |one: &Self| (one.share(of_starts), largest(one));
+        motions.sort_by(|a, b| {
+            let (a, b) = (order(a), order(b));
+            b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
+        });
+    }
+
+    /// The one of some that stands for them: the moving one that most starts lead to, else that at rest, else the first.
+    pub fn main(motions: &[Self]) -> Option<&Self> {
+        let order = |one: &&Self| (!one.rests() && one.starts > 0, one.starts, !one.rests());
+        // The first of equal ones.
+        motions.iter().rev().max_by_key(order)
+    }
+
     /// What it is, as results name it.
     pub fn kind_name(&self) -> &'static str {
         match () {
