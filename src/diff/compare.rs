@@ -66,7 +66,7 @@ const NATURAL_KEYS: [(&str, &[&str]); 12] = [
 
 /// Lists of a structure of several modes that are counted, as those along a band are: what they say stands in its worst values,
 /// criteria and limits.
-const COUNTED: [&str; 9] = [
+const COUNTED: [&str; 8] = [
     "compared",
     "loads/at_worst",
     "loads/forces/limits/fails",
@@ -75,7 +75,6 @@ const COUNTED: [&str; 9] = [
     "loads/forces/working",
     "loads/motions",
     "loads/places",
-    "places",
 ];
 
 /// What changed in a report that is on both sides.
