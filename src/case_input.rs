@@ -50,11 +50,22 @@ pub fn read(path: &Path, reach: Reach) -> Result<(Case, String), CaseInputError>
 /// # Errors
 /// [`CaseInputError`].
 pub fn read_any(path: &Path, reach: Reach) -> Result<(AnyCase, String), CaseInputError> {
-    read_text(path, reach, |name, text, folder| {
-        Ok(match is_modal(text) {
-            true => AnyCase::Several(Box::new(parse_several(name, text, folder, reach)?)),
-            false => AnyCase::One(Box::new(parse(name, text, folder, reach)?)),
-        })
+    read_text(path, reach, |name, text, folder| parse_any(name, text, folder, reach))
+}
+
+/// Reads a case of either kind from its text, and the files that it names below a folder.
+///
+/// # Errors
+/// [`CaseInputError`].
+pub fn parse_any(
+    name: &str,
+    text: &str,
+    folder: &Path,
+    reach: Reach,
+) -> Result<AnyCase, CaseInputError> {
+    Ok(match is_modal(text) {
+        true => AnyCase::Several(Box::new(parse_several(name, text, folder, reach)?)),
+        false => AnyCase::One(Box::new(parse(name, text, folder, reach)?)),
     })
 }
 

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case;
-use vinesink::case_input::{self, CaseInputError};
+use vinesink::case_input::CaseInputError;
 use vinesink::excitation::Scene;
 use vinesink::motions::Effort;
 use vinesink::report::console::Analysed;
@@ -45,7 +45,7 @@ pub fn warned(name: &str, text: &str, warnings: &[case::Problem]) -> Vec<String>
 }
 
 impl Case {
-    /// A case that was read from the file of a name.
+    /// A case that was read from its text, or the file of a name.
     pub fn of(inner: vinesink::case::Case, text: String, name: String, stem: String) -> Self {
         Self { inner, text, name, stem }
     }
@@ -53,20 +53,6 @@ impl Case {
 
 #[pymethods]
 impl Case {
-    /// From its text; a record that it names is below `folder`, unless it may be anywhere.
-    #[staticmethod]
-    pub fn parse(
-        py: Python<'_>,
-        name: &str,
-        text: &str,
-        folder: PathBuf,
-        allow_outside: bool,
-    ) -> PyResult<Self> {
-        let inner = case_input::parse(name, text, &folder, reach(allow_outside));
-        let inner = inner.map_err(|error| not_read(py, &error))?;
-        Ok(Self { inner, text: text.to_owned(), name: name.to_owned(), stem: String::new() })
-    }
-
     #[getter]
     fn title(&self) -> &str {
         &self.inner.title

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use vinesink::answer::Decided;
 use vinesink::answer::several::{self, LeftOut};
-use vinesink::case::{ModalCase as Inner, is_modal};
+use vinesink::case::ModalCase as Inner;
 use vinesink::case_input::{self, AnyCase};
 use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, orbits};
 use vinesink::report::modal::{analysis, checked, files, optimum, simulation};
@@ -148,7 +148,7 @@ impl ModalCase {
     }
 }
 
-/// A case of either kind from its text.
+/// A case of either kind from its text; files that it names are below `folder`, unless they may be anywhere.
 #[pyfunction]
 pub fn parse(
     py: Python<'_>,
@@ -157,33 +157,29 @@ pub fn parse(
     folder: PathBuf,
     allow_outside: bool,
 ) -> PyResult<Py<PyAny>> {
-    match is_modal(text) {
-        true => {
-            let inner = case_input::parse_several(name, text, &folder, reach(allow_outside));
-            let inner = inner.map_err(|error| not_read(py, &error))?;
-            of_python(py, ModalCase { inner, text: text.to_owned(), stem: String::new() })
-        }
-        false => of_python(py, Case::parse(py, name, text, folder, allow_outside)?),
-    }
+    let case = case_input::parse_any(name, text, &folder, reach(allow_outside));
+    let case = case.map_err(|error| not_read(py, &error))?;
+    of_either(py, case, text.to_owned(), name.to_owned(), String::new())
 }
 
-/// A case of either kind from its file.
+/// The same from its file.
 #[pyfunction]
 pub fn read(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Py<PyAny>> {
     let read = case_input::read_any(&path, reach(allow_outside));
     let (case, text) = read.map_err(|error| not_read(py, &error))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    match case {
-        AnyCase::Several(inner) => of_python(py, ModalCase { inner: *inner, text, stem }),
-        AnyCase::One(inner) => {
-            of_python(py, Case::of(*inner, text, path.display().to_string(), stem))
-        }
-    }
+    of_either(py, case, text, path.display().to_string(), stem)
 }
 
-fn of_python<T: pyo3::PyClass + Into<pyo3::PyClassInitializer<T>>>(
+fn of_either(
     py: Python<'_>,
-    case: T,
+    case: AnyCase,
+    text: String,
+    name: String,
+    stem: String,
 ) -> PyResult<Py<PyAny>> {
-    Ok(Py::new(py, case)?.into_any())
+    Ok(match case {
+        AnyCase::Several(inner) => Py::new(py, ModalCase { inner: *inner, text, stem })?.into_any(),
+        AnyCase::One(inner) => Py::new(py, Case::of(*inner, text, name, stem))?.into_any(),
+    })
 }

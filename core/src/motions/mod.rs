@@ -24,6 +24,7 @@ mod flight;
 mod follow;
 mod identity;
 mod line;
+mod listed;
 mod measured;
 mod modal;
 mod model;
@@ -313,14 +314,7 @@ impl Motion {
 
     /// Why it does not count; `count_rest` says whether absorbers at rest do.
     pub fn why_not(&self, count_rest: bool) -> Option<WhyNot> {
-        let rest = self.rest()?;
-        match () {
-            () if !count_rest => Some(WhyNot::LeftOut),
-            () if rest.share < NEGLIGIBLE && self.reached.starts == 0 => {
-                Some(WhyNot::BelowThreshold)
-            }
-            () => None,
-        }
+        WhyNot::of(self.rest().map(|rest| rest.share), self.reached.starts, count_rest)
     }
 }
 
@@ -383,18 +377,14 @@ impl Motions {
     pub fn share(&self, motion: &Motion) -> f64 {
         match motion.rest() {
             Some(rest) => rest.share,
-            None => f64::from(motion.reached.starts) / f64::from(self.of_starts.max(1)),
+            None => listed::share_of_starts(motion.reached.starts, self.of_starts),
         }
     }
 
     /// The place of the main motion: the moving one that most starts lead to, or else the absorber at rest; where no start
     /// was flown the first that moves.
     pub fn main_index(&self) -> Option<usize> {
-        let order = |motion: &Motion| {
-            let (moves, starts) = (motion.rest().is_none(), motion.reached.starts);
-            (moves && starts > 0, starts, moves)
-        };
-        (0..self.all.len()).rev().max_by_key(|index| order(&self.all[*index]))
+        listed::main(&self.all)
     }
 
     /// That motion.

@@ -28,7 +28,7 @@ const PHASES: u32 = 128;
 const PIECES: u32 = 512;
 /// Time constants after which what is left of a transient is `e^-12`, 6e-6, and the fewest and most periods.
 const TRANSIENT: f64 = 12.0;
-const PERIODS: [f64; 2] = [50.0, 5000.0];
+pub(super) const PERIODS: [f64; 2] = [50.0, 5000.0];
 /// First harmonic of dry friction over its size (Den Hartog, 1931).
 const DRY: f64 = 4.0 / std::f64::consts::PI;
 /// Resting places of an absorber that slides.

@@ -7,6 +7,7 @@
 
 use super::cluster::Cluster;
 use super::flight::{StartFlight, StartOutcome, flown};
+use super::listed;
 use super::model::{KnownMotion, LongTerm, Model, Proof, Sample};
 use super::patience::{Missing, Patience, Thoroughness, busy};
 use super::{Effort, Motion, Motions, Place, Reached};
@@ -455,10 +456,7 @@ impl Motions {
             let motion = &list.all[*index];
             (list.share(motion), motion.facts.peak.value)
         };
-        order.sort_by(|a, b| {
-            let (a, b) = (key(a), key(b));
-            b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
-        });
+        order.sort_by(|a, b| listed::order(key(a), key(b)));
         let place = |old: usize| order.iter().position(|index| *index == old);
         led.iter_mut().for_each(|one| *one = one.and_then(place));
         let mut old: Vec<Option<Motion>> =

@@ -37,8 +37,6 @@ class ModalCase:
 
 @final
 class Case:
-    @staticmethod
-    def parse(name: str, text: str, folder: str | os.PathLike[str], allow_outside: bool) -> Case: ...
     @property
     def title(self) -> str: ...
     @property

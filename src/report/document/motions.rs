@@ -44,6 +44,11 @@ pub fn places(scale: &Scale, along: &Along, count_rest: bool) -> Vec<Value> {
     along.places().iter().map(place).collect()
 }
 
+/// A number of a list with its error.
+pub(crate) fn pair([value, error]: [f64; 2]) -> Value {
+    json!({ "value": value, "error": error })
+}
+
 /// What a list says of a motion, whatever the structure is: numbers in the case's units.
 pub(crate) struct Listed<'a> {
     pub id: String,
@@ -78,7 +83,6 @@ pub(crate) struct Listed<'a> {
 
 impl Listed<'_> {
     pub fn row(&self) -> Value {
-        let pair = |[value, error]: [f64; 2]| json!({ "value": value, "error": error });
         let mut row = json!({
             "id": self.id,
             "kind": self.kind,

@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use super::{frequency_unit, given, load_row, stretch_rows, theory, units};
+use super::{frequency_unit, given, load_row, stretch_rows, theory, told_of_one, units};
 use crate::case::ModalCase;
 use crate::method::Method;
 use crate::modal::{LoadOrbits, Stretches, working_range};
@@ -18,13 +18,7 @@ use crate::system::ModalParameter;
 /// For each load and each mode in its range the frequency in Hz, the orbits there and where one attracts, in SI; orbits of a case that
 /// lists no loads are at the top.
 pub fn analysis(case: &ModalCase, found: &[LoadOrbits]) -> Value {
-    let mut document = of_loads(case, found);
-    if !case.lists_loads {
-        let rows = document["loads"].as_array_mut().into_iter().flatten();
-        let each = rows.filter_map(|row| row.as_object_mut()?.remove("orbits"));
-        document["orbits"] = each.filter_map(|one| one.as_array().cloned()).flatten().collect();
-    }
-    document
+    told_of_one(case, of_loads(case, found))
 }
 
 fn of_loads(case: &ModalCase, found: &[LoadOrbits]) -> Value {

@@ -16,6 +16,7 @@ use serde_json::{Value, json};
 
 use super::choice;
 use super::document::criteria::badge;
+use super::document::motions::pair;
 use super::document::place::FilePlace;
 use super::document::{Content, Tone, Word, headed, keep_case};
 use super::error::RenderError;
@@ -119,7 +120,11 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
         .working
         .iter()
         .map(|range| range.map(|range| range.map(|at| closed(&of::PEAK, at))));
-    let step = |one: &ForceStep| json!({ "amplitude": amplitude(one.times), "motions": motions::rows(case, &one.motions) });
+    // The largest displacement of each motion.
+    let peaks = |one: &ForceStep| {
+        one.motions.iter().map(|one| pair(motions::peak(one))).collect::<Vec<_>>()
+    };
+    let step = |one: &ForceStep| json!({ "amplitude": amplitude(one.times), "peaks": peaks(one) });
     json!({
         "at": of_load.at.iter().map(|at| given(&of::EXCITATION_FREQUENCY, *at)).collect::<Vec<_>>(),
         "limits": limits,
@@ -354,16 +359,20 @@ pub fn files(
 }
 
 /// What a document says of the loads of a case, of which there is no list, at its top as that of one mode does: the motions of its
-/// excitation, and those along its range.
+/// excitation, those along its range, and the exact orbits near each mode in that.
 fn told_of_one(case: &ModalCase, mut document: Value) -> Value {
-    if !case.lists_loads
-        && let Some(Value::Object(of_load)) = document["loads"].get_mut(0)
-    {
-        let told: Vec<_> = ["motions", "places"]
-            .into_iter()
-            .filter_map(|key| Some((key, of_load.remove(key)?)))
-            .collect();
-        told.into_iter().for_each(|(key, value)| document[key] = value);
+    if case.lists_loads {
+        return document;
+    }
+    for key in ["motions", "places", "orbits"] {
+        let rows = document["loads"].as_array_mut().into_iter().flatten();
+        let each = rows.filter_map(|row| row.as_object_mut()?.remove(key)).collect::<Vec<_>>();
+        let told = each.iter().filter_map(Value::as_array).flatten().cloned().collect::<Vec<_>>();
+        if each.iter().any(Value::is_array) {
+            document[key] = json!(told);
+        } else if !each.is_empty() {
+            document[key] = Value::Null;
+        }
     }
     document
 }

@@ -2,14 +2,18 @@
 
 use serde_json::{Value, json};
 
-use super::{frequency_unit, simulated};
+use super::frequency_unit;
 use crate::case::ModalCase;
 use crate::modal::AlongLoad;
 use crate::motions::{ModalMotion, Motions, RestKind, SensorExtent};
-use crate::quantity::Kind;
-use crate::quantity::catalogue as of;
-use crate::report::document::motions::Listed;
+use crate::report::document::motions::{Listed, pair};
 use crate::simulation::Reading;
+
+/// The largest displacement of any place in a motion, with its error.
+pub(super) fn peak(motion: &ModalMotion) -> [f64; 2] {
+    let each = motion.read(Reading::Displacement).map(|one| [one.peak, one.error]);
+    each.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or_default()
+}
 
 /// Motions at a frequency of a load.
 pub(super) fn rows(case: &ModalCase, motions: &[ModalMotion]) -> Vec<Value> {
@@ -29,8 +33,6 @@ fn row(case: &ModalCase, index: usize, motion: &ModalMotion, of_starts: u32) -> 
     let largest = |each: &mut dyn Iterator<Item = [f64; 2]>| {
         each.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or_default()
     };
-    let displaced = || motion.read(Reading::Displacement);
-    let speed = |[speed, error]: [f64; 2]| [case.omega() * speed, case.omega() * error];
     let told = motion.regimes.as_ref();
     let resting = motion.resting.iter().zip(1_u32..).filter(|(share, _)| share.is_some());
     let resting: Vec<u32> = resting.map(|(_, j)| j).collect();
@@ -43,10 +45,10 @@ fn row(case: &ModalCase, index: usize, motion: &ModalMotion, of_starts: u32) -> 
         settled: motion.settled,
         why_not: motion.why_not(case.count_inactive),
         rest: motion.rests().then_some(RestKind::Floating),
-        peak: largest(&mut displaced().map(|one| [one.peak, one.error])),
-        rms: largest(&mut displaced().map(|one| one.rms)),
+        peak: peak(motion),
+        rms: largest(&mut motion.read(Reading::Displacement).map(|one| one.rms)),
         impacts_per_period: largest(&mut motion.impacts_per_period.iter().copied()),
-        impact_speed: (!motion.rests()).then(|| speed(fastest)),
+        impact_speed: (!motion.rests()).then(|| fastest.map(|one| case.omega() * one)),
         efficiency: told.and_then(|one| one.efficiency),
         starts: [motion.starts, of_starts],
         share: motion.share(of_starts),
@@ -67,26 +69,20 @@ fn row(case: &ModalCase, index: usize, motion: &ModalMotion, of_starts: u32) -> 
 
 /// What each place does.
 fn places(case: &ModalCase, motion: &ModalMotion) -> Vec<Value> {
-    let row = |[peak, rms]: [&'static Kind; 2], one: &SensorExtent| {
-        json!({
-            "peak": simulated(peak, one.peak).with_error(one.error),
-            "rms": simulated(rms, one.rms[0]).with_error(one.rms[1]),
-        })
-    };
+    let row =
+        |one: &SensorExtent| json!({ "peak": pair([one.peak, one.error]), "rms": pair(one.rms) });
     let displaced = motion.read(Reading::Displacement).zip(&case.places);
     let of_place = |(one, name): (&SensorExtent, &String)| {
-        let mut told = row([&of::PEAK, &of::RMS], one);
+        let mut told = row(one);
         told["place"] = json!(name);
         told
     };
     let mut places: Vec<Value> = displaced.map(of_place).collect();
     // What else criteria ask for.
-    for (reads, name, kinds) in [
-        (Reading::Velocity, "velocity", [&of::PEAK_VELOCITY, &of::RMS_VELOCITY]),
-        (Reading::Acceleration, "acceleration", [&of::PEAK_ACCELERATION, &of::RMS_ACCELERATION]),
-    ] {
+    for (reads, name) in [(Reading::Velocity, "velocity"), (Reading::Acceleration, "acceleration")]
+    {
         for (place, one) in places.iter_mut().zip(motion.read(reads)) {
-            place[name] = row(kinds, one);
+            place[name] = row(one);
         }
     }
     places
@@ -96,16 +92,15 @@ fn places(case: &ModalCase, motion: &ModalMotion) -> Vec<Value> {
 fn absorbers(case: &ModalCase, motion: &ModalMotion) -> Vec<Value> {
     let told = motion.regimes.as_ref();
     let each = motion.impacts_per_period.iter().zip(&motion.impact_speed).enumerate();
-    let row = |(j, ([impacts, error], speed)): (usize, (&[f64; 2], &[f64; 2]))| {
-        let speed = speed.map(|one| case.omega() * one);
-        let speed = simulated(&of::IMPACT_SPEED, speed[0]).with_error(speed[1]);
+    let row = |(j, (impacts, speed)): (usize, (&[f64; 2], &[f64; 2]))| {
+        let speed = pair(speed.map(|one| case.omega() * one));
         json!({
             "absorber": j + 1,
             "at_rest": motion.resting[j].is_some(),
             // The share of its places in which it may.
             "share": motion.resting[j],
             "regime": told.map(|one| one.regimes[j]),
-            "impacts_per_period": simulated(&of::IMPACTS_PER_PERIOD, *impacts).with_error(*error),
+            "impacts_per_period": pair(*impacts),
             "impact_speed": motion.resting[j].is_none().then_some(speed),
             "visits_per_period": told.map(|one| one.visits_per_period[j]),
         })

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::motions::cluster::{ERRORS, NO_DIFFERENCE};
-use crate::motions::{NEGLIGIBLE, WhyNot};
+use crate::motions::{WhyNot, listed};
 use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
 use crate::regimes::{ModalRecords, ModalRegimes, Regime};
 use crate::simulation::{ModalSimulation, Reading, SensorRecord, Stop};
@@ -241,12 +241,7 @@ impl ModalMotion {
     /// Why it does not count; none of one that may be met: a start led to it, or absorbers that rest do so in a share of their places
     /// that is not negligible.
     pub fn why_not(&self, count_rest: bool) -> Option<WhyNot> {
-        let share = self.rest_share()?;
-        match () {
-            () if !count_rest => Some(WhyNot::LeftOut),
-            () if share < NEGLIGIBLE && self.starts == 0 => Some(WhyNot::BelowThreshold),
-            () => None,
-        }
+        WhyNot::of(self.rest_share(), self.starts, count_rest)
     }
 
     /// Whether it is one that may be met.
@@ -256,8 +251,7 @@ impl ModalMotion {
 
     /// Its share of so many starts, or of the resting places of absorbers that rest in it.
     pub fn share(&self, of_starts: u32) -> f64 {
-        let of_starts = || f64::from(self.starts) / f64::from(of_starts.max(1));
-        self.rest_share().unwrap_or_else(of_starts)
+        self.rest_share().unwrap_or_else(|| listed::share_of_starts(self.starts, of_starts))
     }
 
     /// Puts motions of one place in the order of lists: by their shares, then by the largest displacement of any place.
@@ -267,17 +261,12 @@ impl ModalMotion {
             one.read(Reading::Displacement).map(|extent| extent.peak).fold(0.0, f64::max)
         };
         let order = |one: &Self| (one.share(of_starts), largest(one));
-        motions.sort_by(|a, b| {
-            let (a, b) = (order(a), order(b));
-            b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
-        });
+        motions.sort_by(|a, b| listed::order(order(a), order(b)));
     }
 
     /// The one of some that stands for them: the moving one that most starts lead to, else that at rest, else the first.
     pub fn main(motions: &[Self]) -> Option<&Self> {
-        let order = |one: &&Self| (!one.rests() && one.starts > 0, one.starts, !one.rests());
-        // The first of equal ones.
-        motions.iter().rev().max_by_key(order)
+        motions.get(listed::main(motions)?)
     }
 
     /// What it is, as results name it.

@@ -10,6 +10,7 @@ use super::watch::{MOST_IMPACTS, ModalSample, ModalWatch, SAME_STATE, apart, siz
 use crate::motions::model::{
     Averages, FLIGHTS, KnownMotion, LongTerm, Model, PUSH, Proof, RECOGNITION,
 };
+use crate::motions::rest::PERIODS;
 use crate::motions::{Reached, Value};
 use crate::simulation::batch::Extent;
 use crate::simulation::{ModalSimulation, ModalStartError, Reading, Sensor, Stop};
@@ -19,8 +20,6 @@ use crate::system::{MOST_MODES, ModalAbsorber, ModalState, ModalSystem};
 const DECAYS: u32 = 8;
 const QUICKEST: f64 = 32.0;
 const LONGEST: f64 = 8192.0;
-/// Periods of a transient whose largest value is looked for: as with one mode.
-const MOST_OF_TRANSIENT: u64 = 5000;
 /// Such times of the shortest window, and the fewest excitation periods of the windows of a place together.
 const DECAYS_OF_WINDOW: f64 = 2.0;
 const SHORTEST: u64 = 1024;
@@ -45,9 +44,9 @@ fn decay(system: &ModalSystem) -> u64 {
     decay_periods(system).clamp(QUICKEST, LONGEST).ceil() as u64
 }
 
-/// Excitation periods after which nothing is left of a start from rest, and at most so many.
+/// Excitation periods after which nothing is left of a start from rest; as with one mode no more than so many are looked at.
 pub(super) fn transient(system: &ModalSystem) -> u64 {
-    (u64::from(DECAYS) * decay(system)).min(MOST_OF_TRANSIENT)
+    (u64::from(DECAYS) * decay(system)).min(PERIODS[1] as u64)
 }
 
 /// Excitation periods over which a motion that does not repeat is measured at first, in a case with a window of so many.
