@@ -97,14 +97,6 @@ pub fn read_modes(path: &Path) -> Result<ModesFile, CaseInputError> {
     Ok(ModesFile::of_bytes(&path.display().to_string(), &bytes)?)
 }
 
-/// Reads a case file of several modes or absorbers; its text beside the case.
-///
-/// # Errors
-/// [`CaseInputError`]; also for a case of one mode.
-pub fn read_several(path: &Path, reach: Reach) -> Result<(ModalCase, String), CaseInputError> {
-    read_text(path, reach, |name, text, folder| parse_several(name, text, folder, reach))
-}
-
 fn read_text<T>(
     path: &Path,
     reach: Reach,

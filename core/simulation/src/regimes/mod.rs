@@ -306,6 +306,25 @@ impl Regime {
 mod tests {
     use super::*;
 
+    /// Of two absorbers, one in steady resonance and one that rests, nobody reads "symmetric 1:1".
+    #[test]
+    fn the_worst_word_of_several_absorbers() {
+        let worst = |each: &[Regime]| Regime::worst(each.iter().copied());
+        let ordered = [
+            Regime::TwoSymmetric,
+            Regime::TwoAsymmetric,
+            Regime::AboveTwo,
+            Regime::StronglyModulated,
+            Regime::BelowTwo,
+            Regime::AtRest,
+        ];
+        for pair in ordered.windows(2) {
+            assert_eq!(worst(pair), Some(pair[1]));
+            assert_eq!(worst(&[pair[1], pair[0]]), Some(pair[1]));
+        }
+        assert_eq!(worst(&[]), None);
+    }
+
     /// Results and reports that are stored already are read by these names.
     #[test]
     fn names_in_results_stay_as_they_are() {
