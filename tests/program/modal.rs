@@ -115,6 +115,11 @@ fn slips_are_told_where_they_are() {
         "[optimize]\nclearance = [\"9 mm\", \"1 mm\"]\n[criteria]",
         &["`clearance`"],
     );
+    refused(
+        "[criteria]",
+        "[optimize]\nobjective = \"z3-share\"\n[criteria]",
+        &["area of the theory of one mode", "stable-share"],
+    );
     refused("[criteria]", "[simulation]\ndiscard = 9\n[criteria]", &["`discard` has no meaning"]);
     let both = format!("{}\n[oscillator]\nmass = \"1 kg\"\n[band]\nfrom = \"1 Hz\"\n", text(MAST));
     let told = wrong(&both);

@@ -113,8 +113,7 @@ fn an_average_is_that_of_cases_that_are_off() {
     let point = |clearance: f64, more: &str| {
         case(3.0, [10.0, 10.0], true, more).replace("\"2 mm\"", &format!("\"{clearance} mm\""))
     };
-    let more =
-        "[uncertainty]\nclearance = \"± 0.6 mm\"\n[optimize]\nclearance = [\"1 mm\", \"9 mm\"]\n";
+    let more = "[uncertainty]\nclearance = \"± 0.1 mm\"\n[optimize]\nclearance = [\"0.5 mm\", \"1.2 mm\"]\n";
     let found = told(&point(4.0, more), &["optimize"]);
     let robust = &found["robust"];
     let number = |of: &Value| of["value"].as_f64().expect("a number");
@@ -125,18 +124,16 @@ fn an_average_is_that_of_cases_that_are_off() {
         let text = point(clearance + off, "[criteria]\npeak_displacement = \"<= 1 m\"\n");
         let checked = told(&text, &["check", "--criteria-only"]);
         let one = &checked["cases"][0]["criteria"][0];
-        let [found, error] = ["found", "error"].map(|key| one[key].as_f64().expect("a number"));
-        [found, error]
+        one["found"].as_f64().expect("a number")
     };
-    let mut sum = [0.0; 2];
-    for [node, weight] in NODES {
-        let [value, error] = worst_of(0.6 * node);
-        sum = [sum[0] + weight * value, sum[1] + weight * error];
-    }
+    let sum: f64 = NODES.iter().map(|[node, weight]| weight * worst_of(0.1 * node)).sum();
     let expected = number(&robust["expected"]);
-    // Few starts may miss the worst motion of one node in five, and runs of another length have other largest values.
-    assert!((expected - sum[0]).abs() < 0.05 * sum[0] + sum[1], "{expected} {sum:?} {robust}");
-    let corner = [-0.6, 0.6].map(|off| worst_of(off)[0]).into_iter().fold(0.0, f64::max);
+    // Where motions wander at some nodes, runs of other lengths have largest values that differ by a tenth.
+    assert!((expected - sum).abs() < 0.05 * sum, "{expected} {sum} {robust}");
+    let corner = [-0.1, 0.1].map(worst_of).into_iter().fold(0.0, f64::max);
     let worst = number(&robust["worst_corner"]);
-    assert!((worst - corner).abs() < 0.1 * corner + sum[1], "{worst} {corner}");
+    assert!((worst - corner).abs() < 0.1 * corner, "{worst} {corner}");
+    // It is another design than the best as written, which is near an end of what is stable.
+    assert!(robust["is_optimum"] == false, "{robust}");
+    assert!(expected < 0.9 * number(&robust["optimum_expected"]), "{robust}");
 }
