@@ -67,7 +67,9 @@ impl ModalCase {
     /// As `vinesink simulate --format json`.
     fn simulate(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
         work::done(py, progress, |work| {
-            json(&simulation(&self.stem, &self.inner, &self.answer(work)?))
+            let answer = self.answer(work)?;
+            answer.observe(work);
+            json(&simulation(&self.stem, &self.inner, &answer))
         })
     }
 

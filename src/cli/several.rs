@@ -70,6 +70,7 @@ pub fn report(
 /// Prints what it does under its loads.
 pub fn simulate(one: &OneCase, case: &ModalCase) -> Result<bool> {
     let answer = answered(&one.path, case, one.long)?;
+    answer.observe(&Parallel);
     let stem = name(&one.path)?;
     one.print(|| text(&stem, case, &answer), || simulation(&stem, case, &answer))?;
     Ok(true)

@@ -24,7 +24,7 @@ pub struct Beside {
 }
 
 impl Beside {
-    /// All that a report has.
+    /// All that a report has; what absorbers do is seen then.
     ///
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
@@ -33,6 +33,7 @@ impl Beside {
         answer: &ModalAnswer,
         on: &dyn Executor,
     ) -> Result<Self, ModalError> {
+        answer.observe(on);
         let worst = |k: usize| answer.worst(case, Some(k)).and_then(|worst| worst.found.at);
         let each = answer.along.iter().enumerate();
         let forces = each.map(|(k, along)| OverForce::of(case, along, worst(k), on));

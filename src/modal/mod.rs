@@ -22,8 +22,9 @@ use crate::alternatives::Alternatives;
 use crate::case::{ActsOn, Load, ModalCase, RewriteError};
 use crate::contact::of_absorbers;
 use crate::criteria::{Judged, all_hold};
-use crate::executor::Executor;
+use crate::executor::{Executor, map};
 use crate::method::Method;
+use crate::motions::ModalMotion;
 use crate::operating_range::{
     Combined, HoldsFor, Reliability, Together, Varied, combined, holds_for,
 };
@@ -93,6 +94,13 @@ impl ModalAnswer {
     ) -> Result<Self, ModalError> {
         let own = Self::in_no_time(case, effort, known, on)?;
         own.in_contact(case, |shifted| Self::in_no_time(shifted, effort, &[], on))
+    }
+
+    /// Sees what absorbers do in each of its motions, which `report` and `simulate` tell and nothing else asks for.
+    pub fn observe(&self, on: &dyn Executor) {
+        let places = self.along.iter().flat_map(|along| &along.places);
+        let all: Vec<&ModalMotion> = places.flat_map(|place| &place.motions).collect();
+        map(on, "what absorbers do", all.len(), |k| all[k].observe());
     }
 
     /// The same with what else could be done.

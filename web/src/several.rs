@@ -78,6 +78,7 @@ fn answer(request: Request) -> Result<Value, Value> {
         Request::Study { text, at } => {
             let case = under(parsed(&text)?, at, true)?;
             let found = ModalAnswer::of(&case, &Serial).map_err(words)?;
+            found.observe(&Serial);
             let mut told = modal::at_frequency(&case, &found).map_err(words)?;
             let markdown = told["markdown"].as_str().map(unbroken).unwrap_or_default();
             told["markdown"] = markdown.into();

@@ -62,7 +62,9 @@ pub(super) fn flown<'a, M: Model + 'a>(
     let (mut going, mut windows) = (Vec::new(), Vec::new());
     let periods: Vec<u64> = faded.iter().map(watched).collect();
     let watches = faded.iter().zip(&periods);
-    let watches = watches.map(|(one, far)| M::watch_of_repetition(&one.flight, *far)).collect();
+    let repetition =
+        |one: &StartFlight<M>, far| M::watch_of_repetition(&one.flight, far, one.window == 0);
+    let watches = watches.map(|(one, far)| repetition(one, *far)).collect();
     for (flight, mut watch, stop) in watched_over(faded, &periods, watches, most_impacts) {
         let trajectory = &flight.flight;
         let repeats = M::repeats(&mut watch).is_some();

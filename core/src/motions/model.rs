@@ -73,8 +73,8 @@ pub(super) trait Model: Clone + PartialEq + Send + Sync {
 
     /// Measures a trajectory over a window of so many periods.
     fn watch(flight: &Self::Flight, window: u64) -> Self::Watch;
-    /// Sees whether a trajectory repeats in so many periods.
-    fn watch_of_repetition(flight: &Self::Flight, periods: u64) -> Self::Watch;
+    /// Sees whether a trajectory repeats in so many periods; whether that is all it is for, so that it need measure nothing.
+    fn watch_of_repetition(flight: &Self::Flight, periods: u64, alone: bool) -> Self::Watch;
     /// Whether what it has seen so far repeats; if so whether watching it any longer changes nothing.
     fn repeats(watch: &mut Self::Watch) -> Option<bool>;
     /// Whether it has seen no impact.
@@ -136,6 +136,10 @@ pub(super) trait LongTerm: Clone + Send + Sync {
 pub(super) trait Sample: Clone + Send {
     /// Why it ended.
     fn stop(&self) -> Stop;
+    /// Whether it has averages: not where it was only seen whether the trajectory repeats.
+    fn is_measured(&self) -> bool {
+        true
+    }
     /// Its averages.
     fn averages(&self) -> Averages;
     /// Mean squares of displacements in its halves.

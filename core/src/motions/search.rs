@@ -277,6 +277,10 @@ impl<M: Model> Ground<M> {
             }
             StartOutcome::Seen(sample) => match self.identified(&sample) {
                 Identified::Known(known) => Some(known),
+                Identified::Open if !sample.is_measured() => {
+                    self.patience.flown(flown);
+                    return Some(flight);
+                }
                 Identified::Open => {
                     self.patience.flown(flown);
                     let goes_on = sample.stop() == Stop::EndTime;
@@ -287,7 +291,7 @@ impl<M: Model> Ground<M> {
                     let before = self.followed[start];
                     self.impacts[start] = 0;
                     let beside = self.model.pushed(M::end(&sample));
-                    self.open[start] = Some(*sample);
+                    self.open[start] = sample.is_measured().then_some(*sample);
                     return beside.map(|beside| StartFlight { flight: beside, before, ..flight });
                 }
             },

@@ -163,7 +163,8 @@ fn repeating(seed: u64, restitution: [f64; 2]) -> Repeating {
                     && (radius - multiplier).abs() < 1e-6
             };
             let other = known.iter().find(same);
-            if let (Some(other), Some(own)) = (other, &one.regimes) {
+            one.observe();
+            if let (Some(other), Some(own)) = (other, one.regimes()) {
                 assert_eq!(own.regimes, [other.regime()], "{own:?}");
                 let visits = other.facts().visits_per_period;
                 assert!((own.visits_per_period[0] - visits).abs() < 1e-9, "{own:?} {visits}");
@@ -216,7 +217,8 @@ fn what_wanders_is_told_of_as_with_one_mode() {
                 other.repeats_after().is_none()
                     && (rms.value - own[0]).abs() <= 2.0 * (rms.error + own[1])
             };
-            let (Some(other), Some(told)) = (known.iter().find(near), &one.regimes) else {
+            one.observe();
+            let (Some(other), Some(told)) = (known.iter().find(near), one.regimes()) else {
                 continue;
             };
             let share = other.facts().efficiency.expect("it is driven");
@@ -267,8 +269,9 @@ fn impacts_take_their_share_of_the_work() {
         let found =
             modal_motions(&system, &[Sensor::displacement(vec![1.0, 0.0])], effort(4, 0), &[]);
         for one in found.expect("they fly") {
+            one.observe();
             let (Some(told), Some(state), Some(after)) =
-                (one.regimes, one.state, one.repeats_after)
+                (one.regimes().cloned(), one.state, one.repeats_after)
             else {
                 continue;
             };

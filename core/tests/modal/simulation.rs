@@ -378,6 +378,74 @@ fn the_meter_measures_what_samples_approach() {
     assert!(held > 0.02 * time, "held for {held} of {time}");
 }
 
+/// Squares of a displacement and its velocity, integrated in pieces by a rule of eight nodes, in flights.
+struct Integrals {
+    shape: Vec<f64>,
+    sums: [f64; 2],
+    time: f64,
+}
+
+impl ModalObserver for Integrals {
+    fn segment(&mut self, segment: &ModalSegment<'_>) {
+        // Abscissae and weights of Gauss and Legendre (Abramowitz and Stegun, table 25.4).
+        const RULE: [[f64; 2]; 4] = [
+            [0.183_434_642_495_649_8, 0.362_683_783_378_362],
+            [0.525_532_409_916_329, 0.313_706_645_877_887_3],
+            [0.796_666_477_413_626_7, 0.222_381_034_453_374_5],
+            [0.960_289_856_497_536_2, 0.101_228_536_290_376_3],
+        ];
+        let pieces = (8.0 * segment.duration).ceil();
+        let half = 0.5 * segment.duration / pieces;
+        for piece in 0..pieces as u32 {
+            let middle = half * f64::from(2 * piece + 1);
+            for ([node, weight], side) in RULE.iter().flat_map(|one| [(one, -1.0), (one, 1.0)]) {
+                let modes = segment.at(middle + side * node * half).modes;
+                for (n, sum) in self.sums.iter_mut().enumerate() {
+                    let each = self.shape.iter().zip(&modes);
+                    let read: f64 = each.map(|(phi, mode)| phi * mode[n]).sum();
+                    *sum += half * weight * read * read;
+                }
+            }
+        }
+        self.time += segment.duration;
+    }
+}
+
+/// Mean squares against integrals of states, where products of phasors turn slowly too: of a mode without damping, and of one close to the
+/// excitation; of many impacts a period; and of the same meter that began anew.
+#[test]
+fn mean_squares_are_integrals() {
+    let slow = |damping, frequency| {
+        let modes = vec![
+            mode([1.0, damping, 1.0, 0.01], &[1.0, 0.4]),
+            mode([2.3, 0.0, 0.8, 0.1], &[-0.7, 1.0]),
+        ];
+        system(frequency, modes, &[[0.05, 0.7, 0.6], [0.02, 0.4, 0.3]])
+    };
+    let structures = [slow(0.0, 0.9996), slow(2e-4, 1.0), slow(0.02, 2.3004), slow(1e-7, 1.1)];
+    let drawn = (0..6).map(|k| random(&mut Noise(60 + k), 1 + k as usize % 4, 2));
+    for (k, system) in structures.into_iter().chain(drawn).enumerate() {
+        let from = start(&mut Noise(k as u64), &system);
+        let mut simulation = ModalSimulation::new(&system, &from, 0.0).expect("inside");
+        let shape: Vec<f64> =
+            [1.0, -0.6, 0.3, 0.8].into_iter().take(system.modes().len()).collect();
+        let sensors = [Reading::Displacement, Reading::Velocity]
+            .map(|reads| Sensor { reads, ..Sensor::displacement(shape.clone()) });
+        let mut meter = ModalMeter::new(&system, &sensors);
+        simulation.run(5, 20_000, &mut meter);
+        meter.taken();
+        let mut both = (meter, Integrals { shape, sums: [0.0; 2], time: 0.0 });
+        simulation.run(40, 40_000, &mut both);
+        for (n, record) in both.0.records().iter().enumerate() {
+            let mean = both.1.sums[n] / both.1.time;
+            // Rounding of both. At a resonance of little damping the free and the steady motion are each up to a hundred times what is
+            // left of their sum.
+            let off = record.mean_square / mean - 1.0;
+            assert!(off.abs() < 1e-10, "{k}, {n}: {off}");
+        }
+    }
+}
+
 /// A base that moves, in relative coordinates, is the base of the model with one mode but for its damper's own term.
 #[test]
 fn a_base_that_moves_is_a_force_in_relative_coordinates() {

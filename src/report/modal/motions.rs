@@ -33,7 +33,7 @@ fn row(case: &ModalCase, index: usize, motion: &ModalMotion, of_starts: u32) -> 
     let largest = |each: &mut dyn Iterator<Item = [f64; 2]>| {
         each.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or_default()
     };
-    let told = motion.regimes.as_ref();
+    let told = motion.regimes();
     let resting = motion.resting.iter().zip(1_u32..).filter(|(share, _)| share.is_some());
     let resting: Vec<u32> = resting.map(|(_, j)| j).collect();
     let visits = told.map(|one| one.visits_per_period.iter().copied().fold(0.0, f64::max));
@@ -90,7 +90,7 @@ fn places(case: &ModalCase, motion: &ModalMotion) -> Vec<Value> {
 
 /// What each absorber does.
 fn absorbers(case: &ModalCase, motion: &ModalMotion) -> Vec<Value> {
-    let told = motion.regimes.as_ref();
+    let told = motion.regimes();
     let each = motion.impacts_per_period.iter().zip(&motion.impact_speed).enumerate();
     let row = |(j, (impacts, speed)): (usize, (&[f64; 2], &[f64; 2]))| {
         let speed = pair(speed.map(|one| case.omega() * one));

@@ -1,5 +1,7 @@
 //! Every absorber at rest, in closed form; and where an excitation that begins at once leaves them there.
 
+use std::sync::OnceLock;
+
 use super::motion::{ModalMotion, SensorExtent};
 use crate::linear::ModalAmplitudes;
 use crate::regimes::ModalRegimes;
@@ -52,7 +54,8 @@ pub fn modal_at_rest(system: &ModalSystem, sensors: &[Sensor]) -> Option<ModalMo
         starts: 0,
         state: None,
         resting: shares.into_iter().map(Some).collect(),
-        regimes: Some(ModalRegimes::at_rest(system.absorbers().len())),
+        seen_from: None,
+        regimes: OnceLock::from(Some(ModalRegimes::at_rest(system.absorbers().len()))),
         sudden: None,
         followed: 0,
         periods: 0,

@@ -1,13 +1,16 @@
 //! A long-term motion of a structure of several modes with several absorbers, and when two are one.
 
+use std::sync::OnceLock;
+
 use serde::Serialize;
 
+use super::sensed::Sensed;
 use crate::motions::cluster::{ERRORS, NO_DIFFERENCE};
 use crate::motions::{WhyNot, listed};
 use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
 use crate::regimes::{ModalRecords, ModalRegimes, Regime};
 use crate::simulation::{ModalSimulation, Reading, SensorRecord, Stop};
-use crate::system::{MOST_MODES, ModalState, ModalSystem};
+use crate::system::{MOST_MODES, ModalState};
 
 /// What a sensor reads in a long-term motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -20,6 +23,35 @@ pub struct SensorExtent {
     pub error: f64,
     /// Root mean square, and twice its standard error by the scatter between blocks.
     pub rms: [f64; 2],
+}
+
+/// A state on a motion, and the structure.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SeenFrom {
+    /// Without absorbers that rest.
+    model: Sensed,
+    state: ModalState,
+    most_impacts: u64,
+    /// Those, each by its place in the list that the ones before make.
+    at_rest: Vec<usize>,
+}
+
+impl SeenFrom {
+    fn regimes(&self, motion: &ModalMotion) -> Option<ModalRegimes> {
+        let system = self.model.system();
+        let mut simulation = ModalSimulation::new(system, &self.state, 0.0).ok()?;
+        let mut records = ModalRecords::new(system);
+        let periods = match motion.repeats_after {
+            Some(after) => u64::from(after * REPETITIONS),
+            None => WINDOW.max(motion.periods / PART),
+        };
+        if simulation.run(periods, periods * self.most_impacts, &mut records) != Stop::EndTime {
+            return None;
+        }
+        let mut regimes = records.found(motion.repeats_after);
+        self.at_rest.iter().for_each(|j| regimes.insert_at_rest(*j));
+        Some(regimes)
+    }
 }
 
 /// A long-term motion.
@@ -45,8 +77,6 @@ pub struct ModalMotion {
     pub starts: u32,
     /// Of each absorber that rests in it the share of its cavity within which it may; none of one that impacts.
     pub resting: Vec<Option<f64>>,
-    /// What its absorbers do in words, and where its energy goes; none where a search only ranks designs.
-    pub regimes: Option<ModalRegimes>,
     /// Of every absorber at rest the share of their places, together, in which they stay where the excitation begins at once; none of
     /// another motion, and where a search only ranks designs.
     pub sudden: Option<f64>,
@@ -55,6 +85,11 @@ pub struct ModalMotion {
     /// A state on it at excitation phase 0; none at rest, and where an absorber rests.
     #[serde(skip)]
     pub state: Option<ModalState>,
+    /// From where on it is seen what its absorbers do, and what that is once somebody asked.
+    #[serde(skip)]
+    pub(super) seen_from: Option<SeenFrom>,
+    #[serde(skip)]
+    pub(super) regimes: OnceLock<Option<ModalRegimes>>,
     /// Excitation periods of a case's window: largest values are spoken of for ten times as long.
     #[serde(skip)]
     pub(super) periods: u64,
@@ -138,7 +173,8 @@ impl ModalMotion {
             is_orbit: false,
             starts: 0,
             resting: vec![None; absorbers],
-            regimes: None,
+            seen_from: None,
+            regimes: OnceLock::new(),
             sudden: None,
             followed: 0,
             state: None,
@@ -172,8 +208,8 @@ impl ModalMotion {
     pub(super) fn insert_at_rest(&mut self, j: usize) {
         self.impacts_per_period.insert(j, [0.0; 2]);
         self.impact_speed.insert(j, [0.0; 2]);
-        if let Some(regimes) = &mut self.regimes {
-            regimes.insert_at_rest(j);
+        if let Some(from) = &mut self.seen_from {
+            from.at_rest.push(j);
         }
         for flight in &mut self.flights {
             let stretches = flight.squares.first().map_or(0, Vec::len);
@@ -182,19 +218,21 @@ impl ModalMotion {
         }
     }
 
-    /// The same with what the absorbers of its structure do, seen from its own state on.
-    pub(super) fn with_regimes(self, system: &ModalSystem, most_impacts: u64) -> Self {
-        let recorded = || {
-            let mut simulation = ModalSimulation::new(system, self.state.as_ref()?, 0.0).ok()?;
-            let mut records = ModalRecords::new(system);
-            let periods = match self.repeats_after {
-                Some(after) => u64::from(after * REPETITIONS),
-                None => WINDOW.max(self.periods / PART),
-            };
-            let stop = simulation.run(periods, periods * most_impacts, &mut records);
-            (stop == Stop::EndTime).then(|| records.found(self.repeats_after))
-        };
-        Self { regimes: recorded(), ..self }
+    /// The same of this structure, with at most so many impacts in a period: what its absorbers do can be seen from its own state on.
+    pub(super) fn of_structure(self, model: &Sensed, most_impacts: u64) -> Self {
+        let (model, at_rest) = (model.clone(), Vec::new());
+        let from = |state| SeenFrom { model, state, most_impacts, at_rest };
+        Self { seen_from: self.state.map(from), ..self }
+    }
+
+    /// Sees what its absorbers do, once; nothing where a search only ranks designs.
+    pub fn observe(&self) {
+        self.regimes.get_or_init(|| self.seen_from.as_ref()?.regimes(self));
+    }
+
+    /// What its absorbers do in words, and where its energy goes; none where nobody has [observed](Self::observe) it.
+    pub fn regimes(&self) -> Option<&ModalRegimes> {
+        self.regimes.get()?.as_ref()
     }
 
     /// Its numbers by all that was seen of it.
@@ -279,9 +317,9 @@ impl ModalMotion {
         }
     }
 
-    /// What its absorbers do, as the worst word for them; none where a search only ranks designs.
+    /// What its absorbers do, as the worst word for them; none where nobody has [observed](Self::observe) it.
     pub fn regime(&self) -> Option<Regime> {
-        Regime::worst(self.regimes.as_ref()?.regimes.iter().copied())
+        Regime::worst(self.regimes()?.regimes.iter().copied())
     }
 
     /// What sensors of a kind read, in their order.

@@ -123,7 +123,7 @@ impl Search<'_> {
         let begins = |state: &&ModalState| model.begin(state, 0.0).is_ok();
         let further = further.iter().chain(&carried).filter(begins).copied().collect();
         let (known, in_full) = (Vec::new(), false);
-        let place = Starts { model, counted, further, known, patience, in_full };
+        let place = Starts { model: model.clone(), counted, further, known, patience, in_full };
         let mut found = searched(&[place], &effort, &Serial, &|_| ())?.remove(0).all;
         let still = |one: &ModalMotion| one.rests() && one.resting.iter().all(Option::is_some);
         let at_rest = found.iter().position(still).map(|index| found.remove(index));
@@ -134,7 +134,7 @@ impl Search<'_> {
             false => one,
         });
         let told = |one: ModalMotion| match patience > 0.0 {
-            true => one.with_regimes(&system, most_impacts),
+            true => one.of_structure(&model, most_impacts),
             false => one,
         };
         let found = found.into_iter().map(told);

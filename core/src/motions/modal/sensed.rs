@@ -232,8 +232,12 @@ impl Model for Sensed {
         ModalWatch::new(flight.of.system(), flight.of.sensors(), &flight.simulation, window)
     }
 
-    fn watch_of_repetition(flight: &SensedFlight, periods: u64) -> ModalWatch {
-        Self::watch(flight, periods)
+    fn watch_of_repetition(flight: &SensedFlight, periods: u64, alone: bool) -> ModalWatch {
+        if alone {
+            ModalWatch::of_repetition(flight.of.system(), &flight.simulation, periods)
+        } else {
+            Self::watch(flight, periods)
+        }
     }
 
     fn repeats(watch: &mut ModalWatch) -> Option<bool> {
@@ -260,7 +264,7 @@ impl Model for Sensed {
 
     fn rests(&self, sample: &ModalSample) -> bool {
         let over = sample.repeats.exactly.is_some() || sample.course.periods > SILENT;
-        over && sample.course.is_silent()
+        over && sample.is_measured && sample.course.is_silent()
     }
 
     fn resting(&self, seen: Option<&ModalSample>) -> Option<ModalMotion> {
@@ -272,6 +276,10 @@ impl Model for Sensed {
     }
 
     fn proof(&self, sample: &ModalSample) -> Proof<Self> {
+        // What has no impact is at rest where that was measured.
+        if !sample.is_measured && sample.course.is_silent() {
+            return Proof::Open;
+        }
         let (repeats, seen_as) = (&sample.repeats, || Box::new(sample.clone()));
         let mut periods = repeats.nearly.iter().chain(&repeats.roughly);
         match periods.find_map(|after| near(self, &sample.end, *after)) {

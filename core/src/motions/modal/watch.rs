@@ -28,7 +28,8 @@ const NEARLY_LEVEL: f64 = 0.02;
 /// Measures one trajectory.
 pub(in crate::motions) struct ModalWatch {
     begin: ModalState,
-    meter: ModalMeter,
+    /// None where it is only seen whether it repeats.
+    meter: Option<ModalMeter>,
     reads: Vec<Reading>,
     /// States at the ends of the last periods.
     states: Vec<ModalState>,
@@ -60,8 +61,25 @@ impl ModalWatch {
         stretch: u64,
     ) -> Self {
         Self {
+            meter: Some(ModalMeter::new(system, sensors)),
+            ..Self::unmeasured(system, sensors, simulation, stretch)
+        }
+    }
+
+    /// The same that only sees whether it repeats.
+    pub fn of_repetition(system: &ModalSystem, simulation: &ModalSimulation, periods: u64) -> Self {
+        Self::unmeasured(system, &[], simulation, periods)
+    }
+
+    fn unmeasured(
+        system: &ModalSystem,
+        sensors: &[Sensor],
+        simulation: &ModalSimulation,
+        stretch: u64,
+    ) -> Self {
+        Self {
             begin: simulation.state(),
-            meter: ModalMeter::new(system, sensors),
+            meter: None,
             reads: sensors.iter().map(|one| one.reads).collect(),
             states: Vec::new(),
             stretch,
@@ -100,28 +118,30 @@ impl ModalWatch {
         let (begin, end) = (self.begin, simulation.state());
         let (reads, course) = (self.reads.clone(), self.course.clone());
         let whole = ModalMotion::of(&reads, vec![course.clone()], None, true, course.periods);
-        let averages = whole.averages();
-        Some(ModalSample { begin, end, repeats: self.repeats(), reads, course, averages, stop })
+        let (averages, repeats) = (whole.averages(), self.repeats());
+        let is_measured = self.meter.is_some();
+        Some(ModalSample { begin, end, repeats, reads, course, averages, stop, is_measured })
     }
 
     fn end_stretch(&mut self) {
         let periods = self.flown.max(1);
-        self.course.add(periods, &self.meter.taken(), &self.impacts, &self.speeds);
+        let read = self.meter.as_mut().map(ModalMeter::taken).unwrap_or_default();
+        self.course.add(periods, &read, &self.impacts, &self.speeds);
         (self.flown, self.impacts, self.speeds) = (0, [0; MOST_MODES], [0.0; MOST_MODES]);
     }
 }
 
 impl ModalObserver for ModalWatch {
     fn detail(&self) -> Detail {
-        self.meter.detail()
+        self.meter.as_ref().map_or(Detail::Events, ModalMeter::detail)
     }
 
     fn segment(&mut self, segment: &ModalSegment<'_>) {
-        self.meter.segment(segment);
+        self.meter.iter_mut().for_each(|meter| meter.segment(segment));
     }
 
     fn impact(&mut self, impact: &ModalImpact) {
-        self.meter.impact(impact);
+        self.meter.iter_mut().for_each(|meter| meter.impact(impact));
         let ModalImpact { absorber, x_velocity: [x, _], y_velocity: [y, _], .. } = *impact;
         self.impacts[absorber] += 1;
         self.speeds[absorber] = self.speeds[absorber].max((x - y).abs());
@@ -189,6 +209,8 @@ pub(in crate::motions) struct ModalSample {
     pub course: FlightCourse,
     averages: Averages,
     pub stop: Stop,
+    /// Whether anything was seen but whether it repeats.
+    pub is_measured: bool,
 }
 
 impl ModalSample {
@@ -211,6 +233,10 @@ fn ends(of: &[f64]) -> [f64; 2] {
 impl Sample for ModalSample {
     fn stop(&self) -> Stop {
         self.stop
+    }
+
+    fn is_measured(&self) -> bool {
+        self.is_measured
     }
 
     fn averages(&self) -> Averages {

@@ -83,7 +83,7 @@ impl<const N: usize, const M: usize> Constants<N, M> {
             let begin = *at;
             let (landing, may_stick) = self.flight(at, slow)?;
             if told.detail == Detail::Flights && landing.time > 0.0 {
-                told.flown(&begin, landing.time);
+                told.flown(&begin, &landing.at, landing.time);
             }
             for line in &mut at.lines {
                 *line = line.from(landing.time);

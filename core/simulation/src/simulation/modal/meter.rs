@@ -1,26 +1,20 @@
 //! The largest displacement of places of the structure, and its mean square: not sampled; and the same of their velocities and
 //! accelerations, whose phasors are those of the displacement times `p_k`, once or twice.
 //!
-//! In each panel what is read lies between the coefficients of its quintic in Bernstein's form, with the remainder that is
-//! proven: only where these exceed what is known is a panel divided, where its quintic is level, until nothing is left but a
-//! part of [`PEAK_ERROR`]. The square of a flight is integrated in closed form; where absorbers rest on walls, by the rule of
-//! Gauss and Legendre with [`NODES`] nodes, whose error in panels of 0.5 rad is below `1e-15` of the squared amplitude.
+//! See [`super::peaks`] of the former. The square of flights is integrated in closed form, see [`super::products`]; where absorbers
+//! rest on walls, by the rule of Gauss and Legendre with [`NODES`] nodes, whose error in panels of 0.5 rad is below `1e-15` of the
+//! squared amplitude.
 
 use super::contact::HeldPanel;
-use super::motion::{Constants, Gap, Phasors, View, longer, longest};
+use super::motion::{Gap, View};
+use super::peaks::{FindPeaks, Reader, finder, highest};
+use super::products::Products;
 use super::{All, Course, MOST, ModalImpact, ModalObserver, ModalSegment, STILL};
 use crate::numerics::gauss;
-use crate::simulation::certificate::{Hull, Quintic};
-use crate::simulation::flow::{Phasor, mean_to};
 use crate::simulation::phasor::Slack;
 use crate::system::{LinearResponse, ModalSystem};
 
-/// Share of a peak by which it may be too small.
-pub const PEAK_ERROR: f64 = 1e-13;
 const NODES: usize = 7;
-/// Most divisions of a panel, of what is level to rounding, and most parts that wait.
-const MOST_PARTS: usize = 200;
-const MOST_OPEN: usize = 64;
 
 /// What is read of the motion of a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -89,7 +83,6 @@ pub struct SensorRecord {
 }
 
 /// Reads sensors; those that are alike once.
-#[derive(Debug, Clone)]
 pub struct ModalMeter {
     /// Which of those that differ each sensor is.
     each: Vec<usize>,
@@ -99,12 +92,12 @@ pub struct ModalMeter {
     jumps: Vec<Option<(usize, f64)>>,
     rule: Vec<(f64, f64)>,
     peaks: Vec<f64>,
+    finder: Box<dyn FindPeaks>,
+    /// Of flights, and of each sensor where absorbers rest on walls.
+    products: Products,
     squares: Vec<f64>,
     time: f64,
 }
-
-/// The largest order of a derivative.
-const MOST_ORDER: usize = 2;
 
 impl ModalMeter {
     /// Of a structure, for these sensors.
@@ -143,12 +136,20 @@ impl ModalMeter {
             let yields: f64 = each.map(|((here, there), mass)| here * there / mass).sum();
             Some((absorber, scale * yields * all.absorber_masses[absorber]))
         };
+        let views: Vec<(Option<usize>, View<MOST>)> = views.collect();
+        let readers = views
+            .iter()
+            .enumerate()
+            .filter_map(|(index, (order, view))| Some(Reader { order: (*order)?, view, index }));
+        let finder = finder(&all.constants, all.modes, &readers.collect::<Vec<_>>());
         Self {
             each,
-            views: views.collect(),
+            finder,
+            views,
             jumps: sensors.iter().copied().map(jump).collect(),
             rule: gauss::uniform(NODES),
             peaks: vec![0.0; sensors.len()],
+            products: Products::of(&all.constants, all.modes),
             squares: vec![0.0; sensors.len()],
             time: 0.0,
         }
@@ -156,9 +157,14 @@ impl ModalMeter {
 
     /// What each has read since the meter was made.
     pub fn records(&self) -> Vec<SensorRecord> {
+        let squares = self.views.iter().zip(&self.squares).map(|((order, view), held)| {
+            let order = (*order)?;
+            Some(self.products.square(&view.shape, view.steady, order) + held)
+        });
+        let squares: Vec<f64> = squares.map(Option::unwrap_or_default).collect();
         let of = |n: &usize| SensorRecord {
             peak: self.peaks[*n],
-            mean_square: if self.time > 0.0 { self.squares[*n] / self.time } else { 0.0 },
+            mean_square: if self.time > 0.0 { squares[*n] / self.time } else { 0.0 },
         };
         self.each.iter().map(of).collect()
     }
@@ -167,32 +173,27 @@ impl ModalMeter {
     pub fn taken(&mut self) -> Vec<SensorRecord> {
         let records = self.records();
         self.peaks.fill(0.0);
+        self.products.clear();
         self.squares.fill(0.0);
         self.time = 0.0;
         records
     }
 }
 
+impl std::fmt::Debug for ModalMeter {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.debug_struct("ModalMeter").field("peaks", &self.peaks).finish_non_exhaustive()
+    }
+}
+
 impl ModalObserver for ModalMeter {
     fn segment(&mut self, segment: &ModalSegment<'_>) {
-        let (all, whole) = (segment.all, segment.duration);
+        let whole = segment.duration;
         self.time += whole;
         match &segment.course {
-            Course::Free(begin) => {
-                self.add_squares(all, begin, whole);
-                let mut derived = *begin;
-                for order in 0..=MOST_ORDER {
-                    if self.views.iter().any(|one| one.0 == Some(order)) {
-                        match all.modes {
-                            1 => self.find_peaks::<1>(all, order, &derived, whole),
-                            2 => self.find_peaks::<2>(all, order, &derived, whole),
-                            3 => self.find_peaks::<3>(all, order, &derived, whole),
-                            4 => self.find_peaks::<4>(all, order, &derived, whole),
-                            _ => self.find_peaks::<MOST>(all, order, &derived, whole),
-                        }
-                    }
-                    derived = all.constants.derivative(&derived);
-                }
+            Course::Free { begin, end } => {
+                self.products.add(begin, end, whole);
+                self.finder.find(begin, end, whole, &mut self.peaks);
             }
             Course::Held(panel) => self.add_held(panel, whole),
         }
@@ -208,130 +209,6 @@ impl ModalObserver for ModalMeter {
 }
 
 impl ModalMeter {
-    /// The peaks of sensors that read a derivative, whose phasors begin here.
-    /// Where a flight cannot go beyond what is known, by the sizes of its phasors or by the ends of a panel and a bound on the
-    /// acceleration between, nothing is looked at.
-    fn find_peaks<const N: usize>(
-        &mut self,
-        all: &All,
-        order: usize,
-        begin: &Phasors<MOST>,
-        whole: f64,
-    ) {
-        let all_sizes = all.constants.sizes(begin);
-        let beyond = |view: &View<MOST>, peak: f64| {
-            let free = view.shape.iter().zip(&all_sizes).map(|(phi, size)| phi.abs() * size);
-            free.sum::<f64>() + view.steady_size > peak
-        };
-        let watched =
-            self.views.iter().zip(&mut self.peaks).filter(|(one, _)| one.0 == Some(order));
-        let watched = watched.map(|((_, view), peak)| (view, peak));
-        let mut watched: Vec<_> = watched.filter(|(view, peak)| beyond(view, **peak)).collect();
-        if watched.is_empty() {
-            return;
-        }
-        let constants: Constants<N, 0> = all.constants.first();
-        let sizes = std::array::from_fn(|k| all_sizes[k]);
-        let mut watched: Vec<_> = watched
-            .iter_mut()
-            .map(|(view, peak)| {
-                let view: View<N> = view.first();
-                (view, constants.slack(&view, &sizes), &mut **peak)
-            })
-            .collect();
-        let first = Phasors { z: std::array::from_fn(|k| begin.z[k]), rotor: begin.rotor };
-        let of = |view: &View<N>, at: &Phasors<N>| {
-            Gap::of(constants.seen(view, &constants.free(at), at.rotor), STILL)
-        };
-        // Of what is known, as the certificate of flights is of a clearance.
-        let slack = |(_, (slack, _), peak): &(View<N>, (Slack<f64>, f64), &mut f64)| {
-            slack.coefficient / **peak
-        };
-        let most = longest(watched.iter().map(slack));
-        let (mut here, mut left, mut times) = (first, whole, most);
-        while left > 0.0 {
-            let length = constants.step * longer(times);
-            if times > 0 {
-                let there = constants.next(&here, times);
-                let clear = length <= left
-                    && watched.iter().all(|(view, (slack, _), peak)| {
-                        let slack = slack.part(longer(times));
-                        let (here, there) = (of(view, &here), of(view, &there));
-                        Hull::of(&here, &there, length, &slack).highest() <= **peak
-                    });
-                if clear {
-                    (here, left) = (there, left - length);
-                } else {
-                    times -= 1;
-                }
-                continue;
-            }
-            let length = length.min(left);
-            let there = if length < constants.step {
-                constants.after(&here, length)
-            } else {
-                constants.next(&here, 0)
-            };
-            for (view, (slack, bend), peak) in &mut watched {
-                let ends = view.at(&here).abs().max(view.at(&there).abs());
-                if ends + 0.125 * *bend * length * length <= **peak {
-                    continue;
-                }
-                let moment = |s: f64| of(view, &constants.after(&here, s));
-                let slack = slack.part(length / constants.step);
-                let ends = [of(view, &here), of(view, &there)];
-                **peak = highest(moment, ends, length, slack, **peak);
-                times = most;
-            }
-            (here, left) = (there, left - length);
-        }
-    }
-
-    /// The integral of the square of what is seen in a flight. It is the real part of a sum of exponentials `c_a e^{p_a s}`,
-    /// and its square that of `c_a c_b e^{(p_a + p_b) s}/2` and `c_a conj(c_b) e^{(p_a + conj(p_b)) s}/2`.
-    fn add_squares(&mut self, all: &All, begin: &Phasors<MOST>, duration: f64) {
-        let (constants, [sin, cos]) = (&all.constants, begin.rotor);
-        let rate = |a: usize| {
-            let own = || Phasor::new(-constants.modes[a].decay, constants.modes[a].ringing);
-            let rate = if a < all.modes { own() } else { Phasor::new(0.0, constants.frequency) };
-            rate * duration
-        };
-        let mut ends = [(Phasor::new(0.0, 0.0), Phasor::new(1.0, 0.0)); MOST + 1];
-        for (a, (turn, end)) in ends.iter_mut().enumerate().take(all.modes + 1) {
-            *turn = rate(a);
-            let ((sin, cos), size) = (libm::sincos(turn.im), libm::exp(turn.re));
-            *end = Phasor::new(size * cos, size * sin);
-        }
-        let mut means = [[[Phasor::new(0.0, 0.0); 2]; MOST + 1]; MOST + 1];
-        for (n, row) in means.iter_mut().enumerate().take(all.modes + 1) {
-            for (m, mean) in row.iter_mut().enumerate().take(n + 1) {
-                let ((p_a, e_a), (p_b, e_b)) = (ends[n], ends[m]);
-                let share = duration * if m == n { 0.5 } else { 1.0 };
-                *mean = [
-                    mean_to(p_a + p_b, e_a * e_b) * share,
-                    mean_to(p_a + p_b.conj(), e_a * e_b.conj()) * share,
-                ];
-            }
-        }
-        let first = constants.derivative(begin);
-        let derived = [*begin, first, constants.derivative(&first)];
-        for ((order, view), sum) in self.views.iter().zip(&mut self.squares) {
-            let Some(order) = order else { continue };
-            let [s, c] = view.steady;
-            let mut terms = [Phasor::new(c, -s) * Phasor::new(cos, sin); MOST + 1];
-            for (k, [re, im]) in derived[*order].z.iter().enumerate().take(all.modes) {
-                terms[k] = Phasor::new(*re, *im) * view.shape[k];
-            }
-            for (n, row) in means.iter().enumerate().take(all.modes + 1) {
-                let each = row.iter().zip(&terms).take(n + 1);
-                let other = each.fold(Phasor::new(0.0, 0.0), |other, ([together, apart], term)| {
-                    other + term * together + term.conj() * apart
-                });
-                *sum += (terms[n] * other).re;
-            }
-        }
-    }
-
     fn add_held(&mut self, panel: &HeldPanel, whole: f64) {
         for (n, (order, view)) in self.views.iter().enumerate() {
             let Some(order) = order else { continue };
@@ -349,46 +226,4 @@ impl ModalMeter {
             self.squares[n] += self.rule.iter().map(square).sum::<f64>();
         }
     }
-}
-
-/// The largest that is read in a panel, or what is known.
-fn highest(
-    moment: impl Fn(f64) -> Gap,
-    [here, there]: [Gap; 2],
-    whole: f64,
-    slack: Slack<f64>,
-    mut peak: f64,
-) -> f64 {
-    peak = peak.max(here.gap.abs()).max(there.gap.abs());
-    if Hull::of(&here, &there, whole, &slack).highest() <= peak {
-        return peak;
-    }
-    let mut open = [(0.0, here, whole, there); MOST_OPEN];
-    let mut count = 1;
-    for _ in 0..MOST_PARTS {
-        if count == 0 {
-            break;
-        }
-        count -= 1;
-        let (begin, here, end, there) = open[count];
-        peak = peak.max(there.gap.abs());
-        let length = end - begin;
-        let slack = slack.part(length / whole);
-        if Hull::of(&here, &there, length, &slack).highest() <= peak * (1.0 + PEAK_ERROR) {
-            continue;
-        }
-        let turns = here.slope * there.slope < 0.0;
-        let quintic = Quintic::through(&here, &there, length);
-        let at = if turns { quintic.turning_point().at } else { 0.5 };
-        let middle = begin + at.clamp(0.01, 0.99) * length;
-        let between = moment(middle);
-        peak = peak.max(between.gap.abs());
-        if count + 2 > MOST_OPEN {
-            break;
-        }
-        open[count] = (begin, here, middle, between);
-        open[count + 1] = (middle, between, end, there);
-        count += 2;
-    }
-    peak
 }

@@ -13,6 +13,8 @@ mod contact;
 mod flight;
 mod meter;
 mod motion;
+mod peaks;
+mod products;
 
 use std::f64::consts::TAU;
 
@@ -89,7 +91,7 @@ pub struct ModalSegment<'a> {
 
 #[derive(Debug)]
 enum Course<'a> {
-    Free(Phasors<MOST>),
+    Free { begin: Phasors<MOST>, end: Phasors<MOST> },
     Held(&'a HeldPanel),
 }
 
@@ -97,7 +99,7 @@ impl ModalSegment<'_> {
     /// The state a time `s` after the beginning.
     pub fn at(&self, s: f64) -> ModalState {
         let mut state = match &self.course {
-            Course::Free(begin) => {
+            Course::Free { begin, .. } => {
                 let rotor = sine_and_cosine(self.phase + self.all.constants.frequency * s);
                 self.all.state(&self.turned(begin, s), rotor)
             }
@@ -135,7 +137,7 @@ impl ModalSegment<'_> {
     fn place(&self, view: &View<MOST>, s: f64) -> [f64; 3] {
         let rotor = sine_and_cosine(self.phase + self.all.constants.frequency * s);
         match &self.course {
-            Course::Free(begin) => {
+            Course::Free { begin, .. } => {
                 let at = Phasors { z: self.turned(begin, s), rotor };
                 self.all.constants.seen(view, &self.all.constants.free(&at), rotor)
             }
@@ -278,11 +280,17 @@ struct Told<'a> {
 
 impl Told<'_> {
     #[inline(never)]
-    fn flown<const N: usize, const M: usize>(&mut self, begin: &Standing<N, M>, duration: f64) {
+    fn flown<const N: usize, const M: usize>(
+        &mut self,
+        begin: &Standing<N, M>,
+        end: &Phasors<N>,
+        duration: f64,
+    ) {
         let at = Standing::<MOST, MOST>::START.with(begin);
+        let end = end.of_most();
         self.observer.segment(&ModalSegment {
             all: self.all,
-            course: Course::Free(at.phasors),
+            course: Course::Free { begin: at.phasors, end },
             lines: at.lines,
             stuck: [0.0; MOST],
             turns: at.turns,

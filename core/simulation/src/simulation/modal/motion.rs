@@ -303,6 +303,12 @@ impl Kick<MOST_MODES> {
 }
 
 impl<const N: usize> Phasors<N> {
+    /// Those of as many modes as there can be.
+    pub fn of_most(&self) -> Phasors<MOST_MODES> {
+        let of = |k: usize| self.z.get(k).copied().unwrap_or_default();
+        Phasors { z: std::array::from_fn(of), rotor: self.rotor }
+    }
+
     /// A time `e` on, at most `1e-4` over the fastest rate: to the fourth order, which is to rounding.
     #[inline(always)]
     fn turned(&self, modes: &[ModeRates; N], frequency: f64, e: f64) -> Self {
