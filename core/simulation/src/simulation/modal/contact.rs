@@ -41,13 +41,14 @@ const RELAXATIONS: usize = 2000;
 
 type Vector = [f64; MOST];
 
-fn dot(a: &Vector, b: &Vector) -> f64 {
+fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// The inverse of the mass matrix with the masses of those that rest.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Inverse {
+    modes: usize,
     rows: [Vector; MOST],
     stuck: Vector,
 }
@@ -59,7 +60,7 @@ impl Inverse {
         for (k, row) in rows.iter_mut().enumerate() {
             row[k] = 1.0 / all.masses[k];
         }
-        let mut inverse = Self { rows, stuck: *stuck };
+        let mut inverse = Self { modes: all.modes, rows, stuck: *stuck };
         for j in (0..all.absorbers).filter(|j| stuck[*j] != 0.0) {
             let shape = all.shape(j);
             let moved = inverse.times(&shape);
@@ -73,7 +74,10 @@ impl Inverse {
     }
 
     fn times(&self, vector: &Vector) -> Vector {
-        std::array::from_fn(|k| dot(&self.rows[k], vector))
+        let mut product = [0.0; MOST];
+        let rows = product.iter_mut().zip(&self.rows).take(self.modes);
+        rows.for_each(|(one, row)| *one = dot(&row[..self.modes], vector));
+        product
     }
 }
 
@@ -115,11 +119,12 @@ impl HeldPanel {
         derivatives[1] = state.modes.map(|[_, v]| v);
         for n in 0..LAST - 1 {
             let (here, next) = (derivatives[n], derivatives[n + 1]);
-            let forces: Vector = std::array::from_fn(|k| {
+            let mut forces = [0.0; MOST];
+            for (k, one) in forces.iter_mut().enumerate().take(all.modes) {
                 let mode = &constants.modes[k];
                 let own = 2.0 * mode.decay * next[k] + mode.stiffness * here[k];
-                force[k] * swing[n % 2] - all.masses[k] * own
-            });
+                *one = force[k] * swing[n % 2] - all.masses[k] * own;
+            }
             derivatives[n + 2] = inverse.times(&forces);
             swing[n % 2] *= -squared;
         }
@@ -152,7 +157,7 @@ impl HeldPanel {
 
     pub(super) fn state(&self, s: f64) -> ModalState {
         let mut state = ModalState::default();
-        for (k, mode) in state.modes.iter_mut().enumerate() {
+        for (k, mode) in state.modes.iter_mut().enumerate().take(self.inverse.modes) {
             *mode = [self.mode(k, s, 0), self.mode(k, s, 1)];
         }
         state
@@ -160,8 +165,9 @@ impl HeldPanel {
 
     /// What is seen of it.
     pub(super) fn sight(&self, view: &View<MOST>) -> Sight {
+        let shape = &view.shape[..self.inverse.modes];
         Sight {
-            derivatives: std::array::from_fn(|n| dot(&view.shape, &self.derivatives[n])),
+            derivatives: std::array::from_fn(|n| dot(shape, &self.derivatives[n])),
             base: view.base,
             phase: self.phase,
             frequency: self.frequency,
@@ -186,6 +192,9 @@ pub(super) struct Sight {
 }
 
 impl Sight {
+    const NOTHING: Self =
+        Self { derivatives: [0.0; LAST + 1], base: 0.0, phase: 0.0, frequency: 0.0 };
+
     /// What a derivative of it, of a small order, looks like.
     pub(super) fn derivative(self, order: usize) -> Self {
         (0..order).fold(self, |of, _| {
@@ -371,7 +380,10 @@ impl ModalSimulation {
     pub(super) fn tow(&mut self, observer: &mut dyn ModalObserver) -> Result<(), Stop> {
         let (all, at) = (&self.all, &self.at);
         let panel = HeldPanel::of(all, &self.state(), at.phase, &self.inverse);
-        let sights: [Sight; MOST] = std::array::from_fn(|j| panel.sight(&all.constants.views[j]));
+        let mut sights = [Sight::NOTHING; MOST];
+        for (sight, view) in sights.iter_mut().zip(&all.constants.views).take(all.absorbers) {
+            *sight = panel.sight(view);
+        }
         let sizes = all.constants.sizes(&at.phasors);
         let mut bands =
             [CrossingBand { lower: f64::NEG_INFINITY, upper: f64::INFINITY, touch: 1.0 }; MOST];
