@@ -51,6 +51,8 @@ pub(super) struct AlongEffort {
     further: usize,
     /// Relative error to which the worst of what is looked at is to be known.
     tolerance: f64,
+    /// That of averages, and of impacts per period, under a load of one frequency; as a window says where there is none.
+    accuracy: Option<[f64; 2]>,
     /// Parts of the starts at each of the first frequencies, and at each between these, beside the motions of its neighbours.
     parts: [u32; 2],
     /// Most starts under a load of one frequency.
@@ -63,10 +65,22 @@ pub(super) struct AlongEffort {
 }
 
 impl AlongEffort {
-    /// What decides.
-    pub const FULL: Self = Self {
+    /// What decides, as exactly as a case asks for in `[accuracy]`.
+    pub fn of(case: &ModalCase) -> Self {
+        let Some(asked) = case.accuracy else { return Self::FULL };
+        let accuracy = Some([asked.amplitude(), asked.impacts_per_period()]);
+        let Some(tolerance) = asked.amplitude else { return Self { accuracy, ..Self::FULL } };
+        // What lies between two places falls with the square of their distance.
+        let closer = (Self::FULL.tolerance / tolerance).sqrt().clamp(1.0, CLOSEST);
+        let further = (closer * Self::FULL.further as f64).ceil() as usize;
+        Self { further, tolerance, accuracy, ..Self::FULL }
+    }
+
+    /// The usual one of that.
+    const FULL: Self = Self {
         further: 15,
         tolerance: 0.05,
+        accuracy: None,
         parts: [2, 4],
         at_one: u32::MAX,
         patience: [OF_MANY, IN_FULL],
@@ -76,6 +90,7 @@ impl AlongEffort {
     pub const COARSE: Self = Self {
         further: 6,
         tolerance: 0.1,
+        accuracy: None,
         parts: [3, 6],
         at_one: 16,
         patience: [OF_MANY, IN_FULL],
@@ -85,6 +100,7 @@ impl AlongEffort {
     pub const SCREENING: Self = Self {
         further: 4,
         tolerance: 0.1,
+        accuracy: None,
         parts: [3, 6],
         at_one: 8,
         patience: [0.0, 0.0],
@@ -92,6 +108,8 @@ impl AlongEffort {
     };
 }
 
+/// So many times as many places as usual at most, where a case asks for accuracy.
+const CLOSEST: f64 = 4.0;
 /// By how much a motion may grow on the way to a wall that no frequency beside it has.
 const MOST_GROWTH: f64 = 1.5;
 /// Least distance of frequencies over the narrower of a mode's width and what its absorbers add, and over the range.
@@ -111,7 +129,7 @@ pub fn seconds(case: &ModalCase) -> f64 {
     let size = (case.modes.len() * case.absorbers.len()) as f64;
     let of_load = |load: &Load| {
         let [from, to] = load.range_hz;
-        let most = first_and(AlongEffort::FULL.further, case, load);
+        let most = first_and(AlongEffort::of(case).further, case, load);
         let places = if from < to { 0.5 * most as f64 } else { 1.0 };
         let Ok(system) = case.system(load, load.centre(case)) else { return 0.0 };
         f64::from(case.starts_of(load)) * places * longest_flight(&system, case.periods)
@@ -202,7 +220,8 @@ impl Line for OfLoad<'_> {
         let steady = |at: f64| if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) };
         let look = |k: usize| {
             let Site { at, further, patience, .. } = &sites[k];
-            let effort = ModalEffort { starts, periods: case.periods, patience: patience * full };
+            let (periods, patience) = (case.periods, patience * full);
+            let effort = ModalEffort { starts, periods, patience, accuracy: None };
             AtFrequency::of(case, load, steady(*at), effort, further).map(|found| (k, found))
         };
         map(self.on, what, sites.len(), look).into_iter().collect()
@@ -291,7 +310,8 @@ impl AlongLoad {
         } else {
             let starts = case.starts_at_one.min(effort.at_one);
             let patience = effort.patience[1];
-            let effort = ModalEffort { starts, periods: case.periods, patience };
+            let (periods, accuracy) = (case.periods, effort.accuracy);
+            let effort = ModalEffort { starts, periods, patience, accuracy };
             let found = map(on, "motions along the loads", 1, |_| {
                 AtFrequency::of(case, load, from, effort, &[])
             });

@@ -89,7 +89,7 @@ impl OverForce {
             false => (case, case.starts_at_one),
         };
         let (periods, patience) = (usual.periods, ModalEffort::OF_MANY);
-        let effort = ModalEffort { starts, periods, patience };
+        let effort = ModalEffort { starts, periods, patience, accuracy: None };
         let look = |k: usize| {
             let (step, at) = (k / at.len(), at[k % at.len()]);
             let known = along.places.iter().find(|one| times[step] == 1.0 && one.at == at);

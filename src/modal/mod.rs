@@ -82,7 +82,7 @@ impl ModalAnswer {
     /// # Errors
     /// [`ModalError`] where a motion cannot be flown.
     pub fn of(case: &ModalCase, on: &dyn Executor) -> Result<Self, ModalError> {
-        Self::with(case, &AlongEffort::FULL, &[], on)
+        Self::with(case, &AlongEffort::of(case), &[], on)
     }
 
     /// The same with another effort, where these loads are known of the same structure with the same absorbers.
@@ -256,7 +256,7 @@ pub fn modes_alone(
             loads: vec![load],
             ..case.clone()
         };
-        let along = vec![AlongLoad::of(&alone, &load, &AlongEffort::FULL, on)?];
+        let along = vec![AlongLoad::of(&alone, &load, &AlongEffort::of(&alone), on)?];
         let worst = ModalAnswer::of_loads(along).worst(&alone, None);
         Ok(worst.map(|worst| [worst.found.value, worst.found.error]))
     });

@@ -77,7 +77,7 @@ impl Varies for ModalCase {
     fn judge(&self, known: &Known, how: Depth) -> Result<Vec<Judged>, ModalError> {
         let effort = match how {
             Depth::OnTheWay if !self.is_short() => AlongEffort::SCREENING,
-            _ => AlongEffort::FULL,
+            _ => AlongEffort::of(self),
         };
         // A load that is what it was does what it did.
         let Known { case, along } = known;

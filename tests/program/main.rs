@@ -33,6 +33,7 @@ mod live;
 mod live_several;
 mod metadata;
 mod modal;
+mod modal_accuracy;
 mod modal_alternatives;
 mod modal_criteria;
 mod modal_files;

@@ -725,7 +725,7 @@ fn a_window_of_the_case_counts() {
         let motions = modal_motions(
             &system,
             &sensors(&usual),
-            ModalEffort { starts: 1, periods, patience: ModalEffort::OF_MANY },
+            ModalEffort { starts: 1, periods, patience: ModalEffort::OF_MANY, accuracy: None },
             &[],
         )
         .expect("they fly");

@@ -32,6 +32,8 @@ pub(super) struct StartFlight<M: Model> {
     pub left_out: u64,
     /// Excitation periods over which it is measured then, where it does not repeat; 0 where it is not.
     pub window: u64,
+    /// Whether it is measured over all of them, whether it seems to repeat or not.
+    pub whole: bool,
 }
 
 /// What became of one.
@@ -62,12 +64,10 @@ pub(super) fn flown<'a, M: Model + 'a>(
     let (mut going, mut windows) = (Vec::new(), Vec::new());
     let periods: Vec<u64> = faded.iter().map(watched).collect();
     let watches = faded.iter().zip(&periods);
-    let repetition =
-        |one: &StartFlight<M>, far| M::watch_of_repetition(&one.flight, far, one.window == 0);
-    let watches = watches.map(|(one, far)| repetition(one, *far)).collect();
+    let watches = watches.map(|(one, far)| M::watch_of_repetition(&one.flight, *far)).collect();
     for (flight, mut watch, stop) in watched_over(faded, &periods, watches, most_impacts) {
         let trajectory = &flight.flight;
-        let repeats = M::repeats(&mut watch).is_some();
+        let repeats = !flight.whole && M::repeats(&mut watch).is_some();
         if let Some(state) = M::at_rest(trajectory) {
             done.push((flight, StartOutcome::Rests(state)));
         } else if stop == Stop::EndTime && flight.window == 0 && !repeats {
@@ -172,7 +172,7 @@ fn measured<M: Model>(
         (flights, watches) = (Vec::new(), Vec::new());
         let mut further = Vec::new();
         for ((flight, mut watch, stop), left) in ended.into_iter().zip(windows) {
-            let settled = M::repeats(&mut watch).is_some_and(|settled| settled);
+            let settled = !flight.whole && M::repeats(&mut watch).is_some_and(|settled| settled);
             if left <= stretch || stop != Stop::EndTime || settled {
                 let end = seen(&mut watch, &flight, stop);
                 done.push((flight, end));

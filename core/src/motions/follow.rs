@@ -38,7 +38,7 @@ pub fn follow(
             (None, None) => SettlingTime::of(system).periods,
         };
         let window = effort.periods;
-        flights.push(StartFlight { index, flight, before: 0, left_out, window });
+        flights.push(StartFlight { index, flight, before: 0, left_out, window, whole: false });
     }
     for round in 1..=ROUNDS {
         flights.iter_mut().for_each(|one| one.window = effort.periods * round);

@@ -73,8 +73,8 @@ pub(super) trait Model: Clone + PartialEq + Send + Sync {
 
     /// Measures a trajectory over a window of so many periods.
     fn watch(flight: &Self::Flight, window: u64) -> Self::Watch;
-    /// Sees whether a trajectory repeats in so many periods; whether that is all it is for, so that it need measure nothing.
-    fn watch_of_repetition(flight: &Self::Flight, periods: u64, alone: bool) -> Self::Watch;
+    /// Sees whether a trajectory repeats in so many periods; it need measure nothing.
+    fn watch_of_repetition(flight: &Self::Flight, periods: u64) -> Self::Watch;
     /// Whether what it has seen so far repeats; if so whether watching it any longer changes nothing.
     fn repeats(watch: &mut Self::Watch) -> Option<bool>;
     /// Whether it has seen no impact.
@@ -136,8 +136,8 @@ pub(super) trait LongTerm: Clone + Send + Sync {
 pub(super) trait Sample: Clone + Send {
     /// Why it ended.
     fn stop(&self) -> Stop;
-    /// Whether it has averages: not where it was only seen whether the trajectory repeats.
-    fn is_measured(&self) -> bool {
+    /// Whether it stands for a window of so many periods: one of a few in which a trajectory seemed to repeat may not.
+    fn covers(&self, _window: u64) -> bool {
         true
     }
     /// Its averages.

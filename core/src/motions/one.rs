@@ -120,7 +120,7 @@ impl Model for System {
         Watch::begin(flight)
     }
 
-    fn watch_of_repetition(flight: &Simulation, periods: u64, _alone: bool) -> Watch {
+    fn watch_of_repetition(flight: &Simulation, periods: u64) -> Watch {
         Watch::of_repetition(flight, periods)
     }
 

@@ -136,7 +136,14 @@ pub(super) fn searched<M: Model>(
             let flight = place.model.begin(start, 0.0)?;
             let left_out = ground.left_out;
             let index = of_place.len();
-            flights.push(StartFlight { index, flight, before: 0, left_out, window: 0 });
+            flights.push(StartFlight {
+                index,
+                flight,
+                before: 0,
+                left_out,
+                window: 0,
+                whole: false,
+            });
             of_place.push(number);
         }
         if place.model.comes_to_rest() {
@@ -277,9 +284,11 @@ impl<M: Model> Ground<M> {
             }
             StartOutcome::Seen(sample) => match self.identified(&sample) {
                 Identified::Known(known) => Some(known),
-                Identified::Open if !sample.is_measured() => {
+                // What it seemed to repeat is no motion that is known or proven.
+                Identified::Open if !(flight.whole || sample.covers(flight.window)) => {
                     self.patience.flown(flown);
-                    return Some(flight);
+                    let whole = flight.window > 0;
+                    return Some(StartFlight { whole, ..flight });
                 }
                 Identified::Open => {
                     self.patience.flown(flown);
@@ -291,7 +300,7 @@ impl<M: Model> Ground<M> {
                     let before = self.followed[start];
                     self.impacts[start] = 0;
                     let beside = self.model.pushed(M::end(&sample));
-                    self.open[start] = sample.is_measured().then_some(*sample);
+                    self.open[start] = sample.covers(flight.window).then_some(*sample);
                     return beside.map(|beside| StartFlight { flight: beside, before, ..flight });
                 }
             },
@@ -390,6 +399,7 @@ impl<M: Model> Ground<M> {
         };
         for flight in &mut open {
             (flight.left_out, flight.window) = (left_out, window);
+            flight.whole &= window > 0;
         }
         open
     }

@@ -25,7 +25,7 @@ const FORCE: f64 = 0.25 / 20.0;
 
 /// A search with so many starts.
 fn effort(starts: u32, periods: u64) -> ModalEffort {
-    ModalEffort { starts, periods, patience: ModalEffort::IN_FULL }
+    ModalEffort { starts, periods, patience: ModalEffort::IN_FULL, accuracy: None }
 }
 
 /// One mode with one absorber, lengths over the clearance.

@@ -89,6 +89,8 @@ pub struct ModalCase {
     pub page_units: crate::case::PageUnits,
     /// The table `[alternatives]`; its defaults where there is none.
     pub alternatives: crate::case::AlternativesSettings,
+    /// The table `[accuracy]`, if there is one.
+    pub accuracy: Option<crate::case::AccuracySettings>,
     /// The table `[uncertainty]`; nothing is uncertain where there is none.
     pub uncertainty: crate::case::Uncertainty,
     /// What `vinesink sweep` varies.

@@ -25,7 +25,9 @@ use crate::case::criteria::UPTO;
 use crate::case::error::CaseError;
 use crate::case::limits::{Asked, read_limits};
 use crate::case::reader::{Reader, Table, fields, kind};
-use crate::case::settings::{AlternativesSettings, PageUnits, SimulationSettings};
+use crate::case::settings::{
+    AccuracySettings, AlternativesSettings, PageUnits, SimulationSettings,
+};
 use crate::case::uncertainty::{UncertaintyOfSeveral, read_of_several};
 use crate::case::{Heading, refuse_units};
 use crate::excitation::Scene;
@@ -105,6 +107,7 @@ struct ModalTables {
     criteria: Option<ModalCriteriaTable>,
     optimize: Option<ModalOptimizeTable>,
     alternatives: Option<AlternativesSettings>,
+    accuracy: Option<AccuracySettings>,
     report: Option<ReportOfSeveral>,
     uncertainty: Option<UncertaintyOfSeveral>,
     sweep: Option<ModalSweepTable>,
@@ -277,6 +280,7 @@ pub(super) fn read(
     read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
     let alternatives = reader.settings::<AlternativesSettings>(&root, "alternatives");
+    let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
     let report = reader.optional::<ReportOfSeveral>(&root, "report").map(|(table, read)| {
         refuse_units(reader, &table, read.units, reduced.is_none());
         read.units
@@ -319,6 +323,7 @@ pub(super) fn read(
         bounds,
         page_units: report.unwrap_or_default(),
         alternatives: alternatives.unwrap_or_default(),
+        accuracy,
         uncertainty,
         sweep: None,
         warnings: Vec::new(),

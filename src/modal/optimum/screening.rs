@@ -36,7 +36,7 @@ impl<'a> Screening<'a> {
     /// By how much a candidate misses limits, or what it has of them; of one that comes to more than `most` no less than that.
     pub fn cost(&self, candidate: &ModalCase, most: f64) -> f64 {
         let Self { case, limits, .. } = self;
-        let few = ModalEffort { starts: FEW_STARTS, periods: 0, patience: 0.0 };
+        let few = ModalEffort { starts: FEW_STARTS, periods: 0, patience: 0.0, accuracy: None };
         let at_rest = case.loads.iter().flat_map(|load| farthest_at_rest(candidate, load));
         let at_rest: Vec<ModalMotion> = at_rest.map(|one| one.1).collect();
         let mut over: Vec<f64> = limits.iter().map(|one| over_limit(case, &at_rest, one)).collect();

@@ -22,6 +22,9 @@ pub struct ModalEffort {
     /// Part of the patience that starts which wander get where a case has one place, [`ModalEffort::IN_FULL`]: less where others beside
     /// the place are searched too, none where designs are only ranked.
     pub patience: f64,
+    /// Relative error of root mean squares, and error of impacts per period, to which what does not repeat is measured; as its window says
+    /// where there is none.
+    pub accuracy: Option<[f64; 2]>,
 }
 
 impl ModalEffort {
@@ -114,6 +117,7 @@ impl Search<'_> {
             periods: window(&system, self.effort.periods),
             patience: if patience > 0.0 { 1.0 } else { 0.0 },
             most_impacts: most_impacts(&system),
+            accuracy: self.effort.accuracy.filter(|_| rest.is_empty()),
             vague,
             ..Effort::default()
         };

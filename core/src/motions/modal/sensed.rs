@@ -232,12 +232,8 @@ impl Model for Sensed {
         ModalWatch::new(flight.of.system(), flight.of.sensors(), &flight.simulation, window)
     }
 
-    fn watch_of_repetition(flight: &SensedFlight, periods: u64, alone: bool) -> ModalWatch {
-        if alone {
-            ModalWatch::of_repetition(flight.of.system(), &flight.simulation, periods)
-        } else {
-            Self::watch(flight, periods)
-        }
+    fn watch_of_repetition(flight: &SensedFlight, periods: u64) -> ModalWatch {
+        ModalWatch::of_repetition(flight.of.system(), &flight.simulation, periods)
     }
 
     fn repeats(watch: &mut ModalWatch) -> Option<bool> {

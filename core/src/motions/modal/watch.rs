@@ -120,7 +120,18 @@ impl ModalWatch {
         let whole = ModalMotion::of(&reads, vec![course.clone()], None, true, course.periods);
         let (averages, repeats) = (whole.averages(), self.repeats());
         let is_measured = self.meter.is_some();
-        Some(ModalSample { begin, end, repeats, reads, course, averages, stop, is_measured })
+        let periods = self.course.periods + self.flown;
+        Some(ModalSample {
+            begin,
+            end,
+            repeats,
+            reads,
+            course,
+            averages,
+            stop,
+            is_measured,
+            periods,
+        })
     }
 
     fn end_stretch(&mut self) {
@@ -209,8 +220,9 @@ pub(in crate::motions) struct ModalSample {
     pub course: FlightCourse,
     averages: Averages,
     pub stop: Stop,
-    /// Whether anything was seen but whether it repeats.
+    /// Whether anything was seen but whether it repeats, and for how many periods.
     pub is_measured: bool,
+    periods: u64,
 }
 
 impl ModalSample {
@@ -235,8 +247,8 @@ impl Sample for ModalSample {
         self.stop
     }
 
-    fn is_measured(&self) -> bool {
-        self.is_measured
+    fn covers(&self, window: u64) -> bool {
+        self.is_measured && self.periods >= window
     }
 
     fn averages(&self) -> Averages {

@@ -91,7 +91,7 @@ pub struct ModalSegment<'a> {
 
 #[derive(Debug)]
 enum Course<'a> {
-    Free { begin: Phasors<MOST>, end: Phasors<MOST> },
+    Free { begin: &'a Phasors<MOST>, end: &'a Phasors<MOST> },
     Held(&'a HeldPanel),
 }
 
@@ -290,7 +290,7 @@ impl Told<'_> {
         let end = end.of_most();
         self.observer.segment(&ModalSegment {
             all: self.all,
-            course: Course::Free { begin: at.phasors, end },
+            course: Course::Free { begin: &at.phasors, end: &end },
             lines: at.lines,
             stuck: [0.0; MOST],
             turns: at.turns,
