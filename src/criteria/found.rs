@@ -76,8 +76,10 @@ impl Worst {
         let nearest = |settled: bool| {
             let of = all.iter().filter(|one| one.settled || !settled);
             of.min_by(|a, b| {
+                // A limit that is far from all of them makes none of them alike.
+                let size = a.value.abs().max(b.value.abs()).min(asked.limit.abs());
                 let [a, b] = [*a, *b].map(|one| (room(one), one.known_by == Method::Simulation));
-                let alike = (a.0 - b.0).abs() <= ROUNDING * asked.limit.abs();
+                let alike = (a.0 - b.0).abs() <= ROUNDING * size;
                 if alike { a.1.cmp(&b.1) } else { a.0.total_cmp(&b.0) }
             })
         };
@@ -145,4 +147,44 @@ pub(super) fn one_motion(of: &dyn Findings, asked: &Criterion) -> Judged {
     let inactive = here().find_map(|one| one.rest);
     Judged { load: one.load, at: one.at, inactive, ..judged }
         .or_undecided(open.filter(|_| certain.is_none()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(value: f64, known_by: Method) -> Found {
+        Found {
+            value,
+            error: 0.0,
+            own: 0.0,
+            load: 0,
+            at: None,
+            of: Of::Any,
+            motion: 0,
+            known_by,
+            settled: true,
+            followed: 0,
+            resting: [false; MOST_MODES],
+            rest: None,
+        }
+    }
+
+    /// Values are alike beside one another, whatever the limit: the one that is known best of those, else the worst.
+    #[test]
+    fn the_worst_is_the_worst_however_far_the_limit_is() {
+        let of = |limit: f64, values: [(f64, Method); 2]| {
+            let asked = Criterion::at_most(Measure::Peak, limit).expect("a limit");
+            let all = values.map(|(value, known_by)| found(value, known_by));
+            Worst::of(&all, &asked).expect("found").found.value
+        };
+        let (exact, seen) = (Method::ExactOrbit, Method::Simulation);
+        for limit in [1e-6, 2.0, 9e9] {
+            assert_eq!(of(limit, [(0.06, exact), (1.07, seen)]), 1.07, "{limit}");
+            assert_eq!(of(limit, [(1.07, seen), (0.06, exact)]), 1.07, "{limit}");
+        }
+        for limit in [2.0, 9e9] {
+            assert_eq!(of(limit, [(1.07, exact), (1.07 + 1e-12, seen)]), 1.07, "{limit}");
+        }
+    }
 }
