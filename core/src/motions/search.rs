@@ -287,8 +287,7 @@ impl<M: Model> Ground<M> {
                 // What it seemed to repeat is no motion that is known or proven.
                 Identified::Open if !(flight.whole || sample.covers(flight.window)) => {
                     self.patience.flown(flown);
-                    let whole = flight.window > 0;
-                    return Some(StartFlight { whole, ..flight });
+                    return Some(StartFlight { whole: true, ..flight });
                 }
                 Identified::Open => {
                     self.patience.flown(flown);
@@ -391,7 +390,13 @@ impl<M: Model> Ground<M> {
             return Vec::new();
         } else {
             let shared = (self.periods / count).max(self.model.shortest_window()).min(self.periods);
-            let wanted = if self.window == 0 { shared } else { 2 * self.window };
+            // One that only seemed to repeat makes up for it.
+            let makes_up = open.iter().any(|flight| flight.whole);
+            let wanted = match self.window {
+                0 => shared,
+                last if makes_up => last,
+                last => 2 * last,
+            };
             // What a case asks for takes what it takes.
             self.window = if again { wanted } else { self.model.window(wanted) };
             self.measured += busy(busiest) as usize;
