@@ -28,7 +28,7 @@ const MOST_OF_START: u64 = 400_000;
 const FEWEST_IMPACTS: u64 = 16;
 /// Impacts of starts that wander, times modes and absorbers, after which a place is given up: some seconds. What still wanders may then
 /// be a transient.
-const MOST_WANDERED: f64 = 6e6;
+const MOST_WANDERED: f64 = 8e6;
 /// Periods above which what has no impact is at rest: fewer may lie between two impacts.
 const SILENT: u64 = 40;
 
