@@ -10,9 +10,15 @@ use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use vinesink::analysis::Analysis;
+use vinesink::simulation::{
+    Measurement, ModalMeter, ModalObserver, ModalSimulation, Reading, Sensor, Simulation, Stop,
+    batch,
+};
+use vinesink::system::{
+    Cavity, ModalAbsorber, ModalParameters, ModalState, ModalSystem, Mode, Parameters, State,
+    System,
+};
 use vinesink::tradeoff::by_hand::{ByHand, Locate};
-use vinesink::simulation::{Measurement, Simulation, Stop, batch};
-use vinesink::system::{Cavity, Parameters, State, System};
 use vinesink_benches as common;
 
 const PERIODS: u64 = 200;
@@ -164,6 +170,53 @@ fn real_cavity(_: &mut Criterion) {
     }
 }
 
+/// A mast of three modes with a ball at its tip, driven at a frequency of the second or the third.
+fn mast(frequency_ratio: f64, driven: usize) -> ModalSystem {
+    let mode = |k: usize, frequency: f64| Mode {
+        frequency,
+        damping_ratio: 0.005,
+        mass: 30.0,
+        forcing: if k == driven { 2.5e-4 * frequency * frequency } else { 0.0 },
+        shape: vec![1.0],
+        ..Mode::default()
+    };
+    let modes = [1.0, 6.267, 17.55].into_iter().enumerate().map(|(k, of)| mode(k, of));
+    ModalSystem::new(ModalParameters {
+        modes: modes.collect(),
+        absorbers: vec![ModalAbsorber { mass: 3.0, clearance: 2.7e-3, restitution: 0.3 }],
+        frequency_ratio,
+        ..ModalParameters::default()
+    })
+    .expect("valid")
+}
+
+/// Sensors of displacements, and of velocities and accelerations as well, beside nobody.
+fn several(_: &mut Criterion) {
+    let tip = |reads| Sensor { reads, ..Sensor::displacement(vec![1.0; 3]) };
+    let middle = |reads| Sensor { reads, ..Sensor::displacement(vec![0.34, -0.71, 0.02]) };
+    for (frequency, driven) in [(5.86, 1), (17.2, 2)] {
+        let system = mast(frequency, driven);
+        let flown = |observer: &mut dyn ModalObserver| {
+            let mut simulation =
+                ModalSimulation::new(&system, &ModalState::AT_REST, 0.0).expect("inside");
+            assert_eq!(simulation.run(PERIODS, u64::MAX, observer), Stop::EndTime);
+            simulation.impacts()
+        };
+        let read = |reads: &[Reading]| {
+            let sensors = reads.iter().flat_map(|one| [tip(*one), middle(*one)]);
+            let mut meter = ModalMeter::new(&system, &sensors.collect::<Vec<_>>());
+            flown(&mut meter)
+        };
+        let all = [Reading::Displacement, Reading::Velocity, Reading::Acceleration];
+        println!(
+            "mast at {frequency}: time per impact over that of a flight that nobody watches, with the displacements of two \
+             places {:.2}, with velocities and accelerations too {:.2}",
+            per_impact(compare(|| flown(&mut ()), || read(&all[..1]))),
+            per_impact(compare(|| flown(&mut ()), || read(&all))),
+        );
+    }
+}
+
 fn analysis(criterion: &mut Criterion) {
     let system = system(7.5);
     let analyse = || Analysis::of(&system).expect("analysable").fixed_points.len() as u64;
@@ -186,6 +239,6 @@ criterion_group! {
         .sample_size(10)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(1));
-    targets = impacts, real_cavity, analysis
+    targets = impacts, real_cavity, several, analysis
 }
 criterion_main!(benches);

@@ -87,6 +87,7 @@ impl ModalCase {
         let told = if criteria_only { Decided::NOTHING } else { Decided::CHECKED };
         work::done(py, progress, |work| {
             let answer = self.decided(told, long, work)?;
+            answer.observe(work);
             json(&checked(&self.stem, &self.stem, &self.inner, &answer).document)
         })
     }

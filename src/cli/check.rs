@@ -122,6 +122,10 @@ fn judged(path: &Path, place: &str, stem: &str, arguments: &Arguments) -> Result
             let answer = several::answered(path, &case, arguments.long)?;
             let (_, told) = told(arguments);
             let answer = several::decided(path, &case, answer, told, arguments.long)?;
+            // Only that format has all motions.
+            if matches!(arguments.format, CheckFormat::Json) {
+                answer.observe(&Parallel);
+            }
             without_criteria(path, case.criteria.is_empty());
             Ok(modal::checked(place, stem, &case, &answer))
         }

@@ -96,7 +96,7 @@ impl ModalAnswer {
         own.in_contact(case, |shifted| Self::in_no_time(shifted, effort, &[], on))
     }
 
-    /// Sees what absorbers do in each of its motions, which `report` and `simulate` tell and nothing else asks for.
+    /// Sees what absorbers do in each of its motions, which documents with all motions tell and nothing else asks for.
     pub fn observe(&self, on: &dyn Executor) {
         let places = self.along.iter().flat_map(|along| &along.places);
         let all: Vec<&ModalMotion> = places.flat_map(|place| &place.motions).collect();
