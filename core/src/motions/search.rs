@@ -299,8 +299,16 @@ impl<M: Model> Ground<M> {
                     let before = self.followed[start];
                     self.impacts[start] = 0;
                     let beside = self.model.pushed(M::end(&sample));
-                    self.open[start] = sample.covers(flight.window).then_some(*sample);
-                    return beside.map(|beside| StartFlight { flight: beside, before, ..flight });
+                    // It may leave again and again: what it does over a window stands for it then.
+                    let stands = flight.whole || sample.covers(flight.window);
+                    let whole = flight.whole || !stands;
+                    self.open[start] = stands.then_some(*sample);
+                    return beside.map(|beside| StartFlight {
+                        flight: beside,
+                        before,
+                        whole,
+                        ..flight
+                    });
                 }
             },
         };
@@ -391,7 +399,7 @@ impl<M: Model> Ground<M> {
         } else {
             let shared = (self.periods / count).max(self.model.shortest_window()).min(self.periods);
             // One that only seemed to repeat makes up for it.
-            let makes_up = open.iter().any(|flight| flight.whole);
+            let makes_up = !measured && open.iter().any(|flight| flight.whole);
             let wanted = match self.window {
                 0 => shared,
                 last if makes_up => last,
