@@ -63,3 +63,16 @@ fn the_worst_along_a_range_is_known_as_well_as_is_asked() {
     assert!(usual.1 > 0.02 * usual.0 && asked.1 <= 0.01 * asked.0, "{usual:?} {asked:?}");
     assert!((asked.0 - usual.0).abs() <= usual.1 + asked.1, "{usual:?} {asked:?}");
 }
+
+/// A key that nothing reads is refused.
+#[test]
+fn other_motions_are_always_looked_for() {
+    let text = std::fs::read_to_string("cases/several/floor.toml").expect("a case");
+    let told = |table: &str| ModalCase::parse("case", &format!("{text}\n[accuracy]\n{table}\n"));
+    assert!(told("amplitude = '2 %'\nimpacts_per_period = 0.1").is_ok());
+    for value in ["true", "false"] {
+        let error = told(&format!("coexistence = {value}")).expect_err("a key that nothing reads");
+        let message = "`coexistence` has no meaning with several modes";
+        assert_eq!(error.problems().next().expect("one").message, message);
+    }
+}

@@ -280,7 +280,17 @@ pub(super) fn read(
     read_contact_times(reader, &root, upto, &criteria, &modes, &mut absorbers);
     let bounds = read_bounds(reader, &root, &places);
     let alternatives = reader.settings::<AlternativesSettings>(&root, "alternatives");
-    let accuracy = reader.settings::<AccuracySettings>(&root, "accuracy");
+    let accuracy = reader.optional::<AccuracySettings>(&root, "accuracy").map(|(table, read)| {
+        if table.has("coexistence") {
+            reader.report(
+                table.span_of("coexistence"),
+                "`coexistence` has no meaning with several modes",
+                "expected `amplitude` and `impacts_per_period` alone",
+                "leave it out: other motions are always looked for",
+            );
+        }
+        read
+    });
     let report = reader.optional::<ReportOfSeveral>(&root, "report").map(|(table, read)| {
         refuse_units(reader, &table, read.units, reduced.is_none());
         read.units

@@ -260,7 +260,7 @@ impl Model for Sensed {
 
     fn rests(&self, sample: &ModalSample) -> bool {
         let over = sample.repeats.exactly.is_some() || sample.course.periods > SILENT;
-        over && sample.is_measured && sample.course.is_silent()
+        over && sample.measured > 0 && sample.course.is_silent()
     }
 
     fn resting(&self, seen: Option<&ModalSample>) -> Option<ModalMotion> {
@@ -273,7 +273,7 @@ impl Model for Sensed {
 
     fn proof(&self, sample: &ModalSample) -> Proof<Self> {
         // What has no impact is at rest where that was measured.
-        if !sample.is_measured && sample.course.is_silent() {
+        if sample.measured == 0 && sample.course.is_silent() {
             return Proof::Open;
         }
         let (repeats, seen_as) = (&sample.repeats, || Box::new(sample.clone()));

@@ -60,26 +60,25 @@ impl ModalWatch {
         simulation: &ModalSimulation,
         stretch: u64,
     ) -> Self {
-        Self {
-            meter: Some(ModalMeter::new(system, sensors)),
-            ..Self::unmeasured(system, sensors, simulation, stretch)
-        }
+        Self::with(system, Some(sensors), simulation, stretch)
     }
 
     /// The same that only sees whether it repeats.
     pub fn of_repetition(system: &ModalSystem, simulation: &ModalSimulation, periods: u64) -> Self {
-        Self::unmeasured(system, &[], simulation, periods)
+        Self::with(system, None, simulation, periods)
     }
 
-    fn unmeasured(
+    fn with(
         system: &ModalSystem,
-        sensors: &[Sensor],
+        sensors: Option<&[Sensor]>,
         simulation: &ModalSimulation,
         stretch: u64,
     ) -> Self {
+        let meter = sensors.map(|sensors| ModalMeter::new(system, sensors));
+        let sensors = sensors.unwrap_or_default();
         Self {
             begin: simulation.state(),
-            meter: None,
+            meter,
             reads: sensors.iter().map(|one| one.reads).collect(),
             states: Vec::new(),
             stretch,
@@ -119,19 +118,8 @@ impl ModalWatch {
         let (reads, course) = (self.reads.clone(), self.course.clone());
         let whole = ModalMotion::of(&reads, vec![course.clone()], None, true, course.periods);
         let (averages, repeats) = (whole.averages(), self.repeats());
-        let is_measured = self.meter.is_some();
-        let periods = self.course.periods + self.flown;
-        Some(ModalSample {
-            begin,
-            end,
-            repeats,
-            reads,
-            course,
-            averages,
-            stop,
-            is_measured,
-            periods,
-        })
+        let measured = self.meter.as_ref().map_or(0, |_| self.course.periods + self.flown);
+        Some(ModalSample { begin, end, repeats, reads, course, averages, stop, measured })
     }
 
     fn end_stretch(&mut self) {
@@ -220,9 +208,8 @@ pub(in crate::motions) struct ModalSample {
     pub course: FlightCourse,
     averages: Averages,
     pub stop: Stop,
-    /// Whether anything was seen but whether it repeats, and for how many periods.
-    pub is_measured: bool,
-    periods: u64,
+    /// Periods that it was measured over; 0 where it was only seen whether it repeats.
+    pub measured: u64,
 }
 
 impl ModalSample {
@@ -248,7 +235,7 @@ impl Sample for ModalSample {
     }
 
     fn covers(&self, window: u64) -> bool {
-        self.is_measured && self.periods >= window
+        self.measured >= window.max(1)
     }
 
     fn averages(&self) -> Averages {

@@ -10,7 +10,7 @@ use crate::simulation::certificate::{Hull, Quintic};
 use crate::simulation::phasor::Slack;
 
 /// Share of a peak by which it may be too small.
-pub const PEAK_ERROR: f64 = 1e-13;
+const PEAK_ERROR: f64 = 1e-13;
 /// Most divisions of a panel, of what is level to rounding, and most parts that wait.
 const MOST_PARTS: usize = 200;
 const MOST_OPEN: usize = 64;
