@@ -81,7 +81,15 @@ impl Report {
         }
         let equations = equations::groups(case, self.answer.studied()?);
         let units = case.units();
-        Ok(render::files(&self.document, &equations, &units, &self.figures, on)?)
+        let files = render::files(
+            "steady.md",
+            &self.document,
+            Some(&equations),
+            &units,
+            &self.figures,
+            on,
+        )?;
+        Ok(render::with_document(files, &self.document))
     }
 }
 

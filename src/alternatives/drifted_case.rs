@@ -1,7 +1,7 @@
 //! A structure whose natural frequency may be off, with a linear device or none.
 
 use super::drifting::{Dampers, Drifting};
-use super::{DESIGN, Known, Room, compared_by};
+use super::{DESIGN, Known, Room, compared, compared_by};
 use crate::band::{Survey, SurveySettings, Worst};
 use crate::case::Case;
 use crate::criteria;
@@ -150,7 +150,7 @@ impl Drifting for DriftedCase<'_> {
             if measure != Measure::Peak {
                 let settings = SurveySettings { effort: Some(effort), ..criteria::settings(case) };
                 let survey = Survey::of(&case.range(), &settings, None, on)?;
-                return Ok(by_first_criterion(case, &survey).map(|(found, _)| found));
+                return Ok(by_criterion(case, &survey).map(|(found, _)| found));
             }
             let found = along(&case.range(), &[], None, Some(&effort), on)?;
             let worst = Worst::of(&found, case.count_inactive);
@@ -189,9 +189,11 @@ pub(super) fn asked(case: &Case) -> Measure {
     }
 }
 
-/// What the first criterion of a case that is driven steadily found, and whether in an absorber that stays at rest.
-fn by_first_criterion(case: &Case, survey: &Survey) -> Option<([f64; 2], bool)> {
-    let judged = criteria::judge(case, survey).into_iter().next()?;
+/// What the criterion by which devices are compared found, of a case that is driven steadily, and whether in an absorber that stays at
+/// rest.
+fn by_criterion(case: &Case, survey: &Survey) -> Option<([f64; 2], bool)> {
+    let judged = criteria::judge(case, survey);
+    let judged = compared(&judged)?;
     Some(([judged.found?, judged.error], judged.inactive.is_some()))
 }
 
@@ -204,7 +206,7 @@ pub(super) fn own(case: &Case, known: Known<'_>, measure: Measure) -> Option<([f
         return Some(([found.value, found.error], inactive));
     }
     if measure != Measure::Peak {
-        return by_first_criterion(case, known.survey?);
+        return by_criterion(case, known.survey?);
     }
     let worst = known.survey?.worst()?;
     let peak = [worst.peak.value, worst.peak.error].map(|one| units.length(one));

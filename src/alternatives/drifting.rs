@@ -75,12 +75,12 @@ pub(crate) trait Drifting: Sized {
     /// get that damping ratio or as much more as their room asks for.
     fn designed(
         &self,
-        others: &[Self],
+        others: &[&Self],
         from: &Self::Dampers,
         room: Room,
         damping: Option<f64>,
     ) -> Self::Dampers {
-        let all: Vec<&Self> = others.iter().chain([self]).collect();
+        let all: Vec<&Self> = others.iter().copied().chain([self]).collect();
         let within = match room {
             Room::AsDesigned => f64::INFINITY,
             _ => self.room(),

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::band::Survey;
 use crate::case::{AlternativesSettings, Case, Criterion, Of, Relation};
+use crate::criteria::Judged;
 use crate::dampers::{AtBound, Designing};
 use crate::executor::{Executor, map};
 use crate::flights::DrivenError;
@@ -139,10 +140,15 @@ impl Alternatives {
     }
 }
 
-/// What devices are compared by where they are driven steadily: what the first criterion asks about, where dampers have a closed form
-/// of it; else the peak of any place.
+/// What devices are compared by where they are driven steadily: the first criterion, in the order of a page, of which dampers have a
+/// closed form; else the peak of any place.
 pub(crate) fn compared_by(criteria: &[Criterion]) -> Option<&Criterion> {
-    criteria.first().filter(|one| one.measure.of_sine(1.0, 1.0).is_some())
+    criteria.iter().find(|one| one.measure.of_sine(1.0, 1.0).is_some())
+}
+
+/// The same as it was judged.
+pub(crate) fn compared(judged: &[Judged]) -> Option<&Judged> {
+    judged.iter().find(|one| one.criterion.measure.of_sine(1.0, 1.0).is_some())
 }
 
 /// What is asked at most of a measure of a place, or of any.
@@ -191,12 +197,17 @@ impl<D: Dampers> Alternatives<D> {
         // Designs for a drift are of no use at a single frequency.
         let robust = drifts.iter().filter(|_| !here.is_of_one_frequency()).map(Some);
         let kinds: Vec<Option<&(f64, Vec<S>)>> = [None, None].into_iter().chain(robust).collect();
+        // A damper that bears a drift bears every smaller one: what is best at the ends may be worse between them.
+        let up_to = |drift: f64| {
+            let smaller = drifts.iter().filter(move |(other, _)| *other <= drift);
+            smaller.flat_map(|(_, ends)| ends).collect::<Vec<&S>>()
+        };
         let metal = Some(settings.damper_damping);
         let designed = |k: usize| {
             let (kind, from) = (k / usual.len(), &usual[k % usual.len()]);
             let as_designed = Room::AsDesigned;
             match kinds[kind] {
-                Some((_, ends)) => here.designed(ends, from, as_designed, None),
+                Some((drift, _)) => here.designed(&up_to(*drift), from, as_designed, None),
                 None if kind == 0 => here.designed(&[], from, Room::Equal, None),
                 None => here.designed(&[], from, as_designed, metal),
             }
@@ -231,9 +242,10 @@ impl<D: Dampers> Alternatives<D> {
                 found.rows.extend(off);
             }
         }
-        for (drift, ends) in kinds.iter().flatten() {
+        for (drift, _) in kinds.iter().flatten() {
             let told = next().into_iter().map(|row| Row { robust_for: *drift, ..row });
-            let told = told.filter_map(|row| row.at(ends.iter().chain([here]), *drift));
+            let told =
+                told.filter_map(|row| row.at(up_to(*drift).into_iter().chain([here]), *drift));
             let mut alike: Vec<Row<D>> = told.collect();
             alike.sort_by(by_worst);
             found.rows.extend(alike);

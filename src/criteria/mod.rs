@@ -113,22 +113,30 @@ pub fn needs_simulation(criteria: &[Criterion]) -> bool {
 }
 
 /// Whether a structure that is driven steadily meets what is asked of it without an absorber too; not where only an absorber
-/// can, or nothing is asked of the structure.
+/// can, or nothing is asked of the structure. `largest` says to how much of a measure that has a closed form it comes alone.
+pub(crate) fn kept_alone(
+    criteria: &[Criterion],
+    largest: impl Fn(&Criterion) -> Option<f64>,
+) -> bool {
+    let of_absorbers = [Measure::ImpactSpeed, Measure::ImpactsPerPeriod, Measure::NoCoexistence];
+    let mut of_structure =
+        criteria.iter().filter(|one| !of_absorbers.contains(&one.measure)).peekable();
+    let keeps = |one: &Criterion| {
+        one.relation == Relation::AtMost && largest(one).is_some_and(|most| most <= one.limit)
+    };
+    of_structure.peek().is_some() && of_structure.all(keeps)
+}
+
+/// The same of a case with one mode.
 pub fn kept_without_absorber(case: &Case) -> bool {
     let (range, units) = (case.range(), case.units());
     let along = BandSystems::of(&range);
-    let keeps = |one: &Criterion| match (one.measure, one.measure.kind(Device::Without)) {
-        (Measure::ImpactSpeed | Measure::ImpactsPerPeriod | Measure::NoCoexistence, _) => None,
-        (measure, Some(kind))
-            if measure.of_sine(1.0, 1.0).is_some() && one.relation == Relation::AtMost =>
-        {
-            let largest = measure.largest_of_sines(&along, bare_amplitude);
-            Some(units.number(kind.dimension, largest) <= one.limit)
-        }
-        _ => Some(false),
+    let largest = |one: &Criterion| {
+        one.measure.of_sine(1.0, 1.0)?;
+        let kind = one.measure.kind(Device::Without)?;
+        Some(units.number(kind.dimension, one.measure.largest_of_sines(&along, bare_amplitude)))
     };
-    let kept: Vec<bool> = case.criteria.iter().filter_map(keeps).collect();
-    case.design.transient().is_none() && !kept.is_empty() && !kept.contains(&false)
+    case.design.transient().is_none() && kept_alone(&case.criteria, largest)
 }
 
 /// What a survey has to look at to judge a case: nothing is simulated that no criterion needs. The worst

@@ -8,7 +8,7 @@ use super::linear::{
     response,
 };
 use super::{ModalAnswer, ModalError};
-use crate::alternatives::{Alternatives, Drifting, Own, Room, compared_by};
+use crate::alternatives::{Alternatives, Drifting, Own, Room, compared, compared_by};
 use crate::case::{ActsOn, Criterion, Load, ModalCase, Of};
 use crate::dampers::Designing;
 use crate::executor::Executor;
@@ -160,8 +160,7 @@ impl Drifting for DriftedStructure {
 
 /// What devices are compared by as the absorbers have it, with its error, and whether they rest in that motion.
 fn own(case: &ModalCase, answer: &ModalAnswer) -> Option<([f64; 2], bool)> {
-    if compared_by(&case.criteria).is_some() {
-        let judged = answer.judged.first()?;
+    if let Some(judged) = compared(&answer.judged) {
         return Some(([judged.found?, judged.error], judged.inactive.is_some()));
     }
     let worst = answer.worst(case, None)?.found;

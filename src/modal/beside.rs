@@ -1,6 +1,7 @@
 //! What a report has beside the motions along the loads.
 
 use super::alternatives::choices;
+use super::claims::{LoadClaim, claims};
 use super::dampers::DamperChoice;
 use super::forces::OverForce;
 use super::orbits::at_resonances;
@@ -21,6 +22,8 @@ pub struct Beside {
     pub forces: Vec<Option<OverForce>>,
     /// What theory says of the modes that the loads drive.
     pub theory: Vec<LoadTheory>,
+    /// What theory and exact orbits claim.
+    pub claims: Vec<LoadClaim>,
 }
 
 impl Beside {
@@ -47,7 +50,8 @@ impl Beside {
         };
         dampers.sort_by_key(|one| one.dampers.each.len());
         let orbits = at_resonances(case)?;
+        let claims = claims(case, &orbits, on)?;
         let theory = orbits.into_iter().filter_map(|one| one.theory).collect();
-        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, theory })
+        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, theory, claims })
     }
 }

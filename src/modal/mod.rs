@@ -6,6 +6,7 @@
 mod along;
 mod alternatives;
 mod beside;
+mod claims;
 mod cost;
 mod dampers;
 mod forces;
@@ -36,6 +37,7 @@ use ranges::Known;
 pub use along::{AlongLoad, AtFrequency, seconds};
 pub use alternatives::{choices, seconds_of_designs};
 pub use beside::Beside;
+pub use claims::{LoadClaim, claims};
 pub use dampers::{DamperChoice, PlacedDampers};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};

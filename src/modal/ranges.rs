@@ -5,7 +5,7 @@ use super::along::AlongEffort;
 use super::linear::linear_most;
 use super::{AlongLoad, ModalAnswer, ModalError, judge};
 use crate::case::{Criterion, ModalCase, Uncertainty};
-use crate::criteria::Judged;
+use crate::criteria::{Judged, kept_alone};
 use crate::executor::Serial;
 use crate::operating_range::{Depth, Together, Uncertain, Varied, Varies};
 use crate::system::Parameter;
@@ -87,12 +87,7 @@ impl Varies for ModalCase {
     }
 
     fn kept_without_absorber(&self) -> bool {
-        let kept = self
-            .criteria
-            .iter()
-            .filter_map(|one| linear_most(self, one, &[]).map(|value| one.part(value) <= 1.0));
-        let kept: Vec<bool> = kept.collect();
-        !kept.is_empty() && !kept.contains(&false)
+        kept_alone(&self.criteria, |one| linear_most(self, one, &[]))
     }
 
     fn criteria(&self) -> &[Criterion] {

@@ -48,6 +48,11 @@ pub struct GroupTheory {
 }
 
 impl LoadTheory {
+    /// Amplitude of the first harmonic of an orbit in the mode that is driven, at the place where that moves farthest, in m.
+    pub(super) fn amplitude(&self, case: &ModalCase, orbit: &ModalOrbit) -> f64 {
+        case.modes[self.mode].shape[self.place].abs() * orbit.harmonics[self.mode]
+    }
+
     /// That of a load and a frequency in Hz whose exact orbits are known.
     pub(super) fn of(
         case: &ModalCase,
@@ -79,12 +84,8 @@ impl LoadTheory {
                 collisions: collisions.iter().map(|[_, forcing]| forcing * times).collect(),
             }
         });
-        let admissible = orbits.iter().filter(|orbit| orbit.admissible);
-        let amplitude = |orbit: &ModalOrbit| (farthest * orbit.harmonics[mode], orbit.stable());
-        let mut exact: Vec<(f64, bool)> = admissible.map(amplitude).collect();
-        exact.sort_by(|a, b| a.0.total_cmp(&b.0));
         let of_mode = |k: usize| (k, scattered(UnforcedMode::of(&system, k)));
-        Some(Self {
+        let mut theory = Self {
             load: number,
             at,
             mode,
@@ -92,7 +93,12 @@ impl LoadTheory {
             restitutions: effective_restitutions(&system, mode)?,
             scattered: others.map(of_mode).collect(),
             group,
-            exact,
-        })
+            exact: Vec::new(),
+        };
+        let admissible = orbits.iter().filter(|orbit| orbit.admissible);
+        let exact = admissible.map(|orbit| (theory.amplitude(case, orbit), orbit.stable()));
+        theory.exact = exact.collect();
+        theory.exact.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Some(theory)
     }
 }

@@ -40,41 +40,44 @@ pub fn is_of_report(file: &Path) -> bool {
     drawing && !FIGURES_OF_OTHERS.contains(&name) && !name.starts_with(FIGURES_OF_SWEEP)
 }
 
-/// The files of a report's folder, by their path in it.
+/// The files of a report's folder, by their path in it; the page by a template, which gets the figures beside its facts. Of a
+/// structure for which equations are written out they are pages too.
 ///
 /// # Errors
 /// [`RenderError`] says which part cannot be rendered.
 pub fn files(
+    template: &str,
     document: &Value,
-    equations: &[Value],
+    equations: Option<&[Value]>,
     units: &Units,
     figures: &[Figure],
     on: &dyn Executor,
 ) -> Result<Files, RenderError> {
     let drawings = drawings(figures, on)?;
     let page = |name: &str| template::render(name, units, document);
-    let (report, validation) = (page("steady.md")?, page("validation.md")?);
-    let equations = json!({
-        "title": document["title"], "length_unit": units.length_symbol(), "equations": equations,
-    });
-    let equations = |name: &str| template::render(name, units, &equations);
+    let (report, validation) = (page(template)?, page("validation.md")?);
     // The page has everything; the file beside it, which is under review, what is short.
-    let whole = [
-        report.clone(),
-        appendix("validation", &validation),
-        appendix("equations", &equations("equations-all.md")?),
-    ];
+    let mut whole = report.clone() + "\n" + &appendix("validation", &validation);
+    let mut pages = vec![("report.md", report), ("validation.md", validation)];
+    if let Some(equations) = equations {
+        let facts = json!({
+            "title": document["title"], "length_unit": units.length_symbol(), "equations": equations,
+        });
+        let page = |name: &str| template::render(name, units, &facts);
+        whole = whole + "\n" + &appendix("equations", &page("equations-all.md")?);
+        pages.push(("equations.md", page("equations.md")?));
+    }
     let tone = document["verdict"]["tone"].as_str().unwrap_or_default();
-    let html = html::page(tone, &whole.join("\n"), &drawings)?;
+    pages.push(("report.html", html::page(tone, &whole, &drawings)?));
     let mut files = figure_files(drawings);
-    files.extend(texts([
-        ("report.md".into(), report),
-        ("validation.md".into(), validation),
-        ("equations.md".into(), equations("equations.md")?),
-        ("report.html".into(), html),
-        ("report.json".into(), format!("{}\n", in_lines(document, 0))),
-    ]));
+    files.extend(texts(pages.into_iter().map(|(name, text)| (name.to_owned(), text))));
     Ok(files)
+}
+
+/// `report.json` among the files of a report.
+pub fn with_document(mut files: Files, document: &Value) -> Files {
+    files.extend(texts([("report.json".to_owned(), format!("{}\n", in_lines(document, 0)))]));
+    files
 }
 
 /// The files of a page in a case's folder: `NAME.md` by a template, which gets the figures beside its facts, their
@@ -110,7 +113,7 @@ fn texts(
 const LINE: usize = 120;
 
 /// JSON with each quantity on a line of its own: a number that changes is a line that changes.
-pub(super) fn in_lines(value: &Value, indent: usize) -> String {
+fn in_lines(value: &Value, indent: usize) -> String {
     let line = value.to_string();
     let inner = indent + 2;
     let (parts, [open, close]): (Vec<String>, _) = match value {

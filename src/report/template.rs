@@ -51,7 +51,7 @@ use crate::quantity::{Units, numbers};
 /// The files of `templates/`, by their path in it without `.tera`, and their texts.
 const TEMPLATES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/templates.rs"));
 /// Files of components, which every template may use.
-const COMPONENTS: [&str; 4] = ["components", "modal", "optimize", "evidence"];
+const COMPONENTS: [&str; 4] = ["components", "loads", "optimize", "evidence"];
 /// How a component begins.
 const COMPONENT: &str = "{%- component ";
 

@@ -83,7 +83,11 @@ pub fn fixed_points(cavity: &CavityAnalysis, exact: &FullSystem) -> Vec<Claim> {
         let agrees = nearest.is_some_and(|(orbit, _)| orbit.attracts() == point.stable);
         let (absorber_amplitude, stable) = (own.absorber_amplitude, point.stable);
         claims.push(Claim::of_outcome(
-            Statement::Stability { point: index + 1, absorber_amplitude, stable },
+            Statement::Stability {
+                point: index + 1,
+                absorber_amplitude: Some(absorber_amplitude),
+                stable,
+            },
             [Finding::Stability { stable, multiplier: None }, observed],
             Reason::NearestOrbit,
             Verdict::of(agrees),

@@ -34,8 +34,8 @@ impl Verdict {
 #[serde(tag = "about", rename_all = "kebab-case")]
 #[allow(missing_docs, reason = "each variant says what its fields are")]
 pub enum Statement {
-    /// Whether a fixed point, at `B/b`, is stable.
-    Stability { point: usize, absorber_amplitude: f64, stable: bool },
+    /// Whether a fixed point is stable; of one absorber at `B/b`.
+    Stability { point: usize, absorber_amplitude: Option<f64>, stable: bool },
     /// An amplitude or phase of a fixed point.
     FixedPoint { point: usize, symbol: &'static str },
     /// Clearance of a boundary of steady 1:1 resonance.
@@ -161,6 +161,8 @@ pub enum Reason {
     /// Terms that the expansion neglects: `eps (2 + abs(sigma) + lambda)`; whether that is so wide that
     /// agreement means nothing.
     NeglectedTerms { says_nothing: bool },
+    /// The same beside other modes, and what these move where impacts are.
+    OtherModes { says_nothing: bool },
     /// Twice that: at a boundary two conditions meet, each with that error.
     TwoConditions { says_nothing: bool },
     /// The neglected terms, and what a forcing that is off by as much would change.
@@ -223,7 +225,7 @@ pub struct Claim {
 
 impl Claim {
     /// About an outcome that either happens or does not.
-    pub(super) fn of_outcome(
+    pub(crate) fn of_outcome(
         statement: Statement,
         [predicted, observed]: [Finding; 2],
         reason: Reason,
@@ -243,7 +245,7 @@ impl Claim {
     }
 
     /// About a number; without a verdict where the tolerance is so wide that agreement would mean nothing.
-    pub(super) fn of_number(
+    pub(crate) fn of_number(
         statement: Statement,
         [predicted, observed]: [f64; 2],
         tolerance: f64,

@@ -34,7 +34,11 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
         };
         let agrees = orbit.is_some_and(|orbit| orbit.orbit.attracts() == stable);
         claims.push(Claim::of_outcome(
-            Statement::Stability { point: number, absorber_amplitude, stable },
+            Statement::Stability {
+                point: number,
+                absorber_amplitude: Some(absorber_amplitude),
+                stable,
+            },
             [Finding::Stability { stable, multiplier: None }, observed],
             Reason::NearestOrbit,
             if unsolved { Verdict::Undecided } else { Verdict::of(agrees) },
@@ -45,24 +49,29 @@ pub fn fixed_points(analysis: &Analysis, exact: &FullSystem) -> Vec<Claim> {
     claims
 }
 
-/// The exact orbit that a fixed point stands for: the nearest in the absorber's amplitude, if no
-/// other fixed point is nearer to it. Next to a saddle-node two points move apart with the root of
-/// the distance from it, and so does their error.
+/// The exact orbit that a fixed point stands for, by the absorber's amplitude.
 fn counterpart<'a>(
     analysis: &Analysis,
     exact: &'a FullSystem,
     point: &FixedPoint,
 ) -> Option<&'a SymmetricOrbit> {
-    let distance = |orbit: &SymmetricOrbit, point: &FixedPoint| {
-        (orbit.absorber_amplitude / point.absorber_amplitude - 1.0).abs()
-    };
-    let nearest =
-        exact.orbits.iter().min_by(|a, b| distance(a, point).total_cmp(&distance(b, point)))?;
-    let mine = distance(nearest, point);
-    let error = asymptotic_error(&analysis.system);
-    let others = analysis.fixed_points.iter();
-    let nearer = others.filter(|other| distance(nearest, other) < mine).count();
-    (nearer == 0 && mine < (2.0 * error).max(error.sqrt())).then_some(nearest)
+    let orbits: Vec<f64> = exact.orbits.iter().map(|one| one.absorber_amplitude).collect();
+    let points = analysis.fixed_points.iter().map(|one| one.absorber_amplitude);
+    let points: Vec<f64> = points.collect();
+    let found =
+        nearest(point.absorber_amplitude, &points, &orbits, asymptotic_error(&analysis.system));
+    found.map(|k| &exact.orbits[k])
+}
+
+/// Of the amplitudes of orbits that which stands for a fixed point with an amplitude: the nearest, if no other fixed point is nearer
+/// to it. Next to a saddle-node two points move apart with the root of the distance from it, and so does their error.
+pub(crate) fn nearest(point: f64, points: &[f64], orbits: &[f64], error: f64) -> Option<usize> {
+    let distance = |orbit: f64, point: f64| (orbit / point - 1.0).abs();
+    let of = |k: &usize| distance(orbits[*k], point);
+    let found = (0..orbits.len()).min_by(|a, b| of(a).total_cmp(&of(b)))?;
+    let mine = of(&found);
+    let nearer = points.iter().filter(|other| distance(orbits[found], **other) < mine).count();
+    (nearer == 0 && mine < (2.0 * error).max(error.sqrt())).then_some(found)
 }
 
 fn amplitudes(

@@ -12,7 +12,7 @@ use crate::simulation::{Simulation, StartError};
 use crate::system::System;
 
 /// Disturbance of the absorber's speed, relative: linear, and far above rounding.
-const DISTURBANCE: f64 = 1e-6;
+pub(crate) const DISTURBANCE: f64 = 1e-6;
 /// Factor by which a disturbance must shrink or grow to be seen.
 const SEEN: f64 = 100.0;
 /// Periods that this may take.
@@ -58,42 +58,58 @@ fn repeats(system: &System, orbit: &Orbit, number: usize) -> Result<Option<Claim
     simulation.run(1, u64::MAX, &mut ());
     let size = 1.0 + peaks.displacement + peaks.velocity;
     let missed = before.distance(&simulation.state()) / size;
-    let tolerance = CLOSES * orbit.radius_per_period().max(1.0);
+    Ok(Some(closes(number, missed, orbit.radius_per_period())))
+}
+
+/// That an orbit repeats, by how far a simulation misses its start after a period, over the size of the motion.
+pub(crate) fn closes(number: usize, missed: f64, multiplier: f64) -> Claim {
+    let tolerance = CLOSES * multiplier.max(1.0);
     let claim = Claim::of_outcome(
         Statement::Repeats { orbit: number },
         [Finding::Repeats, Finding::Misses { by: missed }],
         Reason::Growth,
         Verdict::of(missed <= tolerance),
     );
-    Ok(Some(Claim { difference: Some(missed), tolerance, ..claim }))
+    Claim { difference: Some(missed), tolerance, ..claim }
 }
 
 fn shrinks(system: &System, orbit: &Orbit, number: usize) -> Result<Option<Claim>, StartError> {
-    let multiplier = orbit.radius_per_period();
-    let needed = (libm::log(SEEN) / libm::log(multiplier).abs()).ceil();
-    // Too close to a bifurcation to be seen, or too fast to be followed.
-    if !(1.0..=LONGEST).contains(&needed) {
-        return Ok(None);
-    }
-    let dies_out = multiplier < 1.0;
     let after = orbit.cycle.impacts[0];
     let disturbed = AfterImpact { y_velocity: after.y_velocity * (1.0 + DISTURBANCE), ..after };
     let mut reference = begun(system, &after)?;
     let mut simulation = begun(system, &disturbed)?;
-    let periods = needed as u64;
     let first = reference.state().distance(&simulation.state());
     // An unstable reference leaves as well: rounding grows with the disturbance, from far below it.
-    for _ in 0..periods {
-        reference.run(1, u64::MAX, &mut ());
-        simulation.run(1, u64::MAX, &mut ());
+    let left = |periods: u64| {
+        for _ in 0..periods {
+            reference.run(1, u64::MAX, &mut ());
+            simulation.run(1, u64::MAX, &mut ());
+        }
+        reference.state().distance(&simulation.state()) / first
+    };
+    Ok(followed(number, orbit.radius_per_period(), left))
+}
+
+/// That a disturbance of an orbit dies out or grows as its largest multiplier says, by the share of one that is left after so many
+/// periods as it should take to change a hundredfold; none where that is too long, or too fast to be followed.
+pub(crate) fn followed(
+    number: usize,
+    multiplier: f64,
+    left: impl FnOnce(u64) -> f64,
+) -> Option<Claim> {
+    let needed = (libm::log(SEEN) / libm::log(multiplier).abs()).ceil();
+    if !(1.0..=LONGEST).contains(&needed) {
+        return None;
     }
-    let share = reference.state().distance(&simulation.state()) / first;
-    Ok(Some(Claim::of_outcome(
+    let dies_out = multiplier < 1.0;
+    let periods = needed as u64;
+    let share = left(periods);
+    Some(Claim::of_outcome(
         Statement::Disturbance { orbit: number, multiplier },
         [Finding::Disturbance { dies_out }, Finding::Left { share, periods }],
         Reason::Followed,
         Verdict::of((share < 1.0) == dies_out),
-    )))
+    ))
 }
 
 /// On either side of each limit of stability next to the case: the motion stays, or leaves.

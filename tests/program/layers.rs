@@ -89,6 +89,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "quantity",
             "simulation",
             "system",
+            "validation",
         ],
     ),
     // What all commands know of a case: the only way from them to a trajectory or a branch of orbits of their own.

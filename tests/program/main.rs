@@ -35,6 +35,7 @@ mod metadata;
 mod modal;
 mod modal_accuracy;
 mod modal_alternatives;
+mod modal_claims;
 mod modal_criteria;
 mod modal_files;
 mod modal_optimum;

@@ -7,7 +7,7 @@ use vinesink::modal::at_resonances;
 use super::common::random::Random;
 
 /// A structure of two to four modes under a force in the first at its frequency, with one or two absorbers at a place.
-fn case(drawn: &mut Random) -> ModalCase {
+pub fn case(drawn: &mut Random) -> ModalCase {
     let count = 2 + (drawn.within(0.0, 3.0) as usize);
     let mut text = "title = 't'\nsource = 's'\n".to_owned();
     let (mut frequency, ratio) = (2.0, drawn.ratio(0.003, 0.06));

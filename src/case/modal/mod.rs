@@ -288,6 +288,11 @@ impl ModalCase {
         }
     }
 
+    /// The smallest clearance, in m: the unit of what is told over a clearance.
+    pub(crate) fn least_clearance_m(&self) -> f64 {
+        self.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min)
+    }
+
     /// The text of this case, which `text` must be, with other absorbers, and the case that it is then: values that differ are rounded to four significant
     /// digits in the unit their author used, everything else as it is.
     ///

@@ -2,15 +2,14 @@
 
 use serde_json::{Value, json};
 
-use super::scale::Scale;
 use crate::method::Method::{self, Simulation, Theory};
-use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
+use crate::quantity::{Quantity, Units};
 use crate::validation::{Claim, Finding};
 
 /// A claim and what came of it. The difference is predicted minus observed: relative for lengths, in radians
 /// for angles.
-pub fn claim(scale: &Scale, claim: &Claim) -> Value {
+pub fn claim(units: &Units, claim: &Claim) -> Value {
     let angle = matches!(claim.predicted, Finding::Angle(_));
     let [kind, allowed] =
         if angle { [&of::ANGLE_ERROR; 2] } else { [&of::THEORY_ERROR, &of::TOLERANCE] };
@@ -21,8 +20,8 @@ pub fn claim(scale: &Scale, claim: &Claim) -> Value {
         "id": claim.id,
         "statement": claim.statement,
         "checked_by": by,
-        "predicted": finding(scale, &claim.predicted, Theory, 0.0),
-        "observed": finding(scale, &claim.observed, by, error),
+        "predicted": finding(units, &claim.predicted, Theory, 0.0),
+        "observed": finding(units, &claim.observed, by, error),
         "difference": difference.map(|difference| difference.with_error(error)),
         "tolerance": Quantity::new(allowed, tolerance, Theory),
         "reason": claim.reason,
@@ -32,11 +31,11 @@ pub fn claim(scale: &Scale, claim: &Claim) -> Value {
 
 /// One side of a comparison: a number, or an outcome. A simulation is as exact as the claim asks for: relative
 /// to lengths, in radians for angles.
-fn finding(scale: &Scale, finding: &Finding, method: Method, error: f64) -> Value {
+fn finding(units: &Units, finding: &Finding, method: Method, error: f64) -> Value {
     match finding {
         Finding::Length(value) => {
             let errors = [*value, error * value.abs()];
-            json!({ "number": scale.units.quantity_with(&of::CLAIMED_LENGTH, errors, method), "outcome": null })
+            json!({ "number": units.quantity_with(&of::CLAIMED_LENGTH, errors, method), "outcome": null })
         }
         Finding::Angle(value) => {
             let angle = Quantity::new(&of::CLAIMED_ANGLE, *value, method).with_error(error);

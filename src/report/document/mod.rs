@@ -1,5 +1,6 @@
 //! A case's report as data: quantities, enums and lists, which templates turn into pages and `report.json` keeps.
 
+pub mod claims;
 pub mod criteria;
 pub mod motions;
 pub mod place;
@@ -7,7 +8,6 @@ pub mod theory;
 
 mod band;
 mod cavity;
-mod claims;
 mod decision;
 mod deviations;
 mod notes;
@@ -164,7 +164,7 @@ pub fn document(source: &Source) -> Value {
         "deviations": study.deviations.as_ref().map(|one| deviations::deviations(&scale, one)),
         // Which layer answered what.
         "answers": source.answers,
-        "claims": study.claims.iter().map(|one| claims::claim(&scale, one)).collect::<Vec<_>>(),
+        "claims": study.claims.iter().map(|one| claims::claim(&scale.units, one)).collect::<Vec<_>>(),
         "inputs": case.inputs(),
         "derived": case.derived(),
         // In reading order, and the names of those that the case asks for and that have nothing to show.

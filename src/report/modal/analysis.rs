@@ -114,5 +114,5 @@ pub fn analysis_text(case: &ModalCase, found: &[LoadOrbits]) -> Result<String, R
             absorber[end] = json!(absorber[end].as_f64().map(|one| given(&of::PEAK, one)));
         }
     }
-    render("modal-analysis.txt", &units(case), &facts)
+    render("loads-analysis.txt", &units(case), &facts)
 }

@@ -64,11 +64,8 @@ pub(super) fn holds(case: &ModalCase, values: &[Option<f64>]) -> Option<bool> {
     parts.peek().is_some().then(|| parts.all(|part| part <= 1.0))
 }
 
-/// Each criterion with what the structure without absorbers and with each choice of dampers comes to, where there are any.
+/// Each criterion with what the structure without absorbers and with each choice of dampers comes to.
 pub(super) fn compared(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> {
-    if beside.dampers.is_empty() {
-        return Vec::new();
-    }
     let each = answer.judged.iter().zip(&case.criteria).enumerate();
     let each = each.filter(|(_, (_, asked))| linear_most(case, asked, &[]).is_some());
     let rows = each.map(|(n, (judged, asked))| {

@@ -16,7 +16,7 @@ use crate::report::template::{render, worded};
 /// [`RenderError`] if the template does not fit.
 pub fn at_frequency(case: &ModalCase, answer: &ModalAnswer) -> Result<Value, RenderError> {
     let facts = document("live", case, answer, &Beside::default(), Content::Simulation);
-    let markdown = render("modal-live.md", &units(case), &facts)?;
+    let markdown = render("loads-live.md", &units(case), &facts)?;
     Ok(json!({ "markdown": markdown, "tone": facts["verdict"]["tone"] }))
 }
 

@@ -1,5 +1,5 @@
 //! The report of a structure of several modes with several absorbers, as data and files. The sentences are in
-//! `templates/modal*.tera`.
+//! `templates/loads*.tera`.
 
 mod alternatives;
 mod analysis;
@@ -15,21 +15,24 @@ mod theory;
 use serde_json::{Value, json};
 
 use super::choice;
+use super::document::claims::claim;
 use super::document::criteria::badge;
 use super::document::motions::pair;
 use super::document::place::FilePlace;
 use super::document::{Content, Tone, Word, headed, keep_case};
 use super::error::RenderError;
-use super::render::{Files, in_lines, page_files};
+use super::render::{self, Files, with_document};
 use super::template::{render, worded};
 use crate::case::{ActsOn, Load, ModalCase, Of, StructuralMode};
 use crate::criteria::Worst;
+use crate::executor::Serial;
 use crate::method::Method;
-use crate::modal::{Beside, ForceStep, ModalAnswer, OverForce, Stretches};
+use crate::modal::{Beside, ForceStep, LoadClaim, ModalAnswer, OverForce, Stretches};
 use crate::orbits::ReachEnd;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind, Quantity, Units};
 use crate::system::Scales;
+use crate::validation::Verdict;
 
 pub use analysis::{analysis, analysis_text};
 pub use criteria::checked;
@@ -41,10 +44,9 @@ use criteria::{compared, criteria, holds};
 
 /// Units of the pages of a case: lengths in that of the smallest clearance.
 pub fn units(case: &ModalCase) -> Units {
-    let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
     let units = Units::from(Scales {
         physical: !case.reduced,
-        clearance: least,
+        clearance: case.least_clearance_m(),
         natural_frequency: case.omega(),
         oscillator_mass: case.modes[0].mass_kg,
     });
@@ -153,7 +155,7 @@ fn stretch_rows(kind: &'static Kind, of: &Stretches) -> Vec<Value> {
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
 pub fn load_words(case: &ModalCase, load: &Load) -> Result<String, RenderError> {
-    let text = render("modal-load.txt", &units(case), &json!({ "of": load_row(case, load) }))?;
+    let text = render("load.txt", &units(case), &json!({ "of": load_row(case, load) }))?;
     Ok(text.trim_end().to_owned())
 }
 
@@ -233,6 +235,15 @@ fn absorbers(case: &ModalCase) -> Vec<Value> {
     each.collect()
 }
 
+/// A claim, with the load, where there are several, and the frequency that it is about.
+fn claim_row(case: &ModalCase, of_load: &LoadClaim) -> Value {
+    let LoadClaim { load, at, claim: of_one } = of_load;
+    let mut row = claim(&units(case), of_one);
+    row["load"] = json!((case.loads.len() > 1).then_some(load + 1));
+    row["at"] = json!(given(&of::EXCITATION_FREQUENCY, *at));
+    row
+}
+
 /// Starts at each frequency: of the ranges, or where there are none of the loads of one frequency.
 fn starts(case: &ModalCase) -> u32 {
     case.loads.iter().map(|load| case.starts_of(load)).min().unwrap_or_default()
@@ -252,9 +263,8 @@ pub fn document(
     let error = worst.map_or(0.0, |one| one.found.error);
     let damper = beside.dampers.first().map(|one| one.worst.iter().copied().fold(0.0, f64::max));
     let level = |peak: f64| 20.0 * libm::log10(peak / bare);
-    let least = case.absorbers.iter().map(|one| one.clearance_m).fold(f64::INFINITY, f64::min);
     let mut quantities = vec![
-        given(&of::CLEARANCE, least),
+        given(&of::CLEARANCE, case.least_clearance_m()),
         closed(&of::BARE_PEAK, bare),
         simulated(&of::PEAK, peak).with_error(error),
         simulated(&of::CHANGE_DB, level(peak)).with_error(level(peak + error) - level(peak)),
@@ -291,9 +301,17 @@ pub fn document(
         note["kind"] = json!("warning");
         note
     });
+    let claims = &beside.claims;
+    let confirmed = claims.iter().filter(|one| one.claim.verdict == Verdict::Confirmed);
     let fields = json!({
         "name": name,
-        "verdict": { "tone": tone(case, answer), "word": word, "headline": headline(case, answer) },
+        "verdict": {
+            "tone": tone(case, answer),
+            "word": word,
+            "headline": headline(case, answer),
+            // Claims that were confirmed.
+            "confirmed": confirmed.count(),
+        },
         "quantities": quantities,
         "criteria": criteria(case, answer),
         "compared": compared(case, answer, beside),
@@ -306,6 +324,8 @@ pub fn document(
         "worst": worst.map(|one| worst_row(case, &one)),
         "loads": along(case, answer, beside),
         "dampers": dampers.collect::<Vec<_>>(),
+        "simulated": true,
+        "claims": claims.iter().map(|one| claim_row(case, one)).collect::<Vec<_>>(),
         "starts": starts(case),
         "over_frequencies": case.loads.iter().any(|load| load.range_hz[0] < load.range_hz[1]),
         "figures": [],
@@ -350,12 +370,8 @@ pub fn files(
     drawn.retain(|figure| !figure.panels.is_empty());
     let figures = worded(drawn, &units(case))?;
     document["figures"] = figures.iter().map(super::document::figure_row).collect();
-    let tone = document["verdict"]["tone"].as_str().unwrap_or_default().to_owned();
-    let mut files =
-        page_files("report", "modal.md", Some(&tone), &units(case), document.clone(), &figures)?;
-    let document = told_of_one(case, document);
-    files.insert("report.json".into(), format!("{}\n", in_lines(&document, 0)).into_bytes());
-    Ok(files)
+    let files = render::files("loads.md", &document, None, &units(case), &figures, &Serial)?;
+    Ok(with_document(files, &told_of_one(case, document)))
 }
 
 /// What a document says of the loads of a case, of which there is no list, at its top as that of one mode does: the motions of its
@@ -388,7 +404,7 @@ pub fn simulation(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Value {
 /// [`RenderError::Template`] if the template does not fit.
 pub fn text(name: &str, case: &ModalCase, answer: &ModalAnswer) -> Result<String, RenderError> {
     let facts = document(name, case, answer, &Beside::default(), Content::Simulation);
-    render("modal.txt", &units(case), &facts)
+    render("loads.txt", &units(case), &facts)
 }
 
 /// What is almost surely a slip in its file.

@@ -173,5 +173,5 @@ pub fn optimum(case: &ModalCase, found: &ModalOptimum) -> Value {
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
 pub fn optimum_text(case: &ModalCase, document: &Value) -> Result<String, RenderError> {
-    render("modal-optimum.txt", &units(case), document)
+    render("loads-optimum.txt", &units(case), document)
 }

@@ -17,7 +17,7 @@ pub use optimum::{optimum, optimum_text};
 use super::document::criteria::{badge, criteria, sample};
 use super::document::{Content, NOTICEABLE, Word, answer, cavity, figure_row};
 use super::figure::{Color, Dash, Figure, Style};
-use super::render::{Files, RenderError, in_lines, page_files};
+use super::render::{Files, RenderError, page_files, with_document};
 use super::template::{render, worded};
 use crate::case::Case;
 use crate::criteria::Judged;
@@ -103,9 +103,8 @@ pub fn files(
 ) -> Result<Files, RenderError> {
     let tone = facts["verdict"]["tone"].as_str();
     let template = format!("{}.md", name_of(study));
-    let mut files = page_files("report", &template, tone, &case.units(), facts.clone(), figures)?;
-    files.insert("report.json".into(), format!("{}\n", in_lines(facts, 0)).into_bytes());
-    Ok(files)
+    let files = page_files("report", &template, tone, &case.units(), facts.clone(), figures)?;
+    Ok(with_document(files, facts))
 }
 
 /// What a terminal shows of a document.

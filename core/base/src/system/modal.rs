@@ -344,6 +344,26 @@ impl ModalState {
     /// Nothing moves, and each absorber is in the middle of its cavity; where the base moves that is so at phase 0.
     pub const AT_REST: Self =
         Self { modes: [[0.0; 2]; MOST_MODES], absorbers: [[0.0; 2]; MOST_MODES] };
+
+    /// The largest of its numbers, without sign.
+    pub fn size(&self) -> f64 {
+        self.numbers().fold(0.0, |most: f64, one| most.max(one.abs()))
+    }
+
+    /// The largest difference of its numbers to those of another.
+    pub fn apart(&self, other: &Self) -> f64 {
+        let pairs = self.numbers().zip(other.numbers());
+        pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+    }
+
+    /// The same over its own [`size`](Self::size).
+    pub fn distance(&self, other: &Self) -> f64 {
+        self.apart(other) / self.size()
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        self.modes.iter().chain(&self.absorbers).flatten().copied()
+    }
 }
 
 fn check(

@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::watch::{MOST_IMPACTS, distance, size};
+use super::watch::MOST_IMPACTS;
 use crate::orbits::spectral_radius;
 use crate::simulation::{ModalSimulation, Stop};
 use crate::system::{ModalState, ModalSystem};
@@ -43,7 +43,7 @@ impl Polished {
         let (mut state, mut last) = (*from, f64::INFINITY);
         for _ in 0..STEPS {
             let end = map.after(&state)?;
-            let closure = distance(&state, &end);
+            let closure = state.distance(&end);
             let stalled = closure >= STALLED * last;
             if stalled && closure > ROUGH {
                 return None;
@@ -76,7 +76,7 @@ struct Map<'a> {
 
 impl<'a> Map<'a> {
     fn of(system: &'a ModalSystem, state: &ModalState, periods: u32, moves: &[usize]) -> Self {
-        let most = size(state);
+        let most = state.size();
         let side = |j: usize| {
             let [place, velocity] = system.displaced(j, state);
             let [gap, slope] = [place - state.absorbers[j][0], velocity - state.absorbers[j][1]];
@@ -123,7 +123,7 @@ impl<'a> Map<'a> {
     /// From a state, and where it leads: to one side alone where a wall is too near to the other.
     fn derivative(&self, state: &ModalState, end: &DVector<f64>) -> Option<DMatrix<f64>> {
         let own = self.numbers(state);
-        let step = DIFFERENCE * size(state);
+        let step = DIFFERENCE * state.size();
         let column = |k: usize| {
             let [up, down] = [step, -step].map(|by| {
                 let mut beside = own.clone();

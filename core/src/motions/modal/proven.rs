@@ -3,7 +3,7 @@
 use super::motion::{FlightCourse, ModalMotion};
 use super::polished::{Polished, ROUGH};
 use super::sensed::Sensed;
-use super::watch::{MOST_IMPACTS, ModalWatch, SAME_STATE, distance};
+use super::watch::{MOST_IMPACTS, ModalWatch, SAME_STATE};
 use crate::orbits::{CycleImpact, ModalCycle, ModalOrbit, antiperiodic_orbits, orbit_state};
 use crate::simulation::{Detail, ModalImpact, ModalObserver, ModalSimulation, Side};
 use crate::system::ModalState;
@@ -47,7 +47,7 @@ pub(super) fn near(of: &Sensed, state: &ModalState, periods: u32) -> Option<Near
         let Polished { state, multiplier } = Polished::of(system, state, periods, &moves)?;
         (state, multiplier, multiplier < 1.0)
     };
-    let off = distance(&begin, state);
+    let off = begin.distance(state);
     // What differences say of a multiplier does not tell whether others come to it.
     if off > if attracts && is_orbit { NEAR_BY } else { ON } {
         return None;
@@ -65,7 +65,7 @@ fn once(of: &Sensed, begin: &ModalState, periods: u32) -> Option<u32> {
     let mut simulation = ModalSimulation::new(of.system(), begin, 0.0).ok()?;
     let again = |_: &u32| {
         simulation.run(1, MOST_IMPACTS, &mut ());
-        distance(begin, &simulation.state()) <= SAME_STATE
+        begin.distance(&simulation.state()) <= SAME_STATE
     };
     Some((1..periods).find(again).unwrap_or(periods))
 }

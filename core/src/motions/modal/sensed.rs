@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::at_rest::modal_at_rest;
 use super::motion::ModalMotion;
 use super::proven::{Near, attracting, near, seen};
-use super::watch::{MOST_IMPACTS, ModalSample, ModalWatch, SAME_STATE, apart, size};
+use super::watch::{MOST_IMPACTS, ModalSample, ModalWatch, SAME_STATE};
 use crate::motions::model::{
     Averages, FLIGHTS, KnownMotion, LongTerm, Model, PUSH, Proof, RECOGNITION,
 };
@@ -147,7 +147,7 @@ impl Model for Sensed {
 
     /// Absorbers are pushed inwards, as one may be at a wall.
     fn pushed(&self, state: &ModalState) -> Option<SensedFlight> {
-        let push = PUSH * size(state);
+        let push = PUSH * state.size();
         let mut beside = *state;
         beside.modes[0][1] += push;
         for (j, one) in self.system().absorbers().iter().enumerate() {
@@ -322,11 +322,11 @@ impl Model for Sensed {
     }
 
     fn distance(of: &ModalState, other: &ModalState) -> f64 {
-        apart(of, other)
+        of.apart(other)
     }
 
     fn size(states: &[ModalState]) -> f64 {
-        states.iter().map(size).fold(0.0, f64::max)
+        states.iter().map(ModalState::size).fold(0.0, f64::max)
     }
 }
 

@@ -97,8 +97,7 @@ impl ModalWatch {
     /// After how many periods the last state was there before, and those after which it nearly was.
     pub fn repeats(&self) -> Repeats {
         let Some((last, before)) = self.states.split_last() else { return Repeats::default() };
-        let each =
-            before.iter().rev().zip(1..).map(|(other, after)| (after, distance(last, other)));
+        let each = before.iter().rev().zip(1..).map(|(other, after)| (after, last.distance(other)));
         let each: Vec<(u32, f64)> = each.collect();
         let within = |most: f64| each.iter().filter(move |one| one.1 <= most).map(|one| one.0);
         let roughly = each.iter().filter(|one| (NEARLY..ROUGHLY).contains(&one.1));
@@ -174,26 +173,6 @@ impl Repeats {
         let nearly = !self.nearly.is_empty();
         (nearly || self.roughly.is_some()).then_some(nearly)
     }
-}
-
-/// Largest difference of two states.
-pub(super) fn apart(of: &ModalState, other: &ModalState) -> f64 {
-    let pairs = numbers(of).zip(numbers(other));
-    pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
-}
-
-/// The largest number of a state.
-pub(super) fn size(state: &ModalState) -> f64 {
-    numbers(state).fold(0.0, |most: f64, one| most.max(one.abs()))
-}
-
-/// Largest difference of two states, over the largest number of the first.
-pub(super) fn distance(of: &ModalState, other: &ModalState) -> f64 {
-    apart(of, other) / size(of)
-}
-
-fn numbers(state: &ModalState) -> impl Iterator<Item = f64> {
-    state.modes.iter().chain(&state.absorbers).flatten().copied()
 }
 
 /// What was seen of a trajectory over a window.
