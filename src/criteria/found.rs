@@ -105,7 +105,8 @@ pub(super) fn worst(of: &dyn Findings, asked: &Criterion) -> Judged {
     let Some(worst) = Worst::of(&all, asked) else {
         return asked.judged(None, 0.0, Method::Simulation);
     };
-    let Found { value, error, load, at, of: part, motion, known_by, rest, .. } = worst.found;
+    let Found { value, error, load, at, of: part, motion, known_by, rest, resting, .. } =
+        worst.found;
     let judged = asked.judged(Some(value), error, known_by);
     // What has settled may fail it, whatever else there is; what lies elsewhere, or between places, can only be worse.
     let fails = worst.settled_room < 0.0;
@@ -119,8 +120,18 @@ pub(super) fn worst(of: &dyn Findings, asked: &Criterion) -> Judged {
     let few = few.filter_map(|one| one.rest).max_by(f64::total_cmp);
     let but_at_rest = few.filter(|_| judged.holds == Some(true));
     let (at, motion) = (at, Some(motion));
-    Judged { load, at, of: part, motion, inactive: rest, but_at_rest, near_limit, ..judged }
-        .or_undecided(worst.open.filter(|_| !fails))
+    Judged {
+        load,
+        at,
+        of: part,
+        motion,
+        inactive: rest,
+        resting,
+        but_at_rest,
+        near_limit,
+        ..judged
+    }
+    .or_undecided(worst.open.filter(|_| !fails))
 }
 
 /// Whether every place has one motion: 1, or 0 where one has several.
@@ -144,8 +155,10 @@ pub(super) fn one_motion(of: &dyn Findings, asked: &Criterion) -> Judged {
     let here = || all.iter().filter(|other| is_there(one, other));
     let open = here().filter(|one| !one.settled).map(|one| one.followed).max();
     let judged = asked.judged(Some(0.0), 0.0, Method::Simulation);
-    let inactive = here().find_map(|one| one.rest);
-    Judged { load: one.load, at: one.at, inactive, ..judged }
+    let resting = here().find(|one| one.rest.is_some());
+    let (inactive, resting) =
+        resting.map_or((None, [false; MOST_MODES]), |one| (one.rest, one.resting));
+    Judged { load: one.load, at: one.at, inactive, resting, ..judged }
         .or_undecided(open.filter(|_| certain.is_none()))
 }
 

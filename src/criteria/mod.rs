@@ -16,6 +16,7 @@ use crate::linear::{BandSystems, bare_amplitude};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
+use crate::system::MOST_MODES;
 use crate::transient::{Sample, Study};
 
 pub use contact::Contact;
@@ -78,6 +79,8 @@ pub struct Judged {
     /// Share of the absorber's resting places from which a start from rest stays in that motion, where it is that of an
     /// absorber at rest.
     pub inactive: Option<f64>,
+    /// Which absorbers rest in it, by their numbers from 0.
+    pub resting: [bool; MOST_MODES],
     /// That share of an absorber at rest with which it would not hold, where it is too small for that motion to count.
     pub but_at_rest: Option<f64>,
     /// Excitation periods after which a motion that could decide otherwise was still settling: it is not decided then, and
@@ -246,6 +249,7 @@ impl Criterion {
             at: None,
             motion: None,
             inactive: None,
+            resting: [false; MOST_MODES],
             but_at_rest: None,
             undecided: None,
             load: 0,

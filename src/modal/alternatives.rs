@@ -16,6 +16,7 @@ use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse};
 use crate::measure::Measure;
 use crate::numerics::scan;
 use crate::operating_range::Varies;
+use crate::system::MOST_MODES;
 
 /// How far beside a single frequency dampers are to work, over it: one for that frequency alone is a spring without damping.
 const ASIDE: f64 = 0.02;
@@ -158,13 +159,20 @@ impl Drifting for DriftedStructure {
     }
 }
 
-/// What devices are compared by as the absorbers have it, with its error, and whether they rest in that motion.
+/// Which absorbers rest, by their numbers from 0, in the motion by which devices are compared.
+pub fn resting(case: &ModalCase, answer: &ModalAnswer) -> [bool; MOST_MODES] {
+    let of_worst = || answer.worst(case, None).map(|worst| worst.found.resting);
+    let judged = compared(&answer.judged).map(|one| one.resting);
+    judged.or_else(of_worst).unwrap_or_default()
+}
+
+/// What devices are compared by as the absorbers have it, with its error, and whether some rest in that motion.
 fn own(case: &ModalCase, answer: &ModalAnswer) -> Option<([f64; 2], bool)> {
     if let Some(judged) = compared(&answer.judged) {
         return Some(([judged.found?, judged.error], judged.inactive.is_some()));
     }
     let worst = answer.worst(case, None)?.found;
-    Some(([worst.value, worst.error], worst.rests()))
+    Some(([worst.value, worst.error], worst.rest.is_some()))
 }
 
 /// What else could be done in place of the absorbers of a case; none where nothing was found to compare with.

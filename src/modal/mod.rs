@@ -35,7 +35,7 @@ use along::AlongEffort;
 use ranges::Known;
 
 pub use along::{AlongLoad, AtFrequency, seconds};
-pub use alternatives::{choices, seconds_of_designs};
+pub use alternatives::{choices, resting, seconds_of_designs};
 pub use beside::Beside;
 pub use claims::{LoadClaim, claims};
 pub use dampers::{DamperChoice, PlacedDampers};

@@ -62,8 +62,10 @@ impl ModalPlan {
         self.grid.settings.axes.iter().any(|axis| axis.parameter == Parameter::Frequency)
     }
 
-    /// Criteria with the names of their columns: by what they are about and their place; what is asked twice has one.
+    /// Criteria with the names of their columns: by what they are about and their place, as those of criteria where there is a column
+    /// of that name; what is asked twice has one.
     fn asked(&self) -> Vec<(usize, String)> {
+        let taken: Vec<String> = self.own_columns().into_iter().map(|one| one.name).collect();
         let mut named: Vec<(usize, String)> = Vec::new();
         for (k, asked) in self.case.criteria.iter().enumerate() {
             let key = asked.key;
@@ -72,6 +74,7 @@ impl ModalPlan {
                 Of::Absorber(j) => format!("{key}_absorber_{}", j + 1),
                 Of::Any => key.to_owned(),
             };
+            let name = if taken.contains(&name) { format!("criterion_{name}") } else { name };
             if !named.iter().any(|(_, known)| *known == name) {
                 named.push((k, name));
             }
@@ -79,11 +82,13 @@ impl ModalPlan {
         named
     }
 
-    /// The columns, empty.
-    pub fn empty(&self) -> Vec<Column> {
-        let number = |name: &str, dimension: Dimension| {
-            Column::empty(name.to_owned(), dimension.symbol(!self.case.reduced), Storage::Number)
-        };
+    fn number(&self, name: &str, dimension: Dimension) -> Column {
+        Column::empty(name.to_owned(), dimension.symbol(!self.case.reduced), Storage::Number)
+    }
+
+    /// The columns that a sweep has without criteria, empty.
+    fn own_columns(&self) -> Vec<Column> {
+        let number = |name: &str, dimension: Dimension| self.number(name, dimension);
         let mut columns = vec![Column::empty("point".to_owned(), "1", Storage::Whole)];
         let axes = self
             .grid
@@ -103,6 +108,13 @@ impl ModalPlan {
             true => columns.push(Column::empty("motions".to_owned(), "1", Storage::Whole)),
             false => columns.push(number("peak_frequency", Dimension::Frequency)),
         }
+        columns
+    }
+
+    /// The columns, empty.
+    pub fn empty(&self) -> Vec<Column> {
+        let number = |name: &str, dimension: Dimension| self.number(name, dimension);
+        let mut columns = self.own_columns();
         if !self.case.criteria.is_empty() {
             columns.push(Column::empty(LIMITS.to_owned(), "", Storage::Text));
             columns.push(number(ROOM.id, ROOM.dimension));
@@ -151,9 +163,13 @@ impl ModalPlan {
         ]);
         if let Some(outcome) = together(&answer.judged) {
             cells.push(Some(Cell::Text(outcome.name())));
-            let room = |one: &Judged| Some((one.margin? - one.error) / one.criterion.scale());
+            let room = |one: &Judged| {
+                // Yes and no have no room.
+                one.criterion.measure.kind(Device::Absorber)?;
+                Some((one.margin? - one.error) / one.criterion.scale())
+            };
             let rooms = answer.judged.iter().filter_map(room);
-            cells.push(number(rooms.fold(f64::INFINITY, f64::min)));
+            cells.push(rooms.min_by(f64::total_cmp).map(Cell::Number));
         }
         for one in self.asked().into_iter().filter_map(|(k, _)| answer.judged.get(k)) {
             cells.extend([one.found.map(Cell::Number), number(one.error)]);

@@ -344,6 +344,29 @@ fn the_probability_is_the_share_of_designs_that_check_passes() {
     assert!(hold > 40 && hold < 180, "both happen: {hold} {undecided}");
 }
 
+/// A damper that bears more drift bears every smaller one: what it does at worst is no better. Of every shipped report.
+#[test]
+fn a_damper_for_more_drift_is_no_better() {
+    let mut compared = 0;
+    for folder in std::fs::read_dir("reports").expect("reports") {
+        let path = folder.expect("a folder").path().join("report.json");
+        let Ok(text) = std::fs::read_to_string(&path) else { continue };
+        let report: Value = serde_json::from_str(&text).expect("JSON");
+        let rows = report["alternatives"].as_array().into_iter().flatten();
+        let robust: Vec<&Value> = rows.filter(|one| one["which"] == "robust-damper").collect();
+        for one in &robust {
+            let of = |row: &Value| row["worst"]["value"].as_f64().expect("a number");
+            let alike = robust.iter().filter(|other| other["dampers"] == one["dampers"]);
+            for other in alike.filter(|other| other["drift"].as_f64() > one["drift"].as_f64()) {
+                // A simplex for little drift ends up to so far beside what a simplex for more finds.
+                assert!(of(other) >= 0.999 * of(one), "{}: {one} {other}", path.display());
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 30, "{compared}");
+}
+
 /// A level in decibels compares two peaks at two frequencies; where the absorber is worse than none at one frequency the band says
 /// so, and a search there and the closed form of the structure alone say the same.
 #[test]

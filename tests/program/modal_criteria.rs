@@ -2,11 +2,12 @@
 
 use std::fs;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 use vinesink::case::{ModalCase, Of};
 use vinesink::criteria::Outcome;
 use vinesink::executor::Serial;
 use vinesink::modal::ModalAnswer;
+use vinesink::operating_range::Varies as _;
 use vinesink::simulation::{ModalImpact, ModalObserver, ModalSimulation};
 use vinesink::system::ModalState;
 
@@ -237,4 +238,31 @@ fn the_fewest_impacts_decide_what_is_at_least() {
     // Frequencies are chosen by what is asked: there may be fewer, and no more.
     assert!(found <= least + 1e-9, "{found} {least}");
     assert_eq!(judged.outcome(), if found < 0.5 { Outcome::Fails } else { Outcome::Holds });
+}
+
+/// A row says by their numbers which absorbers rest in the motion that decides; where a reduction is asked no structure alone keeps all.
+#[test]
+fn absorbers_at_rest_are_named_and_a_reduction_takes_a_device() {
+    // The second one is at a node of the only mode that the force moves.
+    let text = |clearance: &str, asked: &str| {
+        format!(
+            "{HEAD}[[mode]]\nfrequency = '2 Hz'\ndamping_ratio = 0.01\nmass = '20 t'\nshape = {{ middle = 1.0, node = 0.0 }}\n\
+             [[mode]]\nfrequency = '7.7 Hz'\ndamping_ratio = 0.01\nmass = '20 t'\nshape = {{ middle = 0.0, node = 1.0 }}\n\
+             [[absorber]]\nplace = 'middle'\nmass = '300 kg'\nclearance = '{clearance}'\nrestitution = 0.6\n\
+             [[absorber]]\nplace = 'node'\nmass = '200 kg'\nclearance = '4 mm'\nrestitution = 0.5\n\
+             [[excitation]]\nkind = 'force'\nplace = 'middle'\namplitude = '900 N'\nfrequency = '2 Hz'\n[criteria]\n{asked}"
+        )
+    };
+    let row = &told(&text("9 mm", "peak_displacement = '<= 9 m'\n"))[0];
+    assert_eq!((&row["resting"], &row["absorbers"]), (&json!([2]), &json!(2)), "{row}");
+    let row = &told(&text("90 mm", "peak_displacement = '<= 9 m'\n"))[0];
+    assert_eq!(row["resting"], json!([1, 2]), "{row}");
+    let kept = |asked: &str| {
+        let case = ModalCase::parse("case.toml", &text("9 mm", asked)).expect("a case");
+        case.kept_without_absorber()
+    };
+    assert!(kept("peak_displacement = '<= 9 m'\n"));
+    assert!(kept("peak_displacement = '<= 9 m'\nimpact_velocity = '<= 9 m/s'\n"));
+    assert!(!kept("peak_displacement = '<= 9 m'\nreduction_db = '>= 3'\n"));
+    assert!(!kept("impact_velocity = '<= 9 m/s'\n"));
 }

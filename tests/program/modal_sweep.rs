@@ -145,6 +145,34 @@ fn a_point_is_what_check_says_of_it() {
     }
 }
 
+/// A criterion that is called as a column of every sweep is told apart from it, and a yes or no has no room.
+#[test]
+fn criteria_are_told_apart_and_yes_has_no_room() {
+    let criteria = RACK.find("[criteria]").expect("criteria");
+    let text = |asked: &str| {
+        let sweep = "[sweep]\nexcitation = 2\nclearance = { values = [\"3 mm\", \"5 mm\"] }";
+        format!("{}[criteria]\n{asked}\n{sweep}\n", &RACK[..criteria])
+    };
+    let points = |asked: &str| {
+        let case = ModalCase::parse("rack.toml", &text(asked)).expect("a case");
+        ModalPlan::of(&case).expect("a sweep").points(0..1)
+    };
+    let found = points("reduction_db = \">= -90\"\nno_coexistence = true");
+    let mut names: Vec<&str> = found.iter().map(|one| one.name.as_str()).collect();
+    names.sort_unstable();
+    assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{names:?}");
+    // Both are of the worst motion, one with its error.
+    let [own, asked, error] =
+        ["reduction_db", "criterion_reduction_db", "error_of_criterion_reduction_db"]
+            .map(|name| number(&found, name, 0));
+    assert!((asked - error - own).abs() < 1e-9, "{asked} {error} {own}");
+    // Over what halves the motion.
+    let room = (asked + 90.0 - error) / 6.0;
+    assert!((number(&found, "room", 0) - room).abs() < 1e-12, "{}", number(&found, "room", 0));
+    let found = points("no_coexistence = true");
+    assert_eq!(column(&found, "room")[0], None);
+}
+
 /// The command: chunks that are there are kept, the page says where limits hold, and the table has units.
 #[test]
 fn the_command_writes_a_table_and_a_page() {

@@ -2,10 +2,10 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{closed, given, mass};
+use super::{closed, given, mass, numbers};
 use crate::alternatives::Row;
 use crate::case::{ModalCase, Of};
-use crate::modal::{ModalAnswer, PlacedDampers};
+use crate::modal::{ModalAnswer, PlacedDampers, resting};
 use crate::operating_range::Varies;
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
@@ -20,6 +20,10 @@ pub(super) fn rows(case: &ModalCase, answer: &ModalAnswer) -> (Value, Value) {
     let (rows, mut choice) = found.unwrap_or_default();
     if let Some(Of::Place(place)) = answer.alternatives.as_ref().map(|found| found.of) {
         choice["place"] = json!(case.places[place]);
+    }
+    if choice["inactive"] == true {
+        (choice["resting"], choice["absorbers"]) =
+            (json!(numbers(&resting(case, answer))), json!(case.absorbers.len()));
     }
     if case.modes.len() > 1 && choice.is_object() {
         choice["of_all_modes"] = json!(true);

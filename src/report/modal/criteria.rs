@@ -3,7 +3,8 @@
 use serde_json::{Value, json};
 
 use super::{
-    Beside, absorbers, along, alternatives, closed, given, ranges, told_of_one, units, warnings,
+    Beside, absorbers, along, alternatives, closed, given, numbers, ranges, told_of_one, units,
+    warnings,
 };
 use crate::case::{ModalCase, Of};
 use crate::criteria::Judged;
@@ -37,6 +38,10 @@ fn placed(case: &ModalCase, one: &Judged, mut row: Value) -> Value {
         row[worst] = named(one.of);
     }
     row["load"] = json!(one.load + 1);
+    if one.inactive.is_some() {
+        (row["resting"], row["absorbers"]) =
+            (json!(numbers(&one.resting)), json!(case.absorbers.len()));
+    }
     row
 }
 

@@ -183,9 +183,15 @@ fn worst_row(case: &ModalCase, worst: &Worst) -> Value {
         "settled": all_settled,
         "rests": worst.rests(),
         // Which absorbers do, from 1, and in which share of their places.
-        "resting": worst.resting.iter().zip(1..).filter(|(rests, _)| **rests).map(|(_, j)| j).collect::<Vec<u32>>(),
+        "resting": numbers(&worst.resting),
+        "absorbers": case.absorbers.len(),
         "share": worst.rest,
     })
+}
+
+/// The numbers of absorbers that rest, from 1.
+fn numbers(resting: &[bool]) -> Vec<u32> {
+    resting.iter().zip(1..).filter(|(rests, _)| **rests).map(|(_, j)| j).collect()
 }
 
 /// What is known along each load.
