@@ -4,6 +4,7 @@ use super::alternatives::choices;
 use super::dampers::DamperChoice;
 use super::forces::OverForce;
 use super::orbits::at_resonances;
+use super::over_time::OverTime;
 use super::theory::LoadTheory;
 use super::{ModalAnswer, ModalError, modes_alone};
 use crate::alternatives::Which;
@@ -21,6 +22,8 @@ pub struct Beside {
     pub forces: Vec<Option<OverForce>>,
     /// What theory says of the modes that the loads drive.
     pub theory: Vec<LoadTheory>,
+    /// The motion in which the structure moves farthest under each load under which an absorber impacts, over time.
+    pub over_time: Vec<OverTime>,
 }
 
 impl Beside {
@@ -48,6 +51,7 @@ impl Beside {
         dampers.sort_by_key(|one| one.dampers.each.len());
         let orbits = at_resonances(case)?;
         let theory = orbits.into_iter().filter_map(|one| one.theory).collect();
-        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, theory })
+        let over_time = OverTime::all(case, answer);
+        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, theory, over_time })
     }
 }

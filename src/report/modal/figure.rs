@@ -1,17 +1,19 @@
-//! The largest displacement under each load, over the frequency and over the amplitude, drawn.
+//! The largest displacement under each load, over the frequency and over the amplitude, and the motion that has it over time, drawn.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use super::{Beside, units};
+use super::{Beside, given, units};
 use crate::case::{ActsOn, Load, ModalCase, Of};
 use crate::linear::ModalDamper;
 use crate::measure::Measure;
-use crate::modal::{ModalAnswer, OverForce, linear_peak, linear_places};
-use crate::motions::ModalMotion;
+use crate::modal::{LoadImpact, ModalAnswer, OverForce, OverTime, linear_peak, linear_places};
+use crate::motions::{ModalMotion, Motions};
+use crate::quantity::Units;
 use crate::quantity::catalogue as of;
-use crate::report::chart::AxisOf;
+use crate::report::chart::{AxisOf, FITTED};
 use crate::report::figure::{
-    AxisScale, Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
+    Axis, AxisScale, Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape,
+    Style,
 };
 use crate::report::transient::DAMPER;
 use crate::simulation::Reading;
@@ -129,6 +131,105 @@ pub(super) fn forces(
         figure = figure.with_panel(panel.with_heading(heading(case, k, load)));
     }
     in_rows(figure).with_facts("captions/forces", facts.clone())
+}
+
+/// Absorbers that are shown together, in turn.
+const ABSORBERS: [Color; 4] =
+    [Color::ReddishPurple, Color::Blue, Color::BluishGreen, Color::Orange];
+/// Up to so many impacts of a panel have a tooltip.
+const TOOLTIPS: usize = 40;
+/// Room beside the walls, over the clearance.
+const BEYOND_WALLS: f64 = 1.35;
+
+/// The motion in which the structure moves farthest under each load, over time: its displacement, and beside that the absorbers between
+/// their walls.
+pub(super) fn over_time(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure {
+    let (units, count) = (units(case), beside.over_time.len());
+    let cells: Vec<[usize; 4]> =
+        (0..count).flat_map(|row| [[0, row, 1, 1], [1, row, 1, 1]]).collect();
+    let height = 50 + 230 * u32::try_from(count.max(1)).unwrap_or(1);
+    let mut facts = facts.clone();
+    facts["over_time"] = beside.over_time.iter().map(|one| told_over_time(case, one)).collect();
+    let figure = Figure::new("motion", "")
+        .with_size(860, height)
+        .with_layout(Layout::cells(&[1.0, 1.0], &vec![1.0; count.max(1)], &cells))
+        .with_facts("captions/motion-of-loads", facts);
+    beside.over_time.iter().fold(figure, |figure, one| {
+        figure.with_panel(displaced(case, units, one)).with_panel(between_walls(case, units, one))
+    })
+}
+
+/// What its caption says of one.
+fn told_over_time(case: &ModalCase, one: &OverTime) -> Value {
+    let absorbers = one.absorbers.iter();
+    json!({
+        "load": one.load + 1,
+        "at": given(&of::EXCITATION_FREQUENCY, one.at),
+        "motion": Motions::id(one.motion),
+        "is_worst": one.is_worst,
+        "place": case.places[one.place],
+        "absorbers": absorbers.clone().map(|j| j + 1).collect::<Vec<_>>(),
+        "there": absorbers.into_iter().all(|j| case.absorbers[*j].place == one.place),
+        "periods": one.periods,
+    })
+}
+
+/// An axis of time.
+fn time(units: Units, of_motion: &OverTime) -> Axis {
+    let end = of_motion.times_s.last().copied().unwrap_or(1.0);
+    AxisOf::si(units, &of::TIME).axis([0.0, end])
+}
+
+/// The displacement of the place that moves farthest.
+fn displaced(case: &ModalCase, units: Units, of_motion: &OverTime) -> Panel {
+    let OverTime { times_s, displacement_m, load, at, place, .. } = of_motion;
+    let line = times_s.iter().zip(displacement_m).map(|(at, x)| [*at, *x]).collect();
+    let frequency = units.text(&of::EXCITATION_FREQUENCY, *at);
+    let on = heading(case, *load, &case.loads[*load]);
+    Panel::new(time(units, of_motion), AxisOf::si(units, &of::DISPLACEMENT).axis(FITTED))
+        .with(Layer::curve(Role::BareOscillator.style().colored(Color::Black), line))
+        .with_heading(format!("{}, {on}, {frequency}", case.places[*place]))
+}
+
+/// The absorbers between their walls.
+fn between_walls(case: &ModalCase, units: Units, of_motion: &OverTime) -> Panel {
+    let OverTime { times_s, gaps_m, absorbers, impacts, .. } = of_motion;
+    let clearance = |j: usize| case.absorbers[j].clearance_m;
+    let widest = BEYOND_WALLS * absorbers.iter().map(|j| clearance(*j)).fold(0.0, f64::max);
+    let y = AxisOf::si(units, &of::RELATIVE_DISPLACEMENT).axis([-widest, widest]);
+    let mut panel = Panel::new(time(units, of_motion), y);
+    let several = absorbers.len() > 1;
+    let each = || absorbers.iter().zip(ABSORBERS.into_iter().cycle());
+    for (j, color) in each() {
+        let style = match several {
+            true => Style::new(color, 1.1, Dash::Dashed),
+            false => Role::Guide.style(),
+        };
+        let named = if several { format!("walls of {}", j + 1) } else { "walls".to_owned() };
+        panel = panel
+            .with(Layer::horizontal(clearance(*j), style).labelled(named))
+            .with(Layer::horizontal(-clearance(*j), style));
+    }
+    for ((j, color), gaps) in each().zip(gaps_m) {
+        let line = times_s.iter().zip(gaps).map(|(at, gap)| [*at, *gap]).collect();
+        let layer = Layer::curve(Role::Simulation.style().colored(color), line);
+        panel = panel.with(match several {
+            true => layer.labelled(format!("absorber {}", j + 1)),
+            false => layer,
+        });
+    }
+    let few = impacts.len() <= TOOLTIPS;
+    let mark = |one: &LoadImpact| {
+        let gap = one.side.sign() * clearance(one.absorber - 1);
+        let [time, speed] = [(&of::TIME, one.time_s), (&of::IMPACT_SPEED, one.speed())]
+            .map(|(kind, value)| units.text(kind, value));
+        let tip = format!("impact of absorber {}: t = {time}, {speed}", one.absorber);
+        MarkedPoint { tooltip: few.then_some(tip), ..MarkedPoint::new(one.time_s, gap) }
+    };
+    let marks = Layer::points(Role::Impact, impacts.iter().map(mark)).labelled("impacts");
+    let listed: Vec<String> = absorbers.iter().map(|j| (j + 1).to_string()).collect();
+    let names = if several { "absorbers" } else { "absorber" };
+    panel.with(marks).with_heading(format!("{names} {}", listed.join(", ")))
 }
 
 /// The largest displacement of any place.
