@@ -76,12 +76,15 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         AnyCase::One(case) => *case,
         AnyCase::Several(case) => {
             let Arguments { periods, discard, initial, impacts, .. } = &arguments;
-            let given = [
-                ("--initial", initial.is_some()),
-                ("--periods", periods.is_some() && impacts.is_none()),
-                ("--discard", discard.is_some()),
-            ];
+            let given = [("--initial", initial.is_some()), ("--discard", discard.is_some())];
             several::without(path, &given)?;
+            if periods.is_some() && impacts.is_none() {
+                return Err(miette!(
+                    help = "leave out --periods, or name a file with --impacts",
+                    "{}: of several modes or absorbers --periods says how many excitation periods --impacts writes",
+                    path.display()
+                ));
+            }
             return several::simulate(&arguments.one, &case, impacts.as_deref(), *periods);
         }
     };

@@ -11,6 +11,8 @@ use crate::simulation::{ModalImpact, Reading, Side};
 const FEW: u64 = 6;
 const MANY: u64 = 70;
 const SOME: u64 = 12;
+/// Most absorbers that are shown.
+const ABSORBERS: usize = 4;
 /// About so many impacts can be told apart.
 const IMPACTS: f64 = 400.0;
 /// Samples in an excitation period, fewest and most, and in a period of the fastest mode between these.
@@ -31,7 +33,8 @@ pub struct OverTime {
     pub is_worst: bool,
     /// The place that moves farthest in it, by its number in the case from 0.
     pub place: usize,
-    /// The absorbers that are shown, by their numbers in the case from 0: those at that place, or where there are none all that impact.
+    /// The absorbers that are shown, by their numbers in the case from 0: those that impact at that place, or where none does all that
+    /// impact; of more than a few those with the fastest impacts.
     pub absorbers: Vec<usize>,
     /// Excitation periods.
     pub periods: u64,
@@ -126,6 +129,21 @@ impl<'a> Shown<'a> {
         }
     }
 
+    /// The absorbers that are shown beside a place, ascending.
+    fn absorbers(&self, case: &ModalCase, place: usize) -> Vec<usize> {
+        let impacts = |j: &usize| self.motion.impacts_per_period[*j][0] > 0.0;
+        let mut all: Vec<usize> = (0..case.absorbers.len()).filter(impacts).collect();
+        let there = |j: &usize| case.absorbers[*j].place == place;
+        if all.iter().any(there) {
+            all.retain(there);
+        }
+        let speed = |j: &usize| self.motion.impact_speed[*j][0];
+        all.sort_by(|a, b| speed(b).total_cmp(&speed(a)));
+        all.truncate(ABSORBERS);
+        all.sort_unstable();
+        all
+    }
+
     /// So many that the pattern is seen, and no more impacts of these absorbers than can be told apart.
     fn periods(&self, absorbers: &[usize]) -> u64 {
         let wanted = match self.motion.repeats_after {
@@ -154,12 +172,7 @@ impl OverTime {
     pub fn of(case: &ModalCase, answer: &ModalAnswer, load: usize) -> Option<Self> {
         let shown = Shown::of(case, answer, load)?;
         let (place, _) = farthest(shown.motion);
-        let all = 0..case.absorbers.len();
-        let mut absorbers: Vec<usize> =
-            all.clone().filter(|j| case.absorbers[*j].place == place).collect();
-        if absorbers.is_empty() {
-            absorbers.extend(all.filter(|j| shown.motion.impacts_per_period[*j][0] > 0.0));
-        }
+        let absorbers = shown.absorbers(case, place);
         let periods = shown.periods(&absorbers);
         let fastest = case.modes.iter().map(|mode| mode.frequency_hz).fold(0.0, f64::max);
         let samples = (SAMPLES_OF_MODE * fastest / shown.at).clamp(SAMPLES[0], SAMPLES[1]);

@@ -133,30 +133,32 @@ pub(super) fn forces(
     in_rows(figure).with_facts("captions/forces", facts.clone())
 }
 
-/// Absorbers that are shown together, in turn.
-const ABSORBERS: [Color; 4] =
-    [Color::ReddishPurple, Color::Blue, Color::BluishGreen, Color::Orange];
 /// Up to so many impacts of a panel have a tooltip.
 const TOOLTIPS: usize = 40;
-/// Room beside the walls, over the clearance.
-const BEYOND_WALLS: f64 = 1.35;
+/// Range of a panel over the clearance: its walls have some room behind them.
+const BEHIND_WALLS: f64 = 1.35;
+/// Height of a panel, in that of one of several absorbers of a load: where there is one.
+const OF_ONE: f64 = 1.4;
 
-/// The motion in which the structure moves farthest under each load, over time: its displacement, and beside that the absorbers between
-/// their walls.
+/// The motion in which the structure moves farthest under each load, over time: its displacement, and beside that each absorber between
+/// its walls.
 pub(super) fn over_time(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure {
-    let (units, count) = (units(case), beside.over_time.len());
-    let cells: Vec<[usize; 4]> =
-        (0..count).flat_map(|row| [[0, row, 1, 1], [1, row, 1, 1]]).collect();
-    let height = 50 + 230 * u32::try_from(count.max(1)).unwrap_or(1);
+    let units = units(case);
     let mut facts = facts.clone();
     facts["over_time"] = beside.over_time.iter().map(|one| told_over_time(case, one)).collect();
-    let figure = Figure::new("motion", "")
-        .with_size(860, height)
-        .with_layout(Layout::cells(&[1.0, 1.0], &vec![1.0; count.max(1)], &cells))
-        .with_facts("captions/motion-of-loads", facts);
-    beside.over_time.iter().fold(figure, |figure, one| {
-        figure.with_panel(displaced(case, units, one)).with_panel(between_walls(case, units, one))
-    })
+    let mut figure = Figure::new("motion", "").with_facts("captions/motion-of-loads", facts);
+    let (mut cells, mut heights) = (Vec::new(), Vec::new());
+    for one in &beside.over_time {
+        let (row, count) = (heights.len(), one.absorbers.len());
+        heights.extend(vec![if count > 1 { 1.0 } else { OF_ONE }; count]);
+        cells.push([0, row, 1, count]);
+        cells.extend((0..count).map(|k| [1, row + k, 1, 1]));
+        figure = figure.with_panel(displaced(case, units, one));
+        let each = (0..count).map(|k| between_walls(case, units, one, k, row + k == 0));
+        figure = each.fold(figure, Figure::with_panel);
+    }
+    let height = 50.0 + 165.0 * heights.iter().sum::<f64>();
+    figure.with_size(860, height as u32).with_layout(Layout::cells(&[1.0; 2], &heights, &cells))
 }
 
 /// What its caption says of one.
@@ -169,7 +171,7 @@ fn told_over_time(case: &ModalCase, one: &OverTime) -> Value {
         "is_worst": one.is_worst,
         "place": case.places[one.place],
         "absorbers": absorbers.clone().map(|j| j + 1).collect::<Vec<_>>(),
-        "there": absorbers.into_iter().all(|j| case.absorbers[*j].place == one.place),
+        "there": absorbers.clone().all(|j| case.absorbers[*j].place == one.place),
         "periods": one.periods,
     })
 }
@@ -187,49 +189,44 @@ fn displaced(case: &ModalCase, units: Units, of_motion: &OverTime) -> Panel {
     let frequency = units.text(&of::EXCITATION_FREQUENCY, *at);
     let on = heading(case, *load, &case.loads[*load]);
     Panel::new(time(units, of_motion), AxisOf::si(units, &of::DISPLACEMENT).axis(FITTED))
-        .with(Layer::curve(Role::BareOscillator.style().colored(Color::Black), line))
+        .with(Layer::curve(Role::Simulation, line))
         .with_heading(format!("{}, {on}, {frequency}", case.places[*place]))
 }
 
-/// The absorbers between their walls.
-fn between_walls(case: &ModalCase, units: Units, of_motion: &OverTime) -> Panel {
+/// One of the absorbers that are shown between its walls; what is drawn is `named` in one panel.
+fn between_walls(
+    case: &ModalCase,
+    units: Units,
+    of_motion: &OverTime,
+    index: usize,
+    named: bool,
+) -> Panel {
     let OverTime { times_s, gaps_m, absorbers, impacts, .. } = of_motion;
-    let clearance = |j: usize| case.absorbers[j].clearance_m;
-    let widest = BEYOND_WALLS * absorbers.iter().map(|j| clearance(*j)).fold(0.0, f64::max);
-    let y = AxisOf::si(units, &of::RELATIVE_DISPLACEMENT).axis([-widest, widest]);
-    let mut panel = Panel::new(time(units, of_motion), y);
-    let several = absorbers.len() > 1;
-    let each = || absorbers.iter().zip(ABSORBERS.into_iter().cycle());
-    for (j, color) in each() {
-        let style = match several {
-            true => Style::new(color, 1.1, Dash::Dashed),
-            false => Role::Guide.style(),
-        };
-        let named = if several { format!("walls of {}", j + 1) } else { "walls".to_owned() };
-        panel = panel
-            .with(Layer::horizontal(clearance(*j), style).labelled(named))
-            .with(Layer::horizontal(-clearance(*j), style));
-    }
-    for ((j, color), gaps) in each().zip(gaps_m) {
-        let line = times_s.iter().zip(gaps).map(|(at, gap)| [*at, *gap]).collect();
-        let layer = Layer::curve(Role::Simulation.style().colored(color), line);
-        panel = panel.with(match several {
-            true => layer.labelled(format!("absorber {}", j + 1)),
-            false => layer,
-        });
-    }
-    let few = impacts.len() <= TOOLTIPS;
-    let mark = |one: &LoadImpact| {
-        let gap = one.side.sign() * clearance(one.absorber - 1);
+    let number = absorbers[index];
+    let clearance = case.absorbers[number].clearance_m;
+    let most = BEHIND_WALLS * clearance;
+    let y = AxisOf::si(units, &of::RELATIVE_DISPLACEMENT).axis([-most, most]);
+    let line = times_s.iter().zip(&gaps_m[index]).map(|(at, gap)| [*at, *gap]).collect();
+    let own: Vec<&LoadImpact> = impacts.iter().filter(|one| one.absorber == number + 1).collect();
+    let mark = |one: &&LoadImpact| {
         let [time, speed] = [(&of::TIME, one.time_s), (&of::IMPACT_SPEED, one.speed())]
             .map(|(kind, value)| units.text(kind, value));
-        let tip = format!("impact of absorber {}: t = {time}, {speed}", one.absorber);
-        MarkedPoint { tooltip: few.then_some(tip), ..MarkedPoint::new(one.time_s, gap) }
+        let tip = (own.len() <= TOOLTIPS).then(|| format!("impact: t = {time}, speed {speed}"));
+        let mark = MarkedPoint::new(one.time_s, one.side.sign() * clearance);
+        MarkedPoint { tooltip: tip, ..mark }
     };
-    let marks = Layer::points(Role::Impact, impacts.iter().map(mark)).labelled("impacts");
-    let listed: Vec<String> = absorbers.iter().map(|j| (j + 1).to_string()).collect();
-    let names = if several { "absorbers" } else { "absorber" };
-    panel.with(marks).with_heading(format!("{names} {}", listed.join(", ")))
+    let marks = Layer::points(Role::Impact, own.iter().map(mark));
+    let wall = Layer::horizontal(clearance, Role::Guide);
+    let [wall, marks] = match named {
+        true => [wall.labelled("walls"), marks.labelled("impacts")],
+        false => [wall, marks],
+    };
+    Panel::new(time(units, of_motion), y)
+        .with(wall)
+        .with(Layer::horizontal(-clearance, Role::Guide))
+        .with(Layer::curve(Role::Simulation, line))
+        .with(marks)
+        .with_heading(format!("absorber {}", number + 1))
 }
 
 /// The largest displacement of any place.

@@ -258,7 +258,7 @@ impl ModalMotion {
     }
 
     /// The motion itself over so many excitation periods from phase 0 on, flown once more: with so many samples in a period, or with its
-    /// impacts alone where that is 0. Absorbers that rest in it stand in the middle of their places. None where every absorber rests,
+    /// impacts alone where that is 0. An absorber that rests in it stands at one of its places. None where every absorber rests,
     /// where a search only ranks designs, and where the motion has more impacts than can be followed.
     pub fn trace(&self, periods: u64, samples_per_period: f64) -> Option<ModalTrace> {
         self.seen_from.as_ref()?.trace(self, periods, samples_per_period)

@@ -37,11 +37,6 @@ impl ModalTrace {
             impacts: Vec::new(),
         }
     }
-
-    /// The largest displacement of a place in the samples, without its sign.
-    pub fn largest(&self, place: usize) -> f64 {
-        self.places[place].iter().fold(0.0, |most, x| most.max(x.abs()))
-    }
 }
 
 impl ModalObserver for ModalTrace {
