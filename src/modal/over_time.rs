@@ -7,10 +7,12 @@ use crate::case::ModalCase;
 use crate::motions::ModalMotion;
 use crate::simulation::{ModalImpact, Reading, Side};
 
-/// Periods shown of a motion that repeats, at least, and at most; and of one that does not.
+/// Periods shown of a motion that repeats, at least, and at most; of one that does not; and of one with fewer than two impacts per period,
+/// which come irregularly.
 const FEW: u64 = 6;
 const MANY: u64 = 70;
 const SOME: u64 = 12;
+const RARE: u64 = 30;
 /// Most absorbers that are shown.
 const ABSORBERS: usize = 4;
 /// About so many impacts can be told apart.
@@ -144,14 +146,16 @@ impl<'a> Shown<'a> {
         all
     }
 
-    /// So many that the pattern is seen, and no more impacts of these absorbers than can be told apart.
+    /// So many that the pattern is seen, and no more impacts of one of these absorbers than can be told apart.
     fn periods(&self, absorbers: &[usize]) -> u64 {
+        let counts = absorbers.iter().map(|j| self.motion.impacts_per_period[*j][0]);
+        let impacts = counts.fold(0.0, f64::max);
         let wanted = match self.motion.repeats_after {
             Some(after) => FEW.max(2 * u64::from(after)).min(MANY),
+            None if impacts < 2.0 => RARE,
             None => SOME,
         };
-        let counts = absorbers.iter().map(|j| self.motion.impacts_per_period[*j][0]);
-        let most = (IMPACTS / counts.sum::<f64>().max(0.1)).max(1.0);
+        let most = (IMPACTS / impacts.max(0.1)).max(1.0);
         wanted.min(most as u64)
     }
 }

@@ -173,6 +173,7 @@ fn told_over_time(case: &ModalCase, one: &OverTime) -> Value {
         "absorbers": absorbers.clone().map(|j| j + 1).collect::<Vec<_>>(),
         "there": absorbers.clone().all(|j| case.absorbers[*j].place == one.place),
         "periods": one.periods,
+        "impacts": one.impacts.len(),
     })
 }
 
