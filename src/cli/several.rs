@@ -1,18 +1,23 @@
 //! What commands do with a case of several modes or absorbers.
 
+use std::fmt::Write as _;
 use std::path::Path;
 
 use miette::{IntoDiagnostic, Result, miette};
 use vinesink::answer::Decided;
 use vinesink::answer::several::{self, LeftOut};
 use vinesink::case::{ModalCase, Objective};
-use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, checks, orbits, seconds};
+use vinesink::modal::{
+    Beside, LoadImpact, ModalAnswer, ModalOptimum, checks, orbits, seconds, seconds_of_flight,
+};
+use vinesink::motions::{Effort, Motions};
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
 use vinesink::report::modal::{
     analysis, analysis_text, files, optimum, optimum_text, simulation, text,
 };
 use vinesink::report::render::Files;
+use vinesink::store;
 
 use super::budget::Long;
 use super::one_case::OneCase;
@@ -67,13 +72,53 @@ pub fn report(
     files(name, case, &answer, &beside).into_diagnostic()
 }
 
-/// Prints what it does under its loads.
-pub fn simulate(one: &OneCase, case: &ModalCase) -> Result<bool> {
+/// Prints what it does under its loads, and writes the impacts of the worst motion under each over so many excitation periods where a file
+/// is named for them.
+pub fn simulate(
+    one: &OneCase,
+    case: &ModalCase,
+    impacts: Option<&Path>,
+    periods: Option<u64>,
+) -> Result<bool> {
+    let usual = if case.periods > 0 { case.periods } else { Effort::default().periods };
+    let periods = periods.unwrap_or(usual);
+    if impacts.is_some() {
+        let flown = seconds_of_flight(case, periods as f64 * case.loads.len() as f64);
+        let what = format!("{periods} excitation periods of a motion under each load");
+        one.long.allows_seconds(&one.path, flown, &what)?;
+    }
     let answer = answered(&one.path, case, one.long)?;
     answer.observe(&Parallel);
+    if let Some(file) = impacts {
+        let impacts = answer.impacts(case, periods).into_diagnostic()?;
+        store::write_file(file, csv(&impacts).as_bytes())?;
+    }
     let stem = name(&one.path)?;
     one.print(|| text(&stem, case, &answer), || simulation(&stem, case, &answer))?;
     Ok(true)
+}
+
+/// Impacts, a line each.
+fn csv(impacts: &[LoadImpact]) -> String {
+    let mut text = String::from(
+        "load,absorber,t,side,x,xdot_before,xdot_after,ydot_before,ydot_after,frequency,motion\n",
+    );
+    for one in impacts {
+        let side = if one.side.sign() > 0.0 { "+1" } else { "-1" };
+        let ([x_before, x_after], [y_before, y_after]) = (one.x_velocity, one.y_velocity);
+        // Rust prints the shortest text that reads back to the same number.
+        let _ = writeln!(
+            text,
+            "{},{},{},{side},{},{x_before},{x_after},{y_before},{y_after},{},{}",
+            one.load,
+            one.absorber,
+            one.time_s,
+            one.x_m,
+            one.at,
+            Motions::id(one.motion)
+        );
+    }
+    text
 }
 
 /// Prints its exact orbits under each load.

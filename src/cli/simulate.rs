@@ -37,7 +37,7 @@ pub struct Arguments {
     #[command(flatten)]
     one: OneCase,
     /// Excitation periods to measure [default: the case's, or 1000]; of a released or shaken structure its own, of a
-    /// sweep the first ones
+    /// sweep the first ones; of several modes or absorbers those of --impacts
     #[arg(long, value_name = "N", value_parser = positive_number)]
     periods: Option<u64>,
     /// Excitation periods to leave out before measuring [default: the case's, or until the
@@ -49,7 +49,7 @@ pub struct Arguments {
     #[arg(long, value_name = "X,XDOT,Y,YDOT", value_parser = state, allow_hyphen_values = true)]
     initial: Option<State>,
     /// Write every impact of the measured window to this file, of a release, sweep or record those from --initial or the
-    /// worst place
+    /// worst place; of several modes or absorbers those of the motion in which the structure moves farthest under each load
     #[arg(long, value_name = "FILE.csv")]
     impacts: Option<PathBuf>,
 }
@@ -59,9 +59,12 @@ Examples:
   vinesink simulate cases/li2016-8hz-b15mm.toml
   vinesink simulate damper.toml --initial 0,0,0,1 --discard 0 --periods 50 --impacts impacts.csv
   vinesink simulate cases/footbridge-jump.toml --impacts impacts.csv
+  vinesink simulate cases/several/floor.toml --impacts impacts.csv --periods 100
 
 The CSV file has one line an impact: tau,side,x,xdot_before,xdot_after,ydot_before,ydot_after;
-lengths over the clearance, tau counted from the start of the run, side +1 where x - y = +b.";
+lengths over the clearance, tau counted from the start of the run, side +1 where x - y = +b.
+Of several modes or absorbers it has load,absorber,t,side,x,xdot_before,xdot_after,ydot_before,ydot_after,frequency,motion
+in SI units: t in s from excitation phase 0 on, load and absorber by their numbers from 1.";
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
@@ -73,14 +76,16 @@ pub fn run(arguments: Arguments) -> Result<bool> {
         AnyCase::One(case) => *case,
         AnyCase::Several(case) => {
             let Arguments { periods, discard, initial, impacts, .. } = &arguments;
-            let given = [
-                ("--initial", initial.is_some()),
-                ("--impacts", impacts.is_some()),
-                ("--periods", periods.is_some()),
-                ("--discard", discard.is_some()),
-            ];
+            let given = [("--initial", initial.is_some()), ("--discard", discard.is_some())];
             several::without(path, &given)?;
-            return several::simulate(&arguments.one, &case);
+            if periods.is_some() && impacts.is_none() {
+                return Err(miette!(
+                    help = "leave out --periods, or name a file with --impacts",
+                    "{}: of several modes or absorbers --periods says how many excitation periods --impacts writes",
+                    path.display()
+                ));
+            }
+            return several::simulate(&arguments.one, &case, impacts.as_deref(), *periods);
         }
     };
     let Arguments { periods, discard, initial, impacts, .. } = &arguments;

@@ -122,11 +122,8 @@ const BESIDE: f64 = 1e-6;
 /// Even steps that are longer than this, over a mode's frequency, may step over its resonance: it is then looked at beside it as well.
 const COARSE: f64 = 0.03;
 const CLOSE: [f64; 6] = [-0.1, -0.05, -0.025, 0.025, 0.05, 0.1];
-/// About how many seconds its motions take on one processor: of an impact, and impacts in a period of each absorber.
+/// About how many seconds its motions take on one processor.
 pub fn seconds(case: &ModalCase) -> f64 {
-    const IMPACT: f64 = 3e-7;
-    const IMPACTS: f64 = 3.0;
-    let size = (case.modes.len() * case.absorbers.len()) as f64;
     let of_load = |load: &Load| {
         let [from, to] = load.range_hz;
         let most = first_and(AlongEffort::of(case).further, case, load);
@@ -134,7 +131,15 @@ pub fn seconds(case: &ModalCase) -> f64 {
         let Ok(system) = case.system(load, load.centre(case)) else { return 0.0 };
         f64::from(case.starts_of(load)) * places * longest_flight(&system, case.periods)
     };
-    let periods: f64 = case.loads.iter().map(of_load).sum();
+    seconds_of_flight(case, case.loads.iter().map(of_load).sum())
+}
+
+/// About how many seconds so many excitation periods of its motions take on one processor: of an impact, and impacts in a period of
+/// each absorber.
+pub fn seconds_of_flight(case: &ModalCase, periods: f64) -> f64 {
+    const IMPACT: f64 = 3e-7;
+    const IMPACTS: f64 = 3.0;
+    let size = (case.modes.len() * case.absorbers.len()) as f64;
     periods * IMPACTS * IMPACT * size
 }
 

@@ -5,6 +5,7 @@ use super::claims::{LoadClaim, claims};
 use super::dampers::DamperChoice;
 use super::forces::OverForce;
 use super::orbits::at_resonances;
+use super::over_time::OverTime;
 use super::theory::LoadTheory;
 use super::{ModalAnswer, ModalError, modes_alone};
 use crate::alternatives::Which;
@@ -24,6 +25,8 @@ pub struct Beside {
     pub theory: Vec<LoadTheory>,
     /// What theory and exact orbits claim.
     pub claims: Vec<LoadClaim>,
+    /// The motion in which the structure moves farthest under each load under which an absorber impacts, over time.
+    pub over_time: Vec<OverTime>,
 }
 
 impl Beside {
@@ -52,6 +55,8 @@ impl Beside {
         let orbits = at_resonances(case)?;
         let claims = claims(case, &orbits, on)?;
         let theory = orbits.into_iter().filter_map(|one| one.theory).collect();
-        Ok(Self { dampers, alone: modes_alone(case, on)?, forces, theory, claims })
+        let over_time = OverTime::all(case, answer);
+        let alone = modes_alone(case, on)?;
+        Ok(Self { dampers, alone, forces, theory, claims, over_time })
     }
 }

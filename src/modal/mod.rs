@@ -14,6 +14,7 @@ mod judge;
 mod linear;
 mod optimum;
 mod orbits;
+mod over_time;
 mod ranges;
 mod rest;
 mod sensors;
@@ -34,7 +35,7 @@ use crate::system::{InvalidModalSystem, ModalSystem};
 use along::AlongEffort;
 use ranges::Known;
 
-pub use along::{AlongLoad, AtFrequency, seconds};
+pub use along::{AlongLoad, AtFrequency, seconds, seconds_of_flight};
 pub use alternatives::{choices, resting, seconds_of_designs};
 pub use beside::Beside;
 pub use claims::{LoadClaim, claims};
@@ -43,6 +44,7 @@ pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{Aim, JudgedAbsorbers, ModalOptimum, RobustAbsorbers, checks, clearance_bounds};
 pub use orbits::{LoadOrbits, Stretches, at_resonances, orbits};
+pub use over_time::{LoadImpact, OverTime};
 pub use ranges::looks;
 pub use sensors::sensors;
 pub use theory::{GroupTheory, LoadTheory};
@@ -59,6 +61,16 @@ pub enum ModalError {
     /// A motion cannot be flown.
     #[error(transparent)]
     Start(#[from] ModalStartError),
+    /// A motion that was found has more impacts than can be followed over the time that is asked for.
+    #[error(
+        "the motion under load {load} has too many impacts to be followed over {periods} excitation periods; ask for fewer"
+    )]
+    Lost {
+        /// Under which load, from 1.
+        load: usize,
+        /// Excitation periods.
+        periods: u64,
+    },
 }
 
 /// What is known of a structure under its loads.

@@ -46,6 +46,7 @@ mod modal_sweep;
 mod modal_theory;
 mod motion_lists;
 mod optimize;
+mod over_time;
 mod proposal;
 mod readers;
 mod record;

@@ -188,7 +188,7 @@ fn other_commands_say_who_reads_it() {
     // Options that nothing reads are refused.
     for arguments in [
         ["simulate", "--initial", "0,0,0,1"],
-        ["simulate", "--impacts", "impacts.csv"],
+        ["simulate", "--discard", "9"],
         ["simulate", "--periods", "9"],
         ["analyze", "--fidelity", "orbit"],
         ["report", "--fidelity", "orbit"],

@@ -38,7 +38,7 @@ pub use events::{AbsorberMotion, Detail, Impact, Observer, Reversal, Segment, Si
 pub use history::{ImpactLog, Trace, TracePoint};
 pub use modal::{
     ModalImpact, ModalMeter, ModalObserver, ModalSegment, ModalSimulation, ModalStartError,
-    Reading, Sensor, SensorRecord,
+    ModalTrace, Reading, Sensor, SensorRecord,
 };
 pub use run::{Simulation, Stop};
 pub use shaking::ShakingMeter;

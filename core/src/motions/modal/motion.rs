@@ -9,7 +9,7 @@ use crate::motions::cluster::{ERRORS, NO_DIFFERENCE};
 use crate::motions::{WhyNot, listed};
 use crate::numerics::scatter::{LONGER, error_of_largest, error_of_root, twice_error_of_mean};
 use crate::regimes::{ModalRecords, ModalRegimes, Regime};
-use crate::simulation::{ModalSimulation, Reading, SensorRecord, Stop};
+use crate::simulation::{ModalObserver, ModalSimulation, ModalTrace, Reading, SensorRecord, Stop};
 use crate::system::{MOST_MODES, ModalState};
 
 /// What a sensor reads in a long-term motion.
@@ -37,20 +37,47 @@ pub(super) struct SeenFrom {
 }
 
 impl SeenFrom {
+    /// Flies it again over so many periods; none where it cannot be followed for so long.
+    fn flown(&self, periods: u64, observer: &mut dyn ModalObserver) -> Option<()> {
+        let mut simulation = ModalSimulation::new(self.model.system(), &self.state, 0.0).ok()?;
+        let most = periods.saturating_mul(self.most_impacts);
+        (simulation.run(periods, most, observer) == Stop::EndTime).then_some(())
+    }
+
     fn regimes(&self, motion: &ModalMotion) -> Option<ModalRegimes> {
-        let system = self.model.system();
-        let mut simulation = ModalSimulation::new(system, &self.state, 0.0).ok()?;
-        let mut records = ModalRecords::new(system);
+        let mut records = ModalRecords::new(self.model.system());
         let periods = match motion.repeats_after {
             Some(after) => u64::from(after * REPETITIONS),
             None => WINDOW.max(motion.periods / PART),
         };
-        if simulation.run(periods, periods * self.most_impacts, &mut records) != Stop::EndTime {
-            return None;
-        }
+        self.flown(periods, &mut records)?;
         let mut regimes = records.found(motion.repeats_after);
         self.at_rest.iter().for_each(|j| regimes.insert_at_rest(*j));
         Some(regimes)
+    }
+
+    fn trace(
+        &self,
+        motion: &ModalMotion,
+        periods: u64,
+        samples_per_period: f64,
+    ) -> Option<ModalTrace> {
+        let sensors = self.model.sensors();
+        let displaced = motion.sensors.iter().zip(sensors);
+        let displaced = displaced.filter(|(extent, _)| extent.reads == Reading::Displacement);
+        let places = displaced.map(|(_, sensor)| sensor.shape.clone());
+        // Behind what was asked for stands the displacement at each absorber, those that rest among them.
+        let at_absorbers = sensors.iter().skip(motion.sensors.len());
+        let shapes: Vec<_> = places.chain(at_absorbers.map(|one| one.shape.clone())).collect();
+        let mut trace = ModalTrace::new(self.model.system(), &shapes, samples_per_period);
+        self.flown(periods, &mut trace)?;
+        let at_absorbers = trace.places.split_off(shapes.len() - motion.resting.len());
+        for j in &self.at_rest {
+            trace.gaps.insert(*j, at_absorbers[*j].clone());
+            let behind = trace.impacts.iter_mut().filter(|one| one.absorber >= *j);
+            behind.for_each(|one| one.absorber += 1);
+        }
+        Some(trace)
     }
 }
 
@@ -228,6 +255,13 @@ impl ModalMotion {
     /// Sees what its absorbers do, once; nothing where a search only ranks designs.
     pub fn observe(&self) {
         self.regimes.get_or_init(|| self.seen_from.as_ref()?.regimes(self));
+    }
+
+    /// The motion itself over so many excitation periods from phase 0 on, flown once more: with so many samples in a period, or with its
+    /// impacts alone where that is 0. An absorber that rests in it stands at one of its places. None where every absorber rests,
+    /// where a search only ranks designs, and where the motion has more impacts than can be followed.
+    pub fn trace(&self, periods: u64, samples_per_period: f64) -> Option<ModalTrace> {
+        self.seen_from.as_ref()?.trace(self, periods, samples_per_period)
     }
 
     /// What its absorbers do in words, and where its energy goes; none where nobody has [observed](Self::observe) it.

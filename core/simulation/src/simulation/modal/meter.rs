@@ -12,7 +12,7 @@ use super::products::Products;
 use super::{All, Course, MOST, ModalImpact, ModalObserver, ModalSegment, STILL};
 use crate::numerics::gauss;
 use crate::simulation::phasor::Slack;
-use crate::system::{LinearResponse, ModalSystem};
+use crate::system::ModalSystem;
 
 const NODES: usize = 7;
 
@@ -103,7 +103,6 @@ impl ModalMeter {
     /// Of a structure, for these sensors.
     pub fn new(system: &ModalSystem, sensors: &[Sensor]) -> Self {
         let all = All::of(system);
-        let frequency = all.constants.frequency;
         let mut differ: Vec<&Sensor> = Vec::new();
         let number = |sensor| {
             differ.iter().position(|one| *one == sensor).unwrap_or_else(|| {
@@ -114,17 +113,8 @@ impl ModalMeter {
         let each = sensors.iter().map(number).collect();
         let sensors = differ;
         let views = sensors.iter().map(|Sensor { shape, reads, scale }| {
-            let shape = &shape[..shape.len().min(all.modes)];
-            let base = LinearResponse { sine: all.base, cosine: 0.0 };
-            let steady = shape.iter().zip(&all.steady).fold(base, |sum, (phi, [s, c])| {
-                LinearResponse { sine: sum.sine + phi * s, cosine: sum.cosine + phi * c }
-            });
             let order = reads.in_flight();
-            let steady = (0..order.unwrap_or(0)).fold(steady, |of, _| LinearResponse {
-                sine: -frequency * of.cosine,
-                cosine: frequency * of.sine,
-            });
-            (order, all.constants.view(shape, all.base, steady, 1.0 / scale))
+            (order, all.view(shape, order.unwrap_or(0), 1.0 / scale))
         });
         let jump = |Sensor { shape, reads, scale }: &Sensor| {
             let Reading::Jump { absorber } = *reads else { return None };

@@ -15,6 +15,7 @@ mod meter;
 mod motion;
 mod peaks;
 mod products;
+mod trace;
 
 use std::f64::consts::TAU;
 
@@ -26,9 +27,10 @@ use self::motion::{Constants, Gap, Phasors, View, sine_and_cosine};
 use super::events::{Detail, Side};
 use super::path::{Path, StraightLine};
 use super::run::Stop;
-use crate::system::{MOST_MODES, ModalState, ModalSystem};
+use crate::system::{LinearResponse, MOST_MODES, ModalState, ModalSystem};
 
 pub use meter::{ModalMeter, Reading, Sensor, SensorRecord};
+pub use trace::ModalTrace;
 
 const MOST: usize = MOST_MODES;
 /// What is seen from a place at rest.
@@ -120,6 +122,15 @@ impl ModalSegment<'_> {
     /// The wall that an absorber rests on, if it does.
     pub fn rests(&self, absorber: usize) -> Option<Side> {
         resting(self.stuck[absorber])
+    }
+
+    /// The relative displacement `X_j - y_j` of an absorber, a time `s` after the beginning.
+    fn gap(&self, j: usize, s: f64) -> f64 {
+        let over_clearance = match self.stuck[j] {
+            0.0 => self.place(&self.all.constants.views[j], s)[0] - self.lines[j].from(s).y,
+            wall => wall,
+        };
+        over_clearance * self.all.clearances[j]
     }
 
     /// The free phasors after any time.
@@ -229,6 +240,20 @@ impl All {
             (all.absorber_masses[j], all.clearances[j]) = (absorber.mass, absorber.clearance);
         }
         all
+    }
+
+    /// How what has this shape sees the motion, or a derivative of it by the fast time, over a length.
+    fn view(&self, shape: &[f64], order: usize, length: f64) -> View<MOST> {
+        let (shape, frequency) = (&shape[..shape.len().min(self.modes)], self.constants.frequency);
+        let base = LinearResponse { sine: self.base, cosine: 0.0 };
+        let steady = shape.iter().zip(&self.steady).fold(base, |sum, (phi, [s, c])| {
+            LinearResponse { sine: sum.sine + phi * s, cosine: sum.cosine + phi * c }
+        });
+        let steady = (0..order).fold(steady, |of, _| LinearResponse {
+            sine: -frequency * of.cosine,
+            cosine: frequency * of.sine,
+        });
+        self.constants.view(shape, self.base, steady, length)
     }
 
     /// The modes' motion.
