@@ -91,29 +91,33 @@ pub fn simulate(
     answer.observe(&Parallel);
     if let Some(file) = impacts {
         let impacts = answer.impacts(case, periods).into_diagnostic()?;
-        store::write_file(file, csv(&impacts).as_bytes())?;
+        store::write_file(file, csv(case, &impacts).as_bytes())?;
     }
     let stem = name(&one.path)?;
     one.print(|| text(&stem, case, &answer), || simulation(&stem, case, &answer))?;
     Ok(true)
 }
 
-/// Impacts, a line each.
-fn csv(impacts: &[LoadImpact]) -> String {
+/// Impacts, a line each: columns of one mode with the absorber behind the side, and at the end where they are.
+fn csv(case: &ModalCase, impacts: &[LoadImpact]) -> String {
     let mut text = String::from(
-        "load,absorber,t,side,x,xdot_before,xdot_after,ydot_before,ydot_after,frequency,motion\n",
+        "tau,side,absorber,x,xdot_before,xdot_after,ydot_before,ydot_after,load,frequency,motion\n",
     );
+    let omega = case.omega();
     for one in impacts {
         let side = if one.side.sign() > 0.0 { "+1" } else { "-1" };
-        let ([x_before, x_after], [y_before, y_after]) = (one.x_velocity, one.y_velocity);
+        let clearance = case.absorbers[one.absorber - 1].clearance_m;
+        let speeds = [one.x_velocity, one.y_velocity].concat();
+        let speeds = speeds.into_iter().map(|speed| (speed / (clearance * omega)).to_string());
         // Rust prints the shortest text that reads back to the same number.
         let _ = writeln!(
             text,
-            "{},{},{},{side},{},{x_before},{x_after},{y_before},{y_after},{},{}",
-            one.load,
+            "{},{side},{},{},{},{},{},{}",
+            one.time_s * omega,
             one.absorber,
-            one.time_s,
-            one.x_m,
+            one.x_m / clearance,
+            speeds.collect::<Vec<_>>().join(","),
+            one.load,
             one.at,
             Motions::id(one.motion)
         );

@@ -63,8 +63,8 @@ Examples:
 
 The CSV file has one line an impact: tau,side,x,xdot_before,xdot_after,ydot_before,ydot_after;
 lengths over the clearance, tau counted from the start of the run, side +1 where x - y = +b.
-Of several modes or absorbers it has load,absorber,t,side,x,xdot_before,xdot_after,ydot_before,ydot_after,frequency,motion
-in SI units: t in s from excitation phase 0 on, load and absorber by their numbers from 1.";
+Of several modes or absorbers the number of the absorber stands behind the side, from 1, and load,frequency,motion
+at the end; lengths are over the absorber's own clearance, tau is in fast time of the first mode from excitation phase 0.";
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;

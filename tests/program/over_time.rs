@@ -98,9 +98,10 @@ fn one_mode_has_the_same_impacts_however_it_is_written() {
         head.into_iter().chain(speeds).collect::<Vec<_>>()
     });
     let of_several = several.iter().map(|line| {
-        assert_eq!((line[0], line[1], line[9], line[10]), (1.0, 1.0, at, 1.0));
-        let head = [line[2] % period, line[3], line[4]];
-        head.into_iter().chain(line[5..9].iter().copied()).collect::<Vec<_>>()
+        assert_eq!((line[2], line[8], line[9], line[10]), (1.0, 1.0, at, 1.0));
+        let speeds = line[4..8].iter().map(|one| one * clearance * omega);
+        let head = [(line[0] / omega) % period, line[1], line[3] * clearance];
+        head.into_iter().chain(speeds).collect::<Vec<_>>()
     });
     // The orbit has one impact on each wall in a period, half a period apart.
     let sorted = |mut all: Vec<Vec<f64>>| {
@@ -230,18 +231,20 @@ fn impacts_are_written_load_by_load() {
     let text = fs::read_to_string(FLOOR).expect("a case");
     let csv = written(&text, &["--periods", "9"]);
     let head =
-        "load,absorber,t,side,x,xdot_before,xdot_after,ydot_before,ydot_after,frequency,motion";
+        "tau,side,absorber,x,xdot_before,xdot_after,ydot_before,ydot_after,load,frequency,motion";
     assert_eq!(csv.lines().next(), Some(head));
     let all = lines(&csv);
     for load in [1.0, 2.0] {
-        let of_load: Vec<&Vec<f64>> = all.iter().filter(|line| line[0] == load).collect();
+        let of_load: Vec<&Vec<f64>> = all.iter().filter(|line| line[8] == load).collect();
         assert!(of_load.len() > 18, "{load}: {}", of_load.len());
-        assert!(of_load.windows(2).all(|pair| pair[0][2] <= pair[1][2]), "not in order of time");
-        let [last, frequency] = [2, 9].map(|column| of_load[of_load.len() - 1][column]);
-        assert!(last <= 9.0 / frequency && last > 8.0 / frequency, "{last} {frequency}");
-        assert!(of_load.iter().all(|line| line[9] == frequency && line[3].abs() == 1.0));
+        assert!(of_load.windows(2).all(|pair| pair[0][0] <= pair[1][0]), "not in order of time");
+        let [last, frequency] = [0, 9].map(|column| of_load[of_load.len() - 1][column]);
+        // In periods of the load: the first mode of the floor has 5.2 Hz.
+        let last = last / TAU / 5.2 * frequency;
+        assert!(last <= 9.0 && last > 8.0, "{last} {frequency}");
+        assert!(of_load.iter().all(|line| line[9] == frequency && line[1].abs() == 1.0));
     }
-    assert!(all.is_sorted_by_key(|line| line[0]));
+    assert!(all.is_sorted_by_key(|line| line[8]));
 }
 
 #[test]
