@@ -331,17 +331,6 @@ fn case_error(py: Python<'_>, error: &case::CaseError) -> PyErr {
     }
 }
 
-/// What changed from one case to another: the document of `vinesink diff`, and Markdown.
-#[pyfunction]
-pub fn compare(
-    py: Python<'_>,
-    old: &Case,
-    new: &Case,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<(String, String)> {
-    work::done(py, progress, |work| decide::compared(&old.inner, &new.inner, work))
-}
-
 /// The JSON Schema of a case file.
 #[pyfunction]
 pub fn schema() -> String {

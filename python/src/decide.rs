@@ -130,14 +130,21 @@ pub fn lists<'py>(py: Python<'py>, columns: &[Column]) -> PyResult<(Columns<'py>
     Ok((dict, units))
 }
 
-/// What changed from one case to another, as `vinesink diff` says it of their reports: the document, and Markdown.
-pub fn compared(old: &Case, new: &Case, work: &WorkState) -> PyResult<(String, String)> {
-    let side = |label: &str, case: &Case| -> PyResult<Reports> {
-        let report = Report::of("case", case, None, Decided::ALL, work).map_err(refused)?;
-        let files = report.files(case, work).map_err(refused)?;
-        let (document, figures) = parts(&files);
+/// The files of the report that a comparison of cases reads.
+pub fn of_one(case: &Case, work: &WorkState) -> PyResult<Files> {
+    let report = Report::of(COMPARED, case, None, Decided::ALL, work).map_err(refused)?;
+    report.files(case, work).map_err(refused)
+}
+
+/// As what a case is called where two are compared.
+pub const COMPARED: &str = "case";
+
+/// What changed from one case to another, as `vinesink diff` says it of the files of their reports: the document, and Markdown.
+pub fn compared(old: &Files, new: &Files) -> PyResult<(String, String)> {
+    let side = |label: &str, files: &Files| -> PyResult<Reports> {
+        let (document, figures) = parts(files);
         let document = Document::parse(label, &document, figures).map_err(refused)?;
-        Ok(BTreeMap::from([("case".to_owned(), document)]))
+        Ok(BTreeMap::from([(COMPARED.to_owned(), document)]))
     };
     let (old, new) = (side("old", old)?, side("new", new)?);
     let difference = Difference::of(("old", &old), ("new", &new));

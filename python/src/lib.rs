@@ -23,7 +23,7 @@ fn _vinesink(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(modal::read, module)?)?;
     module.add_function(wrap_pyfunction!(case::schema, module)?)?;
     module.add_function(wrap_pyfunction!(many::simulate_many, module)?)?;
-    module.add_function(wrap_pyfunction!(case::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(modal::compare, module)?)?;
     module.add_function(wrap_pyfunction!(many::regimes, module)?)?;
     module.add_function(wrap_pyfunction!(work::fail, module)?)
 }

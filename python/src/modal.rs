@@ -7,12 +7,14 @@ use vinesink::answer::Decided;
 use vinesink::answer::several::{self, LeftOut};
 use vinesink::case::ModalCase as Inner;
 use vinesink::case_input::{self, AnyCase};
-use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, orbits};
+use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, orbits, usual_periods};
 use vinesink::report::modal::{analysis, checked, files, optimum, simulation};
+use vinesink::report::render::Files;
 
 use crate::case::{Case, not_read, reach, warned};
 use crate::decide;
 use crate::report;
+use crate::simulate::of_several;
 use crate::work::{self, Columns, WorkState, json, refused};
 
 /// A case as it was read.
@@ -64,13 +66,21 @@ impl ModalCase {
         })
     }
 
-    /// As `vinesink simulate --format json`.
-    fn simulate(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
-        work::done(py, progress, |work| {
+    /// As `vinesink simulate --format json`, and the impacts that `--impacts` writes, of so many excitation periods.
+    fn simulate<'py>(
+        &self,
+        py: Python<'py>,
+        periods: Option<u64>,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<(String, Columns<'py>)> {
+        let periods = periods.unwrap_or_else(|| usual_periods(&self.inner));
+        let (text, impacts) = work::done(py, progress, |work| {
             let answer = self.answer(work)?;
             answer.observe(work);
-            json(&simulation(&self.stem, &self.inner, &answer))
-        })
+            let impacts = answer.impacts(&self.inner, periods).map_err(refused)?;
+            Ok((json(&simulation(&self.stem, &self.inner, &answer))?, impacts))
+        })?;
+        Ok((text, of_several(py, &self.inner, &impacts)?))
     }
 
     /// As `vinesink check --format json` says it of this case.
@@ -128,12 +138,7 @@ impl ModalCase {
         long: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<()> {
-        let render = |work: &WorkState| {
-            let answer = self.decided(Decided::ALL, long, work)?;
-            let beside = Beside::of(&self.inner, &answer, work).map_err(refused)?;
-            files(name, &self.inner, &answer, &beside).map_err(refused)
-        };
-        let files = work::done(py, progress, render)?;
+        let files = work::done(py, progress, |work| self.rendered(name, long, work))?;
         report::write(&folder, &files)
     }
 }
@@ -143,12 +148,49 @@ impl ModalCase {
         ModalAnswer::of(&self.inner, work).map_err(refused)
     }
 
+    /// The files of its report.
+    pub fn rendered(&self, name: &str, long: bool, work: &WorkState) -> PyResult<Files> {
+        let answer = self.decided(Decided::ALL, long, work)?;
+        let beside = Beside::of(&self.inner, &answer, work).map_err(refused)?;
+        files(name, &self.inner, &answer, &beside).map_err(refused)
+    }
+
     /// The same with what is told beside its criteria, as far as that is ordinary work, or any is asked for.
     fn decided(&self, told: Decided, long: bool, work: &WorkState) -> PyResult<ModalAnswer> {
         let affords = |_: LeftOut, _: f64, is_ordinary: bool| long || is_ordinary;
         let answer = self.answer(work)?;
         several::decided(&self.inner, answer, told, &affords, work).map_err(refused)
     }
+}
+
+/// A case of either kind.
+#[derive(FromPyObject)]
+pub enum OfAny {
+    /// Of one mode with one absorber.
+    One(Py<Case>),
+    /// Of several.
+    Several(Py<ModalCase>),
+}
+
+impl OfAny {
+    /// The files of the report that a comparison reads.
+    fn files(&self, work: &WorkState) -> PyResult<Files> {
+        match self {
+            Self::One(case) => decide::of_one(&case.get().inner, work),
+            Self::Several(case) => case.get().rendered(decide::COMPARED, false, work),
+        }
+    }
+}
+
+/// What changed from one case to another: the document of `vinesink diff`, and Markdown.
+#[pyfunction]
+pub fn compare(
+    py: Python<'_>,
+    old: OfAny,
+    new: OfAny,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(String, String)> {
+    work::done(py, progress, |work| decide::compared(&old.files(work)?, &new.files(work)?))
 }
 
 /// A case of either kind from its text; files that it names are below `folder`, unless they may be anywhere.

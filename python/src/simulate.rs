@@ -8,7 +8,8 @@ use vinesink::answer::trajectory::{
     Detail, Impact, ImpactLog, Observer, Segment, Simulation, Stop, followed,
 };
 use vinesink::answer::{Answer, Asked};
-use vinesink::case::Case;
+use vinesink::case::{Case, ModalCase};
+use vinesink::modal::LoadImpact;
 use vinesink::motions::{Effort, Motion, Motions};
 use vinesink::report::console::Simulated;
 use vinesink::system::State;
@@ -63,6 +64,33 @@ impl Impacts {
         }
         Ok(dict)
     }
+}
+
+/// Impacts of several modes or absorbers as columns, named as in the file that `--impacts` writes.
+pub fn of_several<'py>(
+    py: Python<'py>,
+    case: &ModalCase,
+    all: &[LoadImpact],
+) -> PyResult<Columns<'py>> {
+    let rows: Vec<[f64; 6]> = all.iter().map(|one| one.over_clearance(case)).collect();
+    let number = |k: usize| rows.iter().map(|row| row[k]).collect::<Vec<_>>().into_pyarray(py);
+    let whole = |of: &dyn Fn(&LoadImpact) -> usize| {
+        all.iter().map(|one| of(one) as i64).collect::<Vec<_>>().into_pyarray(py)
+    };
+    let dict = PyDict::new(py);
+    dict.set_item("tau", number(0))?;
+    let sides: Vec<i8> = all.iter().map(|one| one.side.sign() as i8).collect();
+    dict.set_item("side", sides.into_pyarray(py))?;
+    dict.set_item("absorber", whole(&|one| one.absorber))?;
+    for (k, name) in NAMES.iter().enumerate().skip(1) {
+        dict.set_item(name, number(k))?;
+    }
+    dict.set_item("load", whole(&|one| one.load))?;
+    let at: Vec<f64> = all.iter().map(|one| one.at).collect();
+    dict.set_item("frequency", at.into_pyarray(py))?;
+    let ids: Vec<String> = all.iter().map(|one| Motions::id(one.motion)).collect();
+    dict.set_item("motion", ids)?;
+    Ok(dict)
 }
 
 impl Observer for Impacts {

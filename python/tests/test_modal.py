@@ -55,6 +55,23 @@ def test_commands(path, printed):
     assert list(found.to_pandas().name) == [one["name"] for one in expected["criteria"]]
 
 
+def test_impacts_are_those_of_the_file(path, program, tmp_path):
+    found = vinesink.Case.from_toml(path).simulate(periods=9).impact_log
+    assert program("simulate", path, "--periods", "9", "--impacts", tmp_path / "impacts.csv").returncode == 0
+    head, *rows = (tmp_path / "impacts.csv").read_text().splitlines()
+    assert head.split(",") == found.columns and len(rows) == len(found.tau) > 9
+    for column, name in enumerate(found.columns):
+        written = [row.split(",")[column] for row in rows]
+        assert list(found[name]) == (written if name == "motion" else [float(one) for one in written]), name
+
+
+def test_compare_is_of_any_structure(path):
+    case = vinesink.Case.from_toml(path)
+    other = vinesink.Case.from_toml(SHORT.replace("4 mm", "6 mm"))
+    changed = vinesink.compare(case, other)
+    assert "clearance" in changed.markdown and "clearance" not in vinesink.compare(case, case).markdown
+
+
 def test_motions_are_rows_as_of_one_mode(path):
     found = vinesink.Case.from_toml(path).motions()
     assert set(found.load) == {1} and set(found.kind) <= {"orbit", "rest", "repeats", "wanders"}
@@ -134,7 +151,7 @@ def test_what_it_is_not(path):
         with pytest.raises(vinesink.RefusedError, match="several modes or absorbers"):
             ask()
     with pytest.raises(vinesink.RefusedError, match="starts are those of the search"):
-        case.simulate(periods=9)
+        case.simulate(discard=9)
     with pytest.raises(vinesink.RefusedError, match="several modes or absorbers"):
         vinesink.branch(case, "clearance", ["1 mm", "9 mm"])
     with pytest.raises(vinesink.CaseError, match="place at which no mode has a shape") as raised:

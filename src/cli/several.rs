@@ -9,8 +9,9 @@ use vinesink::answer::several::{self, LeftOut};
 use vinesink::case::{ModalCase, Objective};
 use vinesink::modal::{
     Beside, LoadImpact, ModalAnswer, ModalOptimum, checks, orbits, seconds, seconds_of_flight,
+    usual_periods,
 };
-use vinesink::motions::{Effort, Motions};
+use vinesink::motions::Motions;
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
 use vinesink::report::modal::{
@@ -80,8 +81,7 @@ pub fn simulate(
     impacts: Option<&Path>,
     periods: Option<u64>,
 ) -> Result<bool> {
-    let usual = if case.periods > 0 { case.periods } else { Effort::default().periods };
-    let periods = periods.unwrap_or(usual);
+    let periods = periods.unwrap_or_else(|| usual_periods(case));
     if impacts.is_some() {
         let flown = seconds_of_flight(case, periods as f64 * case.loads.len() as f64);
         let what = format!("{periods} excitation periods of a motion under each load");
@@ -103,24 +103,13 @@ fn csv(case: &ModalCase, impacts: &[LoadImpact]) -> String {
     let mut text = String::from(
         "tau,side,absorber,x,xdot_before,xdot_after,ydot_before,ydot_after,load,frequency,motion\n",
     );
-    let omega = case.omega();
     for one in impacts {
         let side = if one.side.sign() > 0.0 { "+1" } else { "-1" };
-        let clearance = case.absorbers[one.absorber - 1].clearance_m;
-        let speeds = [one.x_velocity, one.y_velocity].concat();
-        let speeds = speeds.into_iter().map(|speed| (speed / (clearance * omega)).to_string());
+        let [tau, rest @ ..] = one.over_clearance(case);
         // Rust prints the shortest text that reads back to the same number.
-        let _ = writeln!(
-            text,
-            "{},{side},{},{},{},{},{},{}",
-            one.time_s * omega,
-            one.absorber,
-            one.x_m / clearance,
-            speeds.collect::<Vec<_>>().join(","),
-            one.load,
-            one.at,
-            Motions::id(one.motion)
-        );
+        let rest = rest.map(|number| number.to_string()).join(",");
+        let id = Motions::id(one.motion);
+        let _ = writeln!(text, "{tau},{side},{},{rest},{},{},{id}", one.absorber, one.load, one.at);
     }
     text
 }

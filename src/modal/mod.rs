@@ -44,7 +44,7 @@ pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
 pub use linear::{linear_most, linear_peak, linear_places};
 pub use optimum::{Aim, JudgedAbsorbers, ModalOptimum, RobustAbsorbers, checks, clearance_bounds};
 pub use orbits::{LoadOrbits, Stretches, at_resonances, orbits};
-pub use over_time::{LoadImpact, OverTime};
+pub use over_time::{LoadImpact, OverTime, usual_periods};
 pub use ranges::looks;
 pub use sensors::sensors;
 pub use theory::{GroupTheory, LoadTheory};

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{AlongLoad, ModalAnswer, ModalError};
 use crate::case::ModalCase;
-use crate::motions::ModalMotion;
+use crate::motions::{Effort, ModalMotion};
 use crate::simulation::{ModalImpact, Reading, Side};
 
 /// Periods shown of a motion that repeats, at least, and at most; of one that does not; and of one with fewer than two impacts per period,
@@ -74,6 +74,15 @@ pub struct LoadImpact {
 }
 
 impl LoadImpact {
+    /// `tau`, `x`, the velocities of the structure before and after, and those of the absorber, as a file of impacts has them: lengths over
+    /// the absorber's clearance, time in fast time of the first mode.
+    pub fn over_clearance(&self, case: &ModalCase) -> [f64; 6] {
+        let (length, omega) = (case.absorbers[self.absorber - 1].clearance_m, case.omega());
+        let [x_before, x_after] = self.x_velocity.map(|one| one / (length * omega));
+        let [y_before, y_after] = self.y_velocity.map(|one| one / (length * omega));
+        [self.time_s * omega, self.x_m / length, x_before, x_after, y_before, y_after]
+    }
+
     /// Relative speed in m/s at which they meet.
     pub fn speed(&self) -> f64 {
         (self.x_velocity[0] - self.y_velocity[0]).abs()
@@ -198,6 +207,11 @@ impl OverTime {
             impacts,
         })
     }
+}
+
+/// Excitation periods of which impacts are told, unless asked for otherwise.
+pub fn usual_periods(case: &ModalCase) -> u64 {
+    if case.periods > 0 { case.periods } else { Effort::default().periods }
 }
 
 impl ModalAnswer {

@@ -462,8 +462,8 @@ class Case:
         progress
             Called with the steps done and all steps, about ten times a second.
 
-        A structure that is not driven steadily, or that has several modes or absorbers, has no impacts and no trajectory here, only its
-        document.
+        A structure that is not driven steadily has no impacts and no trajectory here, only its document. One that has several modes or
+        absorbers has the impacts of so many `periods` of the motion in which it moves farthest under each load, and no trajectory.
         Warns with `SimulationWarning` where the numbers are not to be trusted. Raises `RefusedError` for a start outside
         of the cavity.
         """
@@ -473,9 +473,12 @@ class Case:
         if start is not None and len(start) != 4:
             raise RefusedError(f"initial has {len(start)} numbers, expected four: x, xdot, y, ydot")
         if isinstance(self._core, _vinesink.ModalCase):
-            if any(given is not None for given in (periods, discard, initial, times)) or not measure:
-                raise RefusedError("the structure has several modes or absorbers, whose starts are those of the search; call simulate()")
-            return Simulation(json.loads(self._core.simulate(told)), Table({}), None)
+            if any(given is not None for given in (discard, initial, times)) or not measure:
+                raise RefusedError(
+                    "the structure has several modes or absorbers, whose starts are those of the search; call simulate(), or simulate(periods=...)"
+                )
+            text, impacts = self._core.simulate(periods, told)
+            return Simulation(json.loads(text), Table(impacts), None)
         if not self._core.steady:
             if any(given is not None for given in (periods, discard, initial, times)) or not measure:
                 raise RefusedError("the structure is not driven steadily: the case itself says what becomes of it; call simulate()")

@@ -150,5 +150,5 @@ def sweep(
 def compare(old: Case, new: Case, *, progress: Progress | None = None) -> Difference:
     """What changed from one design to another, as a reviewer of their reports would have it: the document of `vinesink diff`,
     and `markdown`."""
-    document, markdown = _vinesink.compare(_case_of(old)._one, _case_of(new)._one, _told(progress))
+    document, markdown = _vinesink.compare(_case_of(old)._core, _case_of(new)._core, _told(progress))
     return Difference(json.loads(document), markdown)

@@ -238,7 +238,9 @@ class Simulation(_WithRows):
     @property
     def impact_log(self) -> Table:
         """The impacts of the measured window, one a row: `tau`, fast time since the start of the run; `side`, +1 where
-        x - y = +b; `x` over the clearance; `xdot_before`, `xdot_after`, `ydot_before`, `ydot_after` per fast time."""
+        x - y = +b; `x` over the clearance; `xdot_before`, `xdot_after`, `ydot_before`, `ydot_after` per fast time. Of several
+        modes or absorbers also `absorber` and `load` by their numbers from 1, the `frequency` (Hz) and the `motion` in the list there;
+        lengths are over the absorber's own clearance."""
         return self._impacts
 
     @property
