@@ -154,7 +154,7 @@ pub(super) fn modes_of_file(
 }
 
 /// What a mode cannot be, and what was expected.
-fn impossible(mode: &StructuralMode) -> Option<(String, &'static str)> {
+pub(super) fn impossible(mode: &StructuralMode) -> Option<(String, &'static str)> {
     let StructuralMode { frequency_hz, mass_kg, damping_ratio, shape, .. } = mode;
     if *frequency_hz <= 0.0 || *mass_kg <= 0.0 {
         let wrong = format!("has {frequency_hz} Hz and a modal mass of {mass_kg} kg");
