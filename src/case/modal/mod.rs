@@ -237,9 +237,13 @@ pub fn is_modal(text: &str) -> bool {
     tells_several(&document).is_some() && OneMode::of(&document).is_none()
 }
 
-/// The path of the file that the modes of a text are in, relative to the case file.
+/// The path of the file that the modes of a text are in, relative to the case file; none of one that lists modes beside it, which
+/// is refused.
 pub fn modes_file(text: &str) -> Option<String> {
     let document = document::parse(text.strip_prefix('\u{feff}').unwrap_or(text)).ok()?;
+    if document.contains_key("mode") {
+        return None;
+    }
     let table = document.get("modes")?.get_ref().as_table()?;
     Some(table.get("file")?.get_ref().as_str()?.to_owned())
 }
