@@ -23,7 +23,7 @@ pub use git::{
     branch_point, is_ancestor, name_of_ref, read_files_at, read_reports_at, toml_files_at,
 };
 pub use growing::Growing;
-pub use reading::{CaseText, Reach, open, read_case, read_named, read_text};
+pub use reading::{CaseText, Reach, below, open, read_case, read_named, read_text};
 pub use reports::{StoredReport, StoredReports, read_reports};
 pub use shards::{Found, Shards, Sharing, Turn};
 

@@ -8,7 +8,7 @@ use super::criteria::{AREAS_ARE_IDEAL, Criterion, EXACT_INSTEAD, Of, Relation, S
 use super::modal::find_place;
 use super::number::{Bound, Form, sign_of};
 use super::reader::{Reader, Table, kind};
-use super::value::ValuePlace;
+use super::value::{ValuePlace, nearest};
 use crate::excitation::Scene;
 use crate::measure::Part;
 use crate::quantity::Dimension;
@@ -102,6 +102,11 @@ fn part<'a>(
         } else {
             format!("expected `limit` and `{own}`")
         };
+        let known: Vec<&str> = ["limit", own].into_iter().filter(|one| !one.is_empty()).collect();
+        let help = match nearest(foreign.get_ref(), &known) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => help,
+        };
         reader.report(foreign.span(), message, expected, help);
         return None;
     }
@@ -120,7 +125,10 @@ fn part<'a>(
             let number = number.filter(|number| (1..=asked.absorbers).contains(number));
             if number.is_none() {
                 let message = format!("there is no absorber {}", reader.as_written(named.span()));
-                let expected = format!("expected the number of one, from 1 to {}", asked.absorbers);
+                let expected = format!(
+                    "expected the number of an [[absorber]] in the order of the file, from 1 to {}",
+                    asked.absorbers
+                );
                 reader.report(named.span(), message, expected, help);
             }
             Of::Absorber(number? - 1)

@@ -59,7 +59,7 @@ pub use error::{CaseError, Problem};
 pub use inputs::Input;
 pub use modal::{
     ActsOn, Bounds, ListedMode, Load, ModalCase, ModalSweep, ModesFile, ModesListing,
-    PlacedAbsorber, StructuralMode, is_modal, is_of_absorber, modes_file,
+    PlacedAbsorber, StartingModes, StructuralMode, is_modal, is_of_absorber, modes_file,
 };
 pub use optimize::{Objective, OptimizeSettings};
 pub use physical::Physical;

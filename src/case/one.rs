@@ -94,6 +94,10 @@ impl<'t> OneMode<'t> {
 
     /// Lists of one absorber or one excitation beside `[oscillator]`, which has no places.
     fn beside_oscillator(document: &DeTable<'t>) -> Option<Self> {
+        // Which of them is meant is asked of the author.
+        if ["mode", "modes"].iter().any(|name| document.contains_key(*name)) {
+            return None;
+        }
         let mut document = document.clone();
         let mut is_list = false;
         for name in ["absorber", "excitation"] {

@@ -19,6 +19,21 @@ use super::{Design, Recording};
 /// Problems that are told one by one: more than a case has keys.
 const MOST_PROBLEMS: usize = 100;
 
+/// What other programs, or structures of one mode, have in place of a key: the table, the word, the key, and what it is.
+const OTHERWISE: [(&str, &str, &str, &str); 11] = [
+    ("mode", "damping", "damping_ratio", "which is damping / (2 sqrt(stiffness mass))"),
+    ("mode", "stiffness", "frequency", "the natural one: sqrt(stiffness / mass) / (2 pi)"),
+    ("mode", "modal_mass", "mass", "the modal mass by the scale of the shape"),
+    ("mode", "shapes", "shape", "the displacement at each place where the modal coordinate is 1"),
+    ("absorber", "mass_ratio", "mass", "for there are several masses that it could be over"),
+    ("absorber", "gap", "clearance", "which is from the middle to either wall: half of the gap"),
+    ("", "load", "excitation", "with `kind` and `amplitude`"),
+    ("", "loads", "excitation", "with `kind` and `amplitude`"),
+    ("", "force", "excitation", "with kind = \"force\" and `amplitude`"),
+    ("", "limits", "criteria", "with a key for each limit"),
+    ("", "structure", "mode", "with frequency, damping_ratio, mass and shape"),
+];
+
 /// The text being read, with what was found wrong and what was read so far.
 pub(super) struct Reader<'t> {
     pub text: &'t str,
@@ -181,10 +196,23 @@ impl<'t> Reader<'t> {
     ) -> Option<&'static str> {
         let written = key.get_ref().as_ref();
         let homes = homes_of(written);
-        let guess = if homes.is_empty() { nearest(written, &table.keys) } else { None };
+        let otherwise = OTHERWISE.iter().find(|(path, other, own, _)| {
+            (*path, *other) == (&table.path, written) && table.keys.contains(own)
+        });
+        let guess = if let Some((_, _, own, _)) = otherwise {
+            Some(*own)
+        } else if homes.is_empty() {
+            nearest(written, &table.keys)
+        } else {
+            None
+        };
         let what = if value.get_ref().is_table() { "table" } else { "key" };
         let expected = format!("expected one of {}", table.keys.join(", "));
         let help = match guess {
+            Some(guess) if otherwise.is_some() => {
+                let what = otherwise.map_or("", |(.., what)| what);
+                format!("write `{guess}` instead, {what}")
+            }
             Some(guess) => format!("did you mean `{guess}`?"),
             None if homes.contains(&format!("[{}]", table.path)) => {
                 format!(

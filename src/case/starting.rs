@@ -33,7 +33,7 @@ impl StartingLine {
 }
 
 /// Column at which a comment behind a value stands.
-const COMMENTS: usize = 30;
+pub(super) const COMMENTS: usize = 30;
 
 /// The lines of a text, and how they are changed.
 struct Lines(Vec<String>);

@@ -1,10 +1,10 @@
 //! `vinesink modes FILE`
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use miette::{IntoDiagnostic, Report, Result};
-use vinesink::case::ModesListing;
+use vinesink::case::{ModesFile, ModesListing};
 use vinesink::case_input::{CaseInputError, read_modes};
 use vinesink::program::output;
 use vinesink::report::modal::{listing, listing_text};
@@ -31,12 +31,17 @@ Examples:
   vinesink modes mast.unv
   vinesink modes mast.csv --format json";
 
-pub fn run(arguments: Arguments) -> Result<bool> {
-    let file = read_modes(&arguments.path).map_err(|error| match error {
+/// A file of modes.
+pub fn read(path: &Path) -> Result<ModesFile> {
+    read_modes(path).map_err(|error| match error {
         CaseInputError::Case(error) => Report::new(error),
         CaseInputError::File(error) => Report::new(error),
         other => Report::msg(other),
-    })?;
+    })
+}
+
+pub fn run(arguments: Arguments) -> Result<bool> {
+    let file = read(&arguments.path)?;
     let name = arguments.path.file_name().unwrap_or_default().to_string_lossy();
     let found = ModesListing::of(&file, &name)?;
     match arguments.format {

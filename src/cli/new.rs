@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use miette::{IntoDiagnostic, Result, miette};
-use vinesink::case::{Case, Objective, excitation_kinds};
+use vinesink::case::{Case, ModalCase, Objective, StartingModes, excitation_kinds};
 use vinesink::criteria::all_hold;
 use vinesink::optimize::Task;
+use vinesink::optimize::guess::resistance;
 use vinesink::program::output;
 use vinesink::program::parallel::Parallel;
 use vinesink::proposal::{Drive, Proposal, Wish, Wishes};
@@ -17,6 +18,7 @@ use vinesink::report::proposal;
 use vinesink::store;
 
 use super::budget::{Long, Work};
+use super::modes;
 
 /// Write a commented case to start from
 ///
@@ -36,6 +38,9 @@ pub struct Arguments {
     #[arg(long, value_name = "KIND", value_parser = PossibleValuesParser::new(excitation_kinds()))]
     #[arg(conflicts_with_all = ["guide", "Known"])]
     kind: Option<String>,
+    /// A structure of several modes instead of one: their number, or a file of them as `vinesink modes` lists it
+    #[arg(long, value_name = "N|FILE", conflicts_with_all = ["guide", "kind", "Known"])]
+    modes: Option<String>,
     /// Ask on the terminal for what is known, and propose an absorber
     #[arg(long)]
     guide: bool,
@@ -85,6 +90,8 @@ const EXAMPLES: &str = "\
 Examples:
   vinesink new damper                write damper.toml
   vinesink new jump --kind impulse   the same for a structure that is struck
+  vinesink new floor --modes 3       one of three modes
+  vinesink new mast --modes mast.csv the modes of a file, which must be in the folder of the case or below it
   vinesink new cases/footbridge      write cases/footbridge.toml; the folder must exist
   vinesink new damper --guide        ask for the structure, and propose an absorber
   vinesink new damper --mass \"30 kg\" --frequency \"6.9 Hz\" --damping \"0.5 %\" --force \"14 N\" --limit \"4 mm\"";
@@ -172,13 +179,63 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     if arguments.guide || !arguments.known.given().is_empty() {
         return arguments.propose(&path, &title);
     }
-    let text = match &arguments.kind {
-        Some(kind) => Case::starting_text_of(&title, kind),
-        None => Case::starting_text(&title),
+    let text = match (&arguments.modes, &arguments.kind) {
+        (Some(modes), _) => {
+            store::must_be_new(&path)?;
+            of_modes(&path, &title, modes)?
+        }
+        (None, Some(kind)) => Case::starting_text_of(&title, kind),
+        (None, None) => Case::starting_text(&title),
     };
     store::write_new(&path, text.as_bytes())?;
     output::print_path(&path)?;
     Ok(true)
+}
+
+/// The text of a case of so many modes, or of those of a file.
+fn of_modes(path: &Path, title: &str, asked: &str) -> Result<String> {
+    let (modes, file) = match asked.parse::<i64>() {
+        Ok(count) => {
+            let modes = usize::try_from(count).ok().and_then(StartingModes::uniform);
+            let modes = modes.ok_or_else(|| {
+                miette!(
+                    help = "write for example --modes 3, or --modes FILE with a file of modes",
+                    "--modes {count}: a case has 1 to {} modes",
+                    StartingModes::MOST
+                )
+            })?;
+            (modes, None)
+        }
+        Err(_) if !Path::new(asked).exists() => {
+            return Err(miette!(
+                help = "write a number, as in --modes 3, or the path of a file that `vinesink modes FILE` lists",
+                "--modes {asked}: there is no such file"
+            ));
+        }
+        Err(_) => {
+            let file = modes::read(Path::new(asked))?;
+            (StartingModes::of_file(&file, &beside(path, Path::new(asked))?)?, Some(file))
+        }
+    };
+    let text = ModalCase::starting_text(title, &modes, resistance(modes.resists()));
+    // Nobody is left with a case that cannot be read, as of places whose names break a table.
+    ModalCase::parse_with(&path.display().to_string(), &text, file)?;
+    Ok(text)
+}
+
+/// What a case calls a file that is in its folder or below it.
+fn beside(case: &Path, file: &Path) -> Result<String> {
+    let within = store::below(case.parent().unwrap_or(Path::new("")), file)?.ok_or_else(|| {
+        miette!(
+            help = "copy the file into the folder of the case, or write the case beside the file",
+            "{} is not in the folder of {}: a case reads what is in its folder or below",
+            file.display(),
+            case.display()
+        )
+    })?;
+    // Case files have one separator everywhere.
+    let parts: Vec<_> = within.iter().map(|part| part.to_string_lossy()).collect();
+    Ok(parts.join("/"))
 }
 
 impl Arguments {

@@ -157,7 +157,6 @@ fn nothing_uncertain(path: &Path) -> miette::Report {
 /// The same of a structure of several modes or absorbers.
 fn several(arguments: &Arguments, case: &ModalCase, text: &str) -> Result<bool> {
     let path = &arguments.one.path;
-    several::without(path, &[("--out", arguments.out.is_some())])?;
     if arguments.objective == Some(Objective::Z3Share) {
         return Err(miette!(
             help = "ask for --objective stable-share, the same of the exact orbits of all modes",
@@ -169,7 +168,7 @@ fn several(arguments: &Arguments, case: &ModalCase, text: &str) -> Result<bool> 
         return Err(nothing_uncertain(path));
     }
     let asked = (arguments.objective, arguments.robust);
-    let better = several::optimize(&arguments.one, case, text, asked)?;
+    let better = several::optimize(&arguments.one, case, text, asked, arguments.out.as_deref())?;
     if let (Some(new), Some(better)) = (&arguments.write, &better) {
         store::write_new(new, better.as_bytes())?;
         arguments.tell(&format!("written: {}", new.display()), "\n")?;

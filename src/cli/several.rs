@@ -14,8 +14,9 @@ use vinesink::modal::{
 use vinesink::motions::Motions;
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
+use vinesink::program::reports;
 use vinesink::report::modal::{
-    analysis, analysis_text, files, optimum, optimum_text, simulation, text,
+    analysis, analysis_text, files, optimum, optimum_files, optimum_text, simulation, text,
 };
 use vinesink::report::render::Files;
 use vinesink::store;
@@ -122,17 +123,22 @@ pub fn analyze(one: &OneCase, case: &ModalCase) -> Result<bool> {
 }
 
 /// Prints better absorbers, by this objective in place of the case's own; the text of the case with them, where there are any: of those
-/// that are best on average where that is asked for.
+/// that are best on average where that is asked for. Its page goes into a folder of reports where one is named.
 pub fn optimize(
     one: &OneCase,
     case: &ModalCase,
     text: &str,
     (objective, robust): (Option<Objective>, bool),
+    out: Option<&Path>,
 ) -> Result<Option<String>> {
     let seconds = seconds(case) * checks(case);
     one.long.allows_seconds(&one.path, seconds, "candidates under each load")?;
     let found = ModalOptimum::of(case, text, objective, &Parallel).into_diagnostic()?;
     let document = optimum(case, &found);
+    if let Some(out) = out {
+        let files = optimum_files(case, &found, &document).into_diagnostic()?;
+        reports::add_to_report(out, &one.path, &files)?;
+    }
     one.print(|| optimum_text(case, &document), || &document)?;
     let best = found.best.first().filter(|_| found.succeeds());
     let of_robust = found

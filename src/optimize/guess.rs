@@ -10,6 +10,12 @@ const FORCE: f64 = 0.55;
 /// Factor by which the closed form of the clearance may miss the best, either way; also of what it promises.
 pub const MISSES: f64 = 1.7;
 
+/// What resists a structure at resonance, over its stiffness and its displacement: its damping ratio twice, and an absorber of such a
+/// mass ratio that follows with the clearance as the amplitude.
+pub fn resistance([damping_ratio, mass_ratio]: [f64; 2]) -> f64 {
+    2.0 * damping_ratio + FORCE * mass_ratio
+}
+
 /// The clearance of a case by closed form, and what it promises: the largest displacement, or the time to come to rest.
 ///
 /// At resonance damper and absorber carry the force, `P = k A 2 zeta + 0.55 eps k b` with the amplitude `A`, which is about
@@ -28,7 +34,8 @@ pub fn clearance(case: &Case) -> [f64; 2] {
         return [clearance, case.units().time(libm::log(ratio) / zeta)];
     }
     let (still, at) = driven(case);
-    let clearance = still / libm::hypot(1.0 - at * at, (2.0 * zeta + absorber) * at);
+    let clearance =
+        still / libm::hypot(1.0 - at * at, resistance([zeta, system.mass_ratio()]) * at);
     [clearance, clearance]
 }
 

@@ -19,12 +19,23 @@ pub type Drawings = BTreeMap<String, (String, String)>;
 
 /// The page as HTML, called by its first heading: of its Markdown, with the files that it links to after it, and of
 /// its drawings. `tone` is the class of the first quotation, the verdict: `good`, `mixed`, `bad`,
-/// or nothing.
+/// or nothing. The first table is of the numbers that a report begins with, which stand out.
 ///
 /// # Errors
 /// [`RenderError::Formula`] if a formula is not understood.
 pub fn page(tone: &str, markdown: &str, drawings: &Drawings) -> Result<String, RenderError> {
+    page_with(true, tone, markdown, drawings)
+}
+
+/// The same of a page whose first table is one like the others, unless it begins with such numbers.
+pub(super) fn page_with(
+    tiles: bool,
+    tone: &str,
+    markdown: &str,
+    drawings: &Drawings,
+) -> Result<String, RenderError> {
     let mut writer = PageWriter { tone, drawings: Some(drawings), ..PageWriter::default() };
+    writer.tables = usize::from(!tiles);
     let options = Options::ENABLE_TABLES | Options::ENABLE_MATH;
     let mut events = Vec::new();
     for event in Parser::new_ext(markdown, options) {
@@ -62,6 +73,7 @@ struct PageWriter<'a> {
     /// Whether the first quotation is over, and whether it is being read.
     quoted: bool,
     in_verdict: bool,
+    /// How many tables there were; the first, of number 0, stands out.
     tables: usize,
     /// How the columns of the table that is being read are aligned, the name of its cells, and the next one's column.
     alignments: Vec<Alignment>,

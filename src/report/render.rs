@@ -17,10 +17,11 @@ use crate::quantity::Units;
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 /// The drawings that belong to pages of other commands, in the folder of a report.
-const FIGURES_OF_OTHERS: [&str; 4] = [
+const FIGURES_OF_OTHERS: [&str; 5] = [
     "figures/tradeoff.svg",
     "figures/optimize-landscape.svg",
     "figures/optimize-chart.svg",
+    "figures/optimize-loads.svg",
     "figures/nearer-resonance.svg",
 ];
 /// How the names of a sweep's drawings begin, of which there are more or fewer.
@@ -96,7 +97,9 @@ pub fn page_files(
     facts["figures"] = figures.iter().map(figure_row).collect();
     let markdown = template::render(template, units, &facts)?;
     let drawings = drawings(figures, &Serial)?;
-    let html = tone.map(|tone| html::page(tone, &markdown, &drawings)).transpose()?;
+    // Other pages begin with a table of absorbers, or of points.
+    let tiles = name == "report";
+    let html = tone.map(|tone| html::page_with(tiles, tone, &markdown, &drawings)).transpose()?;
     let mut files = figure_files(drawings);
     files.extend(texts(html.map(|html| (format!("{name}.html"), html))));
     files.extend(texts([(format!("{name}.md"), markdown)]));

@@ -137,6 +137,17 @@ pub fn read_named(
     Ok((path, bytes))
 }
 
+/// The path of a file from a folder in which it is, or below which; none of one elsewhere.
+///
+/// # Errors
+/// [`StoreError`] where there is no such file or folder.
+pub fn below(folder: &Path, file: &Path) -> Result<Option<PathBuf>, StoreError> {
+    let real = |path: &Path| fs::canonicalize(path).map_err(|cause| refused("read", path, cause));
+    let folder = if folder == Path::new("") { Path::new(".") } else { folder };
+    let (folder, file) = (real(folder)?, real(file)?);
+    Ok(file.strip_prefix(&folder).ok().map(Path::to_owned))
+}
+
 /// The file that a path leads to, which must be below a folder unless all are in reach.
 pub(super) fn within(folder: &Path, path: &Path, reach: Reach) -> Result<PathBuf, StoreError> {
     let real = |path: &Path| fs::canonicalize(path).map_err(|cause| refused("read", path, cause));

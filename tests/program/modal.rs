@@ -68,14 +68,14 @@ fn slips_are_told_where_they_are() {
     refused(
         "mass = \"3 kg\"",
         "mass_ratio = 0.1",
-        &["unknown key `mass_ratio`", "`mass` is missing"],
+        &["unknown key `mass_ratio`", "write `mass` instead"],
     );
     refused("restitution = 0.3", "restitution = 1.2", &["`restitution` is 1.2", "from 0 to 1"]);
     refused("\"2.7 mm\"", "\"2.7 kg\"", &["`clearance`", "a length"]);
     refused("mode = 2", "mode = 4", &["`mode` is 4, and there are 3"]);
     refused("mode = 2", "mode = 2\nplace = \"tip\"", &["both say where the force acts"]);
     refused("to = \"7.583 Hz\"", "to = \"5 Hz\"", &["ends where it begins"]);
-    refused("to = \"7.583 Hz\"", "", &["neither a frequency nor a whole range"]);
+    refused("to = \"7.583 Hz\"", "", &["43: `to` is missing beside `from` in [excitation]"]);
     refused("\"14.07 N\"", "\"14.07 mm\"", &["`amplitude`", "a force"]);
     refused(
         "kind = \"force\"\nmode = 2\namplitude = \"14.07 N\"",
@@ -130,6 +130,116 @@ fn slips_are_told_where_they_are() {
             .repeat(8);
     let told = wrong(&text(MAST).replacen("# Vortices", &format!("{nine}# Vortices"), 1));
     assert!(told.contains("there are 9 of [[absorber]]"), "{told}");
+}
+
+/// What two places say of one thing, what means something elsewhere, and what is misspelled: one message, with what to do.
+#[test]
+fn a_slip_is_told_once_with_what_to_do() {
+    let good = text(MAST);
+    for (from, to, all) in [
+        (
+            "[[mode]]",
+            "[oscillator]\nmass = \"1 kg\"\n[[mode]]",
+            &["[oscillator] has no meaning beside [[mode]]", "remove [oscillator], or [[mode]]"][..],
+        ),
+        (
+            "from = \"0.935 Hz\"",
+            "frequency = \"1.1 Hz\"\nfrom = \"0.935 Hz\"",
+            &["`frequency` and a range both say", "remove `frequency`, or `from` and `to`"],
+        ),
+        (
+            "from = \"0.935 Hz\"\nto = \"1.21 Hz\"",
+            "",
+            &["there is neither `frequency` nor a range", "frequency = \"6.9 Hz\""],
+        ),
+        ("from = \"0.935 Hz\"", "form = \"0.935 Hz\"", &["did you mean `from`?"]),
+        (
+            "kind = \"force\"",
+            "kind = \"impulse\"",
+            &[
+                "kind = \"impulse\" has no meaning with several modes",
+                "[oscillator] and [absorber]",
+            ],
+        ),
+        ("mode = 2", "mode = 4", &["expected the number of a mode, from 1 to 3"]),
+        ("damping_ratio", "damping_ration", &["did you mean `damping_ratio`?"]),
+        ("damping_ratio = \"0.5 %\"", "damping = \"3 N s/m\"", &["write `damping_ratio` instead"]),
+        ("frequency = \"1.1 Hz\"", "stiffness = \"3 N/m\"", &["write `frequency` instead"]),
+        ("mass = \"30 kg\"", "modal_mass = \"30 kg\"", &["write `mass` instead"]),
+        ("clearance = \"2.7 mm\"", "clearence = \"2.7 mm\"", &["did you mean `clearance`?"]),
+        (
+            "clearance = \"2.7 mm\"",
+            "gap = \"5.4 mm\"",
+            &["write `clearance` instead", "half of the gap"],
+        ),
+        ("amplitude = ", "amplitud = ", &["did you mean `amplitude`?"]),
+        ("shape = ", "shpe = ", &["did you mean `shape`?"]),
+        ("[[absorber]]", "[[absorbers]]", &["did you mean `absorber`?"]),
+        ("place = \"tip\"", "place = \"roof\"", &["expected \"middle\" or \"tip\""]),
+        ("place = \"tip\"", "place = 3", &["`place` is a number"]),
+        (
+            "middle = -0.714",
+            "midle = -0.714",
+            &["no value at \"middle\"", "did you mean \"middle\" where \"midle\" is written?"],
+        ),
+        (
+            "middle = 0.340",
+            "midle = 0.340",
+            &["did you mean \"middle\" where \"midle\" is written?"],
+        ),
+        (
+            "{ limit = \"<= 4 mm\", place",
+            "{ limit = \"<= 4 mm\", plase",
+            &["did you mean `place`?"],
+        ),
+        (
+            "peak_displacement = { limit = \"<= 4 mm\", place = \"tip\" }",
+            "impact_velocity = { limit = \"<= 1 m/s\", absorber = 3 }",
+            &["there is no absorber 3", "in the order of the file, from 1 to 1"],
+        ),
+        (
+            "[criteria]",
+            "[optimize]\nplaces = [\"roof\"]\n[criteria]",
+            &["write for example \"middle\""],
+        ),
+        (
+            "[[mode]]",
+            "[modes]\nfile = \"mast.csv\"\n[[mode]]",
+            &["remove [modes], or every [[mode]]"],
+        ),
+    ] {
+        assert!(good.contains(from), "{from}");
+        let told = wrong(&good.replacen(from, to, 1));
+        assert_eq!(told.lines().count(), 1, "{to}: {told}");
+        assert!(all.iter().all(|words| told.contains(words)), "{to}: {told}");
+    }
+    // Every one of a table is misspelled, or written as another.
+    for (from, to, words) in [
+        ("[[mode]]", "[[modes]]", "write [[mode]] above each mode, or one table [modes]"),
+        ("[[excitation]]", "[[load]]", "write `excitation` instead"),
+        ("[[excitation]]", "[[exitation]]", "did you mean `excitation`?"),
+    ] {
+        let told = wrong(&good.replace(from, to));
+        assert!(told.contains(words) && !told.contains("is missing"), "{to}: {told}");
+    }
+    // The structure of one absorber with two.
+    let two = "title = \"t\"\nsource = \"s\"\n[oscillator]\nmass = \"1 kg\"\nfrequency = \"3 Hz\"\ndamping_ratio = 0.01\n";
+    let rest = &good[good.find("[[absorber]]").expect("an absorber")..];
+    let told = wrong(&format!("{two}{rest}"));
+    assert!(
+        told.contains("[oscillator] has no meaning beside several absorbers or loads"),
+        "{told}"
+    );
+    assert!(
+        told.contains("write [[mode]] with frequency") && !told.contains("is missing"),
+        "{told}"
+    );
+    // Beside one mode that is written as a list of one, too.
+    let one = "[[mode]]\nfrequency = \"3 Hz\"\ndamping_ratio = 0.01\nmass = \"1 kg\"\nshape = { tip = 1 }\n\
+               [[absorber]]\nmass = \"20 g\"\nclearance = \"2 mm\"\nrestitution = 0.6\n\
+               [excitation]\nkind = \"force\"\namplitude = \"1 N\"\nfrequency = \"3 Hz\"\n";
+    assert!(is_modal(&format!("{two}{one}")));
+    assert!(wrong(&format!("{two}{one}")).contains("[oscillator] has no meaning beside [[mode]]"));
 }
 
 /// A slip of a unit or of a per cent sign is told where it is; shipped cases have none.

@@ -1,9 +1,12 @@
 //! Modes on their way in from files: nothing that decides is lost, counted twice or taken for something else.
 
 use std::fs;
+use std::path::Path;
+use std::process::Output;
 
 use assert_cmd::Command;
-use vinesink::case::ModalCase;
+use serde_json::Value;
+use vinesink::case::{ModalCase, StartingModes};
 use vinesink::case_input::{AnyCase, CaseInputError, read_any};
 use vinesink::store::Reach;
 
@@ -349,4 +352,153 @@ fn a_table_of_modes_is_read_as_it_is_separated() {
     assert_eq!(hertz(COLUMNS, &[&[0xff, 0xfe], &wide[..]].concat()), Ok(vec![1.1]));
     let told = hertz(COLUMNS, b"PK\x03\x04sheet").expect_err("refused");
     assert!(told.contains("an Excel workbook") && told.contains("CSV UTF-8"), "{told}");
+}
+
+/// What the program says in a folder.
+fn run_in(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::cargo_bin("vinesink").expect("built");
+    command.current_dir(folder).args(arguments).output().expect("it runs")
+}
+
+/// The worst displacement of a case by its criterion, and the exit code of `check`: a decision, with an absorber that impacts.
+fn decided(folder: &Path, name: &str) -> (f64, Option<i32>) {
+    let simulated = run_in(folder, &["simulate", name, "--format", "json"]);
+    let simulated: Value = serde_json::from_slice(&simulated.stdout).expect("JSON");
+    let places = simulated["loads"][0]["places"].as_array().expect("frequencies");
+    let impacts = |motion: &Value| motion["impacts_per_period"]["value"].as_f64() > Some(1.0);
+    let at =
+        |place: &&Value| place["motions"].as_array().is_some_and(|all| all.iter().any(impacts));
+    assert!(5 * places.iter().filter(at).count() > places.len(), "{name}: {simulated}");
+    let checked = run_in(folder, &["check", name, "--criteria-only", "--format", "json"]);
+    let told: Value = serde_json::from_slice(&checked.stdout).expect("JSON");
+    let criterion = &told["cases"][0]["criteria"][0];
+    assert!(criterion["found"].as_f64().is_some_and(f64::is_finite), "{name}: {told}");
+    (criterion["found"].as_f64().unwrap_or_default(), checked.status.code())
+}
+
+/// `new --modes` writes a case that can be read and decided as it is, whatever its modes come from.
+#[test]
+fn a_case_to_start_from_has_the_modes_that_were_asked_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let mast = "frequency (Hz), damping_ratio (%), mass (kg), middle, tip\n1.1, 0.5, 30, 0.34, 1\n6.894, 0.5, 30, -0.714, 1\n";
+    fs::create_dir(folder.join("below")).expect("a folder");
+    fs::write(folder.join("below/mast.csv"), mast).expect("written");
+    // Undamped, with a rigid motion that no case has, and a mode that stands twice.
+    let [first, second, _] = MAST;
+    let free = [[0.0, 1.0, 1.0], first, first, second].map(set_55).concat();
+    let free =
+        free.replace("  5.00000E-3", "  0.00000E+0").replace("  5.00000E-03", "  0.00000E+00");
+    fs::write(folder.join("free.unv"), free).expect("written");
+    for (name, modes, count, place) in [
+        ("one", "1", 1, "tip"),
+        ("three", "3", 3, "tip"),
+        ("eight", "8", 8, "tip"),
+        ("columns", "below/mast.csv", 2, "tip"),
+        ("universal", "free.unv", 2, "tip"),
+    ] {
+        let output = run_in(folder, &["new", name, "--modes", modes]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let path = folder.join(format!("{name}.toml"));
+        let Ok((AnyCase::Several(case), text)) = read_any(&path, Reach::Folder) else {
+            panic!("{name} cannot be read");
+        };
+        assert_eq!(
+            (case.title.as_str(), case.modes.len(), &*case.warnings),
+            (name, count, &[][..])
+        );
+        assert_eq!(case.places[case.absorbers[0].place], place);
+        assert!(case.modes.iter().all(|mode| mode.damping_ratio > 0.0), "{text}");
+        let own = case.modes[0].frequency_hz;
+        assert!((own - 1.1).abs() < 1e-9 && case.loads[0].range_hz[0] < own, "{text}");
+        // Where an existing file is, nothing is written.
+        let again = run_in(folder, &["new", name, "--modes", modes]);
+        assert_eq!(again.status.code(), Some(2));
+    }
+    for name in ["columns", "universal"] {
+        let (found, code) = decided(folder, &format!("{name}.toml"));
+        assert!(found > 1e-3 && found < 1e-2, "{name}: {found}");
+        assert!(matches!(code, Some(0 | 1)), "{name}: {code:?}");
+    }
+    let universal = fs::read_to_string(folder.join("universal.toml")).expect("read");
+    assert!(universal.contains("\nnumbers = [2, 4] "), "{universal}");
+    assert!(universal.contains("places = { tip = \"12 z\" }"), "{universal}");
+    assert!(universal.contains("\ndamping_ratio = \"0.5 %\" "), "{universal}");
+}
+
+/// What cannot be written is said with what to do, and nothing is left behind.
+#[test]
+fn a_case_to_start_from_is_refused_with_what_to_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    fs::write(folder.join("rigid.unv"), set_55([0.0, 1.0, 1.0])).expect("written");
+    fs::write(folder.join("text.csv"), "no modes\n").expect("written");
+    fs::create_dir(folder.join("cases")).expect("a folder");
+    for (name, modes, words) in [
+        ("a", "0", "--modes 0: a case has 1 to 8 modes"),
+        ("a", "9", "--modes 9: a case has 1 to 8 modes"),
+        ("a", "mast.csv", "--modes mast.csv: there is no such file"),
+        ("a", "text.csv", "text.csv is not a table of modes"),
+        ("a", "rigid.unv", "no case can have any of its modes: mode 1 has 0 Hz"),
+        ("cases/a", "rigid.unv", "rigid.unv is not in the folder of cases/a.toml"),
+    ] {
+        // The first that is wrong is told.
+        if name != "a" {
+            fs::write(folder.join("rigid.unv"), set_55(MAST[0])).expect("written");
+        }
+        let output = run_in(folder, &["new", name, "--modes", modes]);
+        let told = String::from_utf8_lossy(&output.stderr).replace("\n  │ ", " ");
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(told.contains(words) && told.contains("help: "), "{words}: {told}");
+        assert!(!folder.join(format!("{name}.toml")).exists());
+    }
+    for other in [["--guide", ""], ["--kind", "force"], ["--mass", "3 kg"]] {
+        let other: Vec<&str> = other.into_iter().filter(|one| !one.is_empty()).collect();
+        let all = [&["new", "a", "--modes", "3"], &other[..]].concat();
+        let told = String::from_utf8_lossy(&run_in(folder, &all).stderr).into_owned();
+        assert!(told.contains("cannot be used with"), "{told}");
+    }
+}
+
+/// Every table and key that such a case may have is shown, and all can be used as they stand.
+#[test]
+fn a_case_to_start_from_shows_every_key() {
+    let modes = StartingModes::uniform(2).expect("two");
+    let text = ModalCase::starting_text("quote \" and TITLE", &modes, 0.03);
+    let plain = ModalCase::parse("start.toml", &text).expect("read");
+    assert_eq!(plain.title, "quote \" and TITLE");
+    let uncommented = |line: &str| {
+        let rest = line.strip_prefix("# ")?;
+        let key = rest.split_once(" = ").map_or("", |(key, _)| key);
+        let is_key =
+            !key.is_empty() && key.chars().all(|one| one.is_ascii_lowercase() || one == '_');
+        (rest.starts_with('[') || is_key).then(|| rest.to_owned())
+    };
+    let full: Vec<String> =
+        text.lines().map(|line| uncommented(line).unwrap_or_else(|| line.to_owned())).collect();
+    let full = full.join("\n");
+    let schema = &vinesink::case::schema()["$defs"]["several"]["properties"];
+    for table in
+        ["mode", "absorber", "excitation", "simulation", "report", "accuracy", "alternatives"]
+            .into_iter()
+            .chain(["criteria", "optimize", "uncertainty", "sweep"])
+    {
+        let of = &schema[table];
+        let of = if of["properties"].is_object() { of } else { &of["anyOf"][0] };
+        let keys = of["properties"].as_object().unwrap_or_else(|| panic!("{table}: {of}"));
+        let head = [format!("[[{table}]]"), format!("\n[{table}]\n")];
+        let own =
+            head.iter().find_map(|head| Some(full.split_once(head.as_str())?.1)).expect(table);
+        let own = own.split("\n[").next().unwrap_or(own);
+        // What has no meaning with several modes is not shown.
+        let none = ["discard", "coexistence"];
+        let axes = ["frequency", "amplitude", "absorber_mass"];
+        for key in keys.keys().filter(|key| !none.contains(&key.as_str())) {
+            let named = table == "sweep" && axes.contains(&key.as_str()) && text.contains(key);
+            let shown = own.contains(&format!("{key} = ")) || named;
+            assert!(shown, "{key} of [{table}] is not shown");
+        }
+    }
+    let full = ModalCase::parse("start.toml", &full).expect("read with all of its lines");
+    assert!(full.sweep.is_some() && full.uncertainty.is_any() && full.criteria.len() == 13);
 }

@@ -137,3 +137,75 @@ fn an_average_is_that_of_cases_that_are_off() {
     assert!(robust["is_optimum"] == false, "{robust}");
     assert!(expected < 0.9 * number(&robust["optimum_expected"]), "{robust}");
 }
+
+/// `--out` writes the page with the sentence and the table of the terminal, whose numbers are those of the JSON, and draws each load
+/// that is over a range.
+#[test]
+fn a_page_has_what_the_terminal_says() {
+    let folder = tempdir().expect("a folder");
+    let folder = folder.path();
+    let second = "[[excitation]]\nkind = \"force\"\nplace = \"tip\"\namplitude = \"0.3 N\"\nfrequency = \"10 Hz\"\n";
+    let more = "[criteria]\npeak_displacement = \"<= 0.9 mm\"\n[optimize]\nclearance = [\"0.5 mm\", \"1.2 mm\"]\n[uncertainty]\nclearance = \"± 0.1 mm\"\n";
+    let text = case(3.0, [9.8, 10.2], true, &format!("{second}{more}"));
+    let text = text.replacen("[excitation]", "[[excitation]]", 1);
+    fs::write(folder.join("two.toml"), text).expect("written");
+    let run = |arguments: &[&str]| {
+        let mut command = Command::cargo_bin("vinesink").expect("built");
+        command.current_dir(folder).args(["optimize", "two.toml"]).args(arguments);
+        let output = command.output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8(output.stdout).expect("UTF-8")
+    };
+    let terminal = run(&["--out", "reports"]);
+    let told: Value =
+        serde_json::from_str(&run(&["--format", "json", "--out", "other"])).expect("JSON");
+    let read = |file: &str| fs::read_to_string(folder.join(file)).expect(file);
+    let page = read("reports/two/optimize.md");
+    for file in ["optimize.md", "optimize.html", "figures/optimize-loads.svg"] {
+        assert_eq!(
+            read(&format!("reports/two/{file}")),
+            read(&format!("other/two/{file}")),
+            "{file}"
+        );
+    }
+    // The first sentence, the table and the rest.
+    let bare = |text: &str| {
+        let marks = |letter: &char| !letter.is_whitespace() && !"|-─>*`\\".contains(*letter);
+        text.chars().filter(marks).collect::<String>()
+    };
+    let known = bare(&page);
+    assert!(terminal.lines().count() > 8, "{terminal}");
+    for line in terminal.lines().skip(1) {
+        assert!(known.contains(&bare(line)), "{line} is not in\n{page}");
+    }
+    assert!(page.contains("> **These absorbers meet all criteria: "), "{page}");
+    assert!(page.contains("Where numbers are off as [uncertainty] says"), "{page}");
+    // Numbers of the JSON: the clearances of all rows, and displacements to the three digits that are shown.
+    let rows: Vec<&Value> =
+        [&told["own"]].into_iter().chain(told["best"].as_array().expect("a list")).collect();
+    let table: Vec<&str> = page.lines().filter(|line| line.contains(" tip ±")).collect();
+    for (row, line) in rows.iter().zip(table.iter().skip(1)) {
+        let clearance = 1e3 * row["absorbers"][0]["clearance"]["value"].as_f64().expect("a length");
+        let clearance = format!("±{} mm", (1e4 * clearance).round() / 1e4);
+        assert!(line.contains(&clearance), "{clearance}: {line}");
+        for load in row["loads"].as_array().expect("loads") {
+            let peak = 1e3 * load["value"].as_f64().expect("a length");
+            let shown = if peak < 1.0 { format!("{peak:.3} mm") } else { format!("{peak:.2} mm") };
+            assert!(line.contains(&shown), "{shown}: {line}");
+        }
+    }
+    assert_eq!(rows.len(), 4);
+    assert_eq!(told["best"][0]["absorbers"][0]["clearance"]["value"], told["optimum"]["clearance"]);
+    // One panel: the other load is of one frequency.
+    let figure = read("reports/two/figures/optimize-loads.svg");
+    assert!(figure.contains("load 1: force at tip") && !figure.contains("load 2"), "{figure}");
+    assert!(
+        figure.contains("the case's own absorbers") && figure.contains(">the best<"),
+        "{figure}"
+    );
+    assert!(page.contains("a load of one frequency has no panel"), "{page}");
+    // A report beside it leaves them.
+    let of = |file: &str| vinesink::report::render::is_of_report(file.as_ref());
+    assert!(!of("figures/optimize-loads.svg") && !of("optimize.md") && of("figures/loads.svg"));
+    assert!(!read("reports/two/optimize.html").contains("class=\"table tiles\""));
+}

@@ -241,7 +241,7 @@ fn slips_are_told() {
         (
             "frequency_ratio = 0.994\n",
             "from = 1.1\nto = 0.9\n",
-            "neither a frequency ratio nor a whole range",
+            "the range ends where it begins, or before",
         ),
     ] {
         let good = reduced();

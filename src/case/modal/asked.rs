@@ -5,6 +5,7 @@ use std::ops::Range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
+use toml::Spanned;
 
 use super::place::find_place;
 use super::{Bounds, PlacedAbsorber, StructuralMode};
@@ -69,9 +70,10 @@ pub(super) fn read_bounds(reader: &mut Reader, root: &Table, places: &[String]) 
         let message = "`z3-share` is an area of the theory of one mode and one absorber";
         reader.report(table.span_of_value("objective"), message, expected, help);
     }
-    let span = table.span_of_value("places");
-    let of = |name: &String| find_place(reader, span.clone(), Some(name), places);
-    let mut at: Vec<usize> = read.places.iter().filter_map(of).collect();
+    let listed = table.value("places").and_then(|value| value.get_ref().as_array());
+    let spans = listed.into_iter().flatten().map(Spanned::span);
+    let of = |(name, span): (&String, Range<usize>)| find_place(reader, span, Some(name), places);
+    let mut at: Vec<usize> = read.places.iter().zip(spans).filter_map(of).collect();
     at.sort_unstable();
     at.dedup();
     Bounds {

@@ -50,7 +50,15 @@ pub(super) fn modes_of_file(
 ) -> Result<(Modes, String), CaseError> {
     if root.has("mode") {
         let message = "[modes] and [[mode]] both say which modes there are";
-        reader.report(root.span_of("modes"), message, "expected one of them", "remove one");
+        let help = "remove [modes], or every [[mode]]";
+        reader.report(root.span_of("modes"), message, "expected one of them", help);
+        return Ok(Default::default());
+    }
+    if root.value("modes").is_some_and(|value| value.get_ref().is_array()) {
+        let message = "[modes] names a file of modes, and is written as a list";
+        let help = "write [[mode]] above each mode, or one table [modes] with the key `file`";
+        reader.report(root.span_of("modes"), message, "expected [[mode]] or [modes]", help);
+        return Ok(Default::default());
     }
     let Some((table, read)) = reader.optional::<ModesTable>(root, "modes") else {
         return Ok(Default::default());
@@ -154,7 +162,7 @@ pub(super) fn modes_of_file(
 }
 
 /// What a mode cannot be, and what was expected.
-fn impossible(mode: &StructuralMode) -> Option<(String, &'static str)> {
+pub(super) fn impossible(mode: &StructuralMode) -> Option<(String, &'static str)> {
     let StructuralMode { frequency_hz, mass_kg, damping_ratio, shape, .. } = mode;
     if *frequency_hz <= 0.0 || *mass_kg <= 0.0 {
         let wrong = format!("has {frequency_hz} Hz and a modal mass of {mass_kg} kg");

@@ -94,7 +94,7 @@ impl ListedMode {
 }
 
 /// The node and the direction in which the first elastic mode moves most.
-fn most(of: &Universal) -> String {
+pub(super) fn most(of: &Universal) -> String {
     let elastic = of.modes.iter().find(|one| one.mode.frequency_hz > 0.0);
     let whole = elastic.or(of.modes.first()).map_or(&[][..], |one| &one.whole);
     let largest = whole.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::place::find_place;
 use super::{ActsOn, Load, StructuralMode};
+use crate::case::excitation_kinds;
 use crate::case::reader::{Reader, Table};
 use vinesink_core::names;
 
@@ -73,6 +74,9 @@ pub(super) fn read_load(
     modes: &[StructuralMode],
     count: usize,
 ) -> Option<Load> {
+    if refuse_kind(reader, table) {
+        return None;
+    }
     let read = reader.read::<LoadTable>(table)?;
     let mut refused = |key: &str, message: String, expected: &str, help: &str| {
         reader.report(table.span_of_value(key), message, expected, help);
@@ -100,14 +104,12 @@ pub(super) fn read_load(
         // Of one that could not be read that was said.
         (_, Some(mode), None) if mode as usize > count => {
             let message = format!("`mode` is {mode}, and there are {count}");
-            return refused(
-                "mode",
-                message,
-                "expected one of the modes, from 1",
-                "name another mode",
-            );
+            let expected = format!("expected the number of a mode, from 1 to {count}");
+            return refused("mode", message, &expected, "name another mode");
         }
         (_, Some(mode), None) => ActsOn::Mode(mode as usize - 1),
+        // Of one that could not be read that was said, too.
+        (_, None, None) if table.has("place") => return None,
         (..) => ActsOn::Place(find_place(
             reader,
             table.span_of_value("place"),
@@ -115,30 +117,70 @@ pub(super) fn read_load(
             places,
         )?),
     };
-    let range_hz = match (read.frequency, read.from, read.to) {
-        (Some(at), None, None) => [at; 2],
-        (None, Some(from), Some(to)) if from < to => [from, to],
-        (None, Some(_), Some(_)) => {
-            let help = "swap `from` and `to`, or write a larger `to`";
-            reader.report(
-                table.span_of_value("to"),
-                "the range ends where it begins, or before",
-                "expected `to` above `from`",
-                help,
-            );
-            return None;
-        }
-        _ => {
-            let message = "the excitation has neither a frequency nor a whole range";
-            let help = "write frequency = \"6.9 Hz\", or from = \"6 Hz\" and to = \"8 Hz\"";
-            reader.report(
-                table.span.clone(),
-                message,
-                "expected `frequency`, or `from` and `to`",
-                help,
-            );
-            return None;
-        }
-    };
+    let range_hz = read_range(reader, table, "frequency", [read.frequency, read.from, read.to])?;
     Some(Load { on, amplitude: read.amplitude, range_hz })
+}
+
+/// Whether the kind of a load is one of a structure of one mode alone; reported then.
+fn refuse_kind(reader: &mut Reader, table: &Table) -> bool {
+    let written = table.value("kind").and_then(|value| value.get_ref().as_str());
+    let of_one = excitation_kinds()
+        .filter(|kind| LoadKind::ALL.iter().all(|known| known.name() != *kind))
+        .find(|kind| Some(*kind) == written);
+    let Some(kind) = of_one else { return false };
+    let message = format!("kind = \"{kind}\" has no meaning with several modes or absorbers");
+    let help = "several are driven at steady frequencies alone; a structure of one mode and one absorber, [oscillator] and \
+                [absorber], may be let go, struck, swept or driven by a record";
+    let expected = "expected \"force\" or \"base-displacement\"";
+    reader.report(table.span_of_value("kind"), message, expected, help);
+    true
+}
+
+/// The frequencies of a load: of one frequency that twice; reported where they are none.
+pub(super) fn read_range(
+    reader: &mut Reader,
+    table: &Table,
+    key: &str,
+    [at, from, to]: [Option<f64>; 3],
+) -> Option<[f64; 2]> {
+    let there = [key, "from", "to"].map(|key| table.has(key));
+    let (at, from, to) = match (there, at, from, to) {
+        ([true, false, false], Some(at), ..) => return Some([at; 2]),
+        ([false, true, true], _, Some(from), Some(to)) if from < to => return Some([from, to]),
+        ([false, true, true], _, Some(_), Some(_)) => {
+            let help = "swap `from` and `to`, or write a larger `to`";
+            let message = "the range ends where it begins, or before";
+            reader.report(table.span_of_value("to"), message, "expected `to` above `from`", help);
+            return None;
+        }
+        (there, ..) => there.into(),
+    };
+    let place = table.place();
+    let expected = format!("expected `{key}` alone, or `from` and `to`");
+    let [one, range] = match key {
+        "frequency" => ["6.9 Hz", "6 Hz\" and to = \"8 Hz"].map(|text| format!("\"{text}\"")),
+        _ => ["1.02", "0.9 and to = 1.1"].map(str::to_owned),
+    };
+    match (at, from, to) {
+        (true, ..) if from || to => {
+            let message =
+                format!("`{key}` and a range both say at which frequencies it acts{place}");
+            let help = format!("remove `{key}`, or `from` and `to`");
+            reader.report(table.span_of(key), message, expected, help);
+        }
+        (false, false, false) => {
+            let message = format!("there is neither `{key}` nor a range{place}");
+            let help = format!("write {key} = {one}, or from = {range}");
+            reader.report(table.span.clone(), message, expected, help);
+        }
+        (false, from, to) if from != to => {
+            let [own, other] = if from { ["from", "to"] } else { ["to", "from"] };
+            let message = format!("`{other}` is missing beside `{own}`{place}");
+            let help = format!("write from = {range}, or {key} = {one} alone");
+            reader.report(table.span_of(own), message, expected, help);
+        }
+        // What could not be read was told.
+        _ => {}
+    }
+    None
 }

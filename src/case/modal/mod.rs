@@ -11,6 +11,7 @@ mod number;
 mod place;
 mod read;
 mod reduced;
+mod starting;
 mod sweep;
 mod table;
 mod universal;
@@ -39,6 +40,7 @@ pub use listing::{ListedMode, ModesListing};
 pub use number::is_of_absorber;
 pub(super) use place::find_place;
 pub(super) use read::ModalFile;
+pub use starting::StartingModes;
 pub use sweep::ModalSweep;
 pub(super) use sweep::form as axis_form;
 pub use table::ModesFile;
@@ -235,9 +237,13 @@ pub fn is_modal(text: &str) -> bool {
     tells_several(&document).is_some() && OneMode::of(&document).is_none()
 }
 
-/// The path of the file that the modes of a text are in, relative to the case file.
+/// The path of the file that the modes of a text are in, relative to the case file; none of one that lists modes beside it, which
+/// is refused.
 pub fn modes_file(text: &str) -> Option<String> {
     let document = document::parse(text.strip_prefix('\u{feff}').unwrap_or(text)).ok()?;
+    if document.contains_key("mode") {
+        return None;
+    }
     let table = document.get("modes")?.get_ref().as_table()?;
     Some(table.get("file")?.get_ref().as_str()?.to_owned())
 }

@@ -13,7 +13,7 @@ use super::alike::alike;
 use super::table::Modes;
 use crate::case::number::Form;
 use crate::case::reader::{Reader, Table};
-use crate::case::value::ValuePlace;
+use crate::case::value::{ValuePlace, nearest};
 use crate::system::LARGEST_DAMPING_RATIO;
 
 /// A mode of the structure.
@@ -65,9 +65,12 @@ pub(super) fn read_modes(
             ..mode
         })
         .collect();
-    for (span, name) in missing(&shapes, &places) {
+    for Missing { span, name, written } in missing(&shapes, &places) {
         let message = format!("the shape has no value at \"{name}\", where another mode has one");
-        let help = format!("write shape = {{ {name} = 1.0, ... }}; 0 where the mode has a node");
+        let help = match written {
+            Some(written) => format!("did you mean \"{name}\" where \"{written}\" is written?"),
+            None => format!("write shape = {{ {name} = 1.0, ... }}; 0 where the mode has a node"),
+        };
         reader.report(span, message, "expected every place in the shape of every mode", help);
     }
     let found: Vec<(f64, &[f64])> =
@@ -99,14 +102,47 @@ fn value_at((_, shape): &Shape, name: &str) -> f64 {
     shape.iter().find(|(key, _)| key == name).map_or(0.0, |(_, value)| *value)
 }
 
-/// Places that a mode says nothing of.
-fn missing(shapes: &[Shape], places: &[String]) -> Vec<(Range<usize>, String)> {
-    let of = |shape: &Shape| {
-        let span = shape.0.clone();
-        let absent = places.iter().filter(|name| !shape.1.iter().any(|(key, _)| key == *name));
-        absent.map(|name| (span.clone(), name.clone())).collect::<Vec<_>>()
+/// A place that a mode says nothing of.
+struct Missing {
+    /// Where its shape stands.
+    span: Range<usize>,
+    /// The place.
+    name: String,
+    /// What it has in its place, which is most likely a misspelling of it.
+    written: Option<String>,
+}
+
+/// Places that modes say nothing of. Of two names that are nearly one that is misspelled which fewer modes have, of as many the later;
+/// a misspelled one is missing nowhere.
+fn missing(shapes: &[Shape], places: &[String]) -> Vec<Missing> {
+    let has = |shape: &Shape, name: &str| shape.1.iter().any(|(key, _)| key == name);
+    let shapes: Vec<&Shape> = shapes.iter().filter(|shape| !shape.1.is_empty()).collect();
+    let rank = |name: &str| {
+        let modes = shapes.iter().filter(|shape| has(shape, name)).count();
+        (modes, std::cmp::Reverse(places.iter().position(|one| one == name)))
     };
-    shapes.iter().filter(|shape| !shape.1.is_empty()).flat_map(of).collect()
+    let are_apart =
+        |one: &str, other: &str| !shapes.iter().any(|all| has(all, one) && has(all, other));
+    let near = |name: &str, among: &[&str]| {
+        let others: Vec<&str> =
+            among.iter().copied().filter(|one| *one != name && are_apart(one, name)).collect();
+        nearest(name, &others).map(str::to_owned)
+    };
+    let all: Vec<&str> = places.iter().map(String::as_str).collect();
+    let is_misspelled =
+        |name: &&String| near(name, &all).is_some_and(|other| rank(&other) > rank(name));
+    let known: Vec<&String> = places.iter().filter(|name| !is_misspelled(name)).collect();
+    let of = |shape: &&Shape| {
+        let own: Vec<&str> = shape.1.iter().map(|(key, _)| key.as_str()).collect();
+        let absent = known.iter().filter(|name| !has(shape, name));
+        let told = absent.map(|name| Missing {
+            span: shape.0.clone(),
+            name: (*name).clone(),
+            written: near(name, &own),
+        });
+        told.collect::<Vec<_>>()
+    };
+    shapes.iter().flat_map(of).collect()
 }
 
 /// A mode and its shape.

@@ -39,6 +39,7 @@ pub(in crate::case) fn find_place(
     }
     let help = match name.and_then(|name| nearest(name, &known)) {
         Some(near) => format!("did you mean \"{near}\"?"),
+        None if name.is_some() => format!("write for example {}", quoted[0]),
         None => format!("write place = {}", quoted[0]),
     };
     reader.report(span, message, format!("expected {}", or(&quoted)), help);

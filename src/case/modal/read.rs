@@ -141,11 +141,10 @@ pub(super) fn read(
         .filter(|name| !own.contains(name))
         .collect();
     let root = reader.root_of::<Heading>(document, &[own, &of_one].concat());
-    for name in of_one.into_iter().filter(|name| root.has(name)) {
+    refuse_oscillator(reader, &root);
+    let others = of_one.into_iter().filter(|name| *name != "oscillator" && root.has(name));
+    for name in others {
         let help = match name {
-            "oscillator" => {
-                "write the structure as [[mode]] with frequency, damping_ratio, mass and shape, or give one [absorber]"
-            }
             "band" => "write `from` and `to` in [excitation] instead of `frequency`",
             _ => "remove the table: it is about a structure with one mode",
         };
@@ -200,8 +199,14 @@ pub(super) fn read(
         Some(table) => tables::<ReducedAbsorberTable>(reader, table, "absorber"),
         None => tables::<ModalAbsorberTable>(reader, &root, "absorber"),
     };
+    // Those that are wrong count: their own errors are told.
+    let tables_of_absorbers = listed.len().max(1);
     for table in listed {
         let Some(read) = reader.read::<ModalAbsorberTable>(&table) else { continue };
+        if read.place.is_none() && table.has("place") {
+            // What is no name was told.
+            continue;
+        }
         let place =
             find_place(reader, table.span_of_value("place"), read.place.as_deref(), &places);
         if let Some(place) = place
@@ -260,7 +265,7 @@ pub(super) fn read(
         has_areas: false,
         is_physical: reduced.is_none(),
         places: &places,
-        absorbers: absorbers.len(),
+        absorbers: tables_of_absorbers,
     };
     let asked = reader.optional::<ModalCriteriaTable>(&root, "criteria");
     let (criteria, upto) = match &asked {
@@ -367,6 +372,32 @@ pub(super) fn read(
     Ok(Some((case, spans)))
 }
 
+/// Refuses `[oscillator]`, which is the structure of one absorber.
+fn refuse_oscillator(reader: &mut Reader, root: &Table) {
+    if root.value("oscillator").is_none() {
+        return;
+    }
+    let own = ["mode", "modes", "reduced"].into_iter().find(|name| root.has(name));
+    let (message, expected, help) = match own {
+        Some(own) => {
+            let own = if own == "mode" { "[[mode]]".to_owned() } else { format!("[{own}]") };
+            (
+                format!("[oscillator] has no meaning beside {own}: both say what the structure is"),
+                "expected one of the two",
+                format!("remove [oscillator], or {own} where the structure has one mode and one absorber"),
+            )
+        }
+        None => (
+            "[oscillator] has no meaning beside several absorbers or loads: it has one of each".to_owned(),
+            "expected the structure as tables [[mode]]",
+            "write [[mode]] with frequency, damping_ratio, mass and shape = { tip = 1.0 }, and place = \"tip\" in each \
+             [[absorber]]; or keep one [absorber] and one [excitation]"
+                .to_owned(),
+        ),
+    };
+    reader.report(root.span_of("oscillator"), message, expected, help);
+}
+
 /// Where the table `[modes]` says the damping ratio of all modes, or else names their file.
 fn damping_of_file(root: &Table) -> Option<Range<usize>> {
     let table = root.value("modes")?.get_ref().as_table()?;
@@ -380,7 +411,12 @@ fn tables<'d, T: serde::de::DeserializeOwned + JsonSchema>(
     name: &'static str,
 ) -> Vec<Table<'d>> {
     let path = if root.path.is_empty() { name.to_owned() } else { format!("{}.{name}", root.path) };
+    // Of a name that is misspelled that was told; beside [oscillator] it is missing no table of modes.
+    let is_told = root.has(name) || name == "mode" && root.has("oscillator");
     let Some(value) = root.value(name) else {
+        if is_told {
+            return Vec::new();
+        }
         let message = format!("[[{path}]] is missing");
         let expected = format!("expected at least one table [[{path}]]");
         let help = format!("write [[{path}]] on a line of its own and its keys below it");

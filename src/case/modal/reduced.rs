@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::load::read_range;
 use super::mode::{Shape, read_shape};
 use super::{ActsOn, Load, StructuralMode};
 use crate::case::reader::{Reader, Table};
@@ -125,20 +126,8 @@ pub(super) fn read_reduced_load(
         return None;
     }
     let read = reader.read::<ModalReducedTable>(table)?;
-    let range_hz = match (read.frequency_ratio, read.from, read.to) {
-        (Some(at), None, None) => [at; 2],
-        (None, Some(from), Some(to)) if from < to => [from, to],
-        _ => {
-            let help = "write frequency_ratio = 1.02, or from = 0.9 and to = 1.1";
-            reader.report(
-                table.span.clone(),
-                "[reduced] has neither a frequency ratio nor a whole range",
-                "expected `frequency_ratio`, or `from` and `to` above it",
-                help,
-            );
-            return None;
-        }
-    };
+    let range_hz =
+        read_range(reader, table, "frequency_ratio", [read.frequency_ratio, read.from, read.to])?;
     let amplitude = modes.iter().map(|mode| mode.forcing.abs()).fold(0.0, f64::max);
     if amplitude == 0.0 && !modes.is_empty() {
         let message = "nothing drives the structure: every `forcing` is 0";

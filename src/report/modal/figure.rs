@@ -6,7 +6,10 @@ use super::{Beside, given, units};
 use crate::case::{ActsOn, Load, ModalCase, Of};
 use crate::linear::ModalDamper;
 use crate::measure::Measure;
-use crate::modal::{LoadImpact, ModalAnswer, OverForce, OverTime, linear_peak, linear_places};
+use crate::modal::{
+    AlongLoad, AtFrequency, LoadImpact, ModalAnswer, ModalOptimum, OverForce, OverTime,
+    linear_peak, linear_places,
+};
 use crate::motions::{ModalMotion, Motions};
 use crate::quantity::Units;
 use crate::quantity::catalogue as of;
@@ -30,48 +33,87 @@ pub(super) fn loads(
     beside: &Beside,
     facts: &Value,
 ) -> Figure {
-    let units = units(case);
     let mut figure = Figure::new("loads", "");
     for (k, along) in answer.along.iter().enumerate() {
         let [from, to] = along.load.range_hz;
         if from == to {
             continue;
         }
-        let highest = along.places.iter().flat_map(|one| &one.motions);
-        let highest = highest.map(most).fold(0.0, f64::max);
         let limits = limits(case, answer.worst(case, Some(k)).map(|one| one.found.of));
-        let top = 1.15 * limits.iter().map(|one| one.0).fold(highest, f64::max);
-        let x = AxisOf::si(units, &of::EXCITATION_FREQUENCY).axis([from, to]);
-        let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
-        let curve = |of: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
-            linear_places(along.load.range_hz, case).into_iter().map(|at| [at, of(at)]).collect()
-        };
-        let linear =
-            |dampers: &[ModalDamper]| curve(&|at| linear_peak(case, &along.load, at, dampers));
-        let mut panel = Panel::new(x, y)
-            .with(Layer::curve(Role::BareOscillator, linear(&[])).labelled("without absorbers"));
+        let mut panel = over_frequency(case, &[along], &limits);
         for (choice, style) in beside.dampers.iter().zip([DAMPER, DAMPERS]) {
             let dampers = choice.dampers.on(case, 1.0);
             let name = match dampers.len() {
                 1 => "one tuned mass damper".to_owned(),
                 many => format!("{many} tuned mass dampers"),
             };
-            panel = panel.with(Layer::curve(style, linear(&dampers)).labelled(name));
+            let curve = without(case, &along.load, &dampers);
+            panel = panel.with(Layer::curve(style, curve).labelled(name));
         }
         panel = with_limits(panel, &limits);
-        // Not those in which every absorber rests, which are on the line without them.
-        let seen = along.places.iter().flat_map(|one| {
-            let acts = |motion: &&ModalMotion| !motion.rests();
-            one.motions.iter().filter(acts).map(move |motion| [one.at, most(motion)])
-        });
         let marker = Marker::filled(Shape::Circle).sized(5.0);
         panel = panel.with(
-            Layer::marked(marker, Role::Simulation.color(), seen.collect::<Vec<_>>())
-                .labelled("with absorbers"),
+            Layer::marked(marker, Role::Simulation.color(), seen(along)).labelled("with absorbers"),
         );
         figure = figure.with_panel(panel.with_heading(heading(case, k, &along.load)));
     }
     in_rows(figure).with_facts("captions/loads", facts.clone())
+}
+
+/// The same with the absorbers of a case and with the best others that were found.
+pub(super) fn optimum(case: &ModalCase, found: &ModalOptimum, facts: &Value) -> Figure {
+    let mut figure = Figure::new("optimize-loads", "");
+    let best = found.best.first();
+    for (k, own) in found.own.answer.along.iter().enumerate() {
+        let [from, to] = own.load.range_hz;
+        if from == to {
+            continue;
+        }
+        let other = best.and_then(|best| best.answer.along.get(k));
+        let both: Vec<&AlongLoad> = [Some(own), other].into_iter().flatten().collect();
+        let limits = limits(case, found.own.answer.worst(case, Some(k)).map(|one| one.found.of));
+        let mut panel = with_limits(over_frequency(case, &both, &limits), &limits);
+        let hollow = Marker::hollow(Shape::Circle).sized(5.0);
+        panel = panel.with(
+            Layer::marked(hollow, Color::Grey, seen(own)).labelled("the case's own absorbers"),
+        );
+        if let Some(other) = other {
+            let filled = Marker::filled(Shape::Circle).sized(5.0);
+            let name = if found.succeeds() { "the best" } else { "the best of the others" };
+            panel = panel
+                .with(Layer::marked(filled, Role::Simulation.color(), seen(other)).labelled(name));
+        }
+        figure = figure.with_panel(panel.with_heading(heading(case, k, &own.load)));
+    }
+    in_rows(figure).with_facts("captions/optimize-loads", facts.clone())
+}
+
+/// A panel over the range of a load, high enough for all motions that were found along it and for limits, with what the structure does
+/// without absorbers.
+fn over_frequency(case: &ModalCase, along: &[&AlongLoad], limits: &[(f64, String)]) -> Panel {
+    let (units, load) = (units(case), &along[0].load);
+    let motions = along.iter().flat_map(|one| &one.places).flat_map(|one| &one.motions);
+    let highest = motions.map(most).fold(0.0, f64::max);
+    let top = 1.15 * limits.iter().map(|one| one.0).fold(highest, f64::max);
+    let x = AxisOf::si(units, &of::EXCITATION_FREQUENCY).axis(load.range_hz);
+    let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
+    let bare = Layer::curve(Role::BareOscillator, without(case, load, &[]));
+    Panel::new(x, y).with(bare.labelled("without absorbers"))
+}
+
+/// The largest displacement of any place over the range of a load without absorbers, with dampers in their place.
+fn without(case: &ModalCase, load: &Load, dampers: &[ModalDamper]) -> Vec<[f64; 2]> {
+    let at = linear_places(load.range_hz, case).into_iter();
+    at.map(|at| [at, linear_peak(case, load, at, dampers)]).collect()
+}
+
+/// The largest displacement of each motion along a load, but for those in which every absorber rests: these are as without them.
+fn seen(along: &AlongLoad) -> Vec<[f64; 2]> {
+    let of = |one: &AtFrequency| {
+        let acts = one.motions.iter().filter(|motion| !motion.rests());
+        acts.map(|motion| [one.at, most(motion)]).collect::<Vec<_>>()
+    };
+    along.places.iter().flat_map(of).collect()
 }
 
 /// Width of the bar of an absorber with the free room beside it, over that of the panel.

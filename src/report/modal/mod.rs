@@ -38,7 +38,7 @@ pub use analysis::{analysis, analysis_text};
 pub use criteria::checked;
 pub use listing::{listing, listing_text};
 pub use live::{at_frequency, over_frequency};
-pub use optimum::{optimum, optimum_text};
+pub use optimum::{optimum, optimum_files, optimum_text};
 
 use criteria::{compared, criteria, holds};
 

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::criteria::criteria;
-use super::{absorbers, given, simulated, units, worst_row};
+use super::{absorbers, figure, given, simulated, units, worst_row};
 use crate::case::{Bounds, ModalCase, Objective};
 use crate::method::Method;
 use crate::modal::{Aim, JudgedAbsorbers, ModalOptimum, clearance_bounds};
@@ -11,7 +11,8 @@ use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::report::error::RenderError;
 use crate::report::optimize::{FORMAT, kind};
-use crate::report::template::render;
+use crate::report::render::{Files, page_files};
+use crate::report::template::{render, worded};
 
 /// Absorbers and what they do.
 fn candidate(found: &JudgedAbsorbers, aim: Aim) -> Value {
@@ -165,7 +166,32 @@ pub fn optimum(case: &ModalCase, found: &ModalOptimum) -> Value {
         "best": found.best.iter().map(row).collect::<Vec<_>>(),
         "robust": robust,
         "loads": case.loads.iter().map(|load| super::load_row(case, load)).collect::<Vec<_>>(),
+        "case_sha256": case.text_hash,
     })
+}
+
+/// What the templates read of a document.
+fn context(document: &Value) -> Value {
+    let mut at = document.clone();
+    at["version"] = json!(env!("CARGO_PKG_VERSION"));
+    json!({ "at": at })
+}
+
+/// The files of the page, by their path in the case's folder.
+///
+/// # Errors
+/// [`RenderError`] if template and document do not fit, or a figure cannot be drawn.
+pub fn optimum_files(
+    case: &ModalCase,
+    found: &ModalOptimum,
+    document: &Value,
+) -> Result<Files, RenderError> {
+    let (units, context) = (units(case), context(document));
+    let mut drawn = vec![figure::optimum(case, found, &context)];
+    drawn.retain(|figure| !figure.panels.is_empty());
+    let figures = worded(drawn, &units)?;
+    let tone = if found.succeeds() { "good" } else { "bad" };
+    page_files("optimize", "loads-optimum.md", Some(tone), &units, context, &figures)
 }
 
 /// The same on a terminal.
@@ -173,5 +199,5 @@ pub fn optimum(case: &ModalCase, found: &ModalOptimum) -> Value {
 /// # Errors
 /// [`RenderError::Template`] if the template does not fit.
 pub fn optimum_text(case: &ModalCase, document: &Value) -> Result<String, RenderError> {
-    render("loads-optimum.txt", &units(case), document)
+    render("loads-optimum.txt", &units(case), &context(document))
 }
