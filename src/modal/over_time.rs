@@ -33,6 +33,8 @@ pub struct OverTime {
     /// Whether the structure moves farthest under the load in it; else every absorber rests in that motion, and this is the one with
     /// impacts in which it moves farthest.
     pub is_worst: bool,
+    /// Whether it repeats; else the structure may move farther in it at another time.
+    pub repeats: bool,
     /// The place that moves farthest in it, by its number in the case from 0.
     pub place: usize,
     /// The absorbers that are shown, by their numbers in the case from 0: those that impact at that place, or where none does all that
@@ -164,8 +166,8 @@ impl<'a> Shown<'a> {
             None if impacts < 2.0 => RARE,
             None => SOME,
         };
-        let most = (IMPACTS / impacts.max(0.1)).max(1.0);
-        wanted.min(most as u64)
+        let most = IMPACTS / impacts.max(0.1);
+        wanted.min((most as u64).max(FEW))
     }
 }
 
@@ -198,6 +200,7 @@ impl OverTime {
             at: shown.at,
             motion: shown.number,
             is_worst: shown.is_worst,
+            repeats: shown.motion.repeats_after.is_some(),
             place,
             periods,
             times_s: trace.periods.iter().map(|at| at * period_s).collect(),

@@ -2,11 +2,13 @@
 
 use std::f64::consts::TAU;
 use std::fs;
+use std::path::Path;
 
 use vinesink::case::{ModalCase, PlacedAbsorber};
 use vinesink::executor::Serial;
-use vinesink::modal::{ModalAnswer, OverTime};
+use vinesink::modal::{Beside, ModalAnswer, OverTime};
 use vinesink::motions::ModalMotion;
+use vinesink::report::modal::files;
 use vinesink::simulation::{ModalTrace, Reading};
 use vinesink::system::ModalSystem;
 
@@ -224,6 +226,35 @@ fn the_worst_motion_with_impacts_is_shown() {
     answer.along[0].places[0].motions.retain(ModalMotion::rests);
     assert!(answer.worst(&case, Some(0)).is_some() && OverTime::all(&case, &answer).is_empty());
     assert_eq!(answer.impacts(&case, 9).expect("none"), []);
+}
+
+/// A page draws what is shown and says which motion it is; where nothing impacts there is no figure.
+#[test]
+fn a_report_draws_it() {
+    let page = |clearance: &str, moves: bool| {
+        let (case, mut answer) = answered(&one_absorber(clearance));
+        answer.along[0].places[0].motions.retain(|one| moves || one.rests());
+        answer.observe(&Serial);
+        let over_time = OverTime::all(&case, &answer);
+        let beside = Beside { over_time, ..Beside::default() };
+        let files = files("case", &case, &answer, &beside).expect("a report");
+        let text = |name: &str| {
+            files.get(Path::new(name)).map(|bytes| String::from_utf8_lossy(bytes).into_owned())
+        };
+        (text("report.md").expect("a page"), text("figures/motion.svg"))
+    };
+    let farther = "it moves farther where every absorber rests";
+    let (told, figure) = page("6.5", true);
+    let figure = figure.expect("a figure");
+    assert!(told.contains("6 excitation periods of the motion with impacts"), "{told}");
+    assert!(told.contains(farther) && !told.contains("does not repeat, and may"), "{told}");
+    assert!(figure.contains("absorber 1") && figure.contains("walls"), "{figure}");
+    // Twelve impacts, each with what is said of it.
+    assert_eq!(figure.matches("impact: t = ").count(), 12, "{figure}");
+    let (told, figure) = page("6.45", true);
+    assert!(figure.is_some() && !told.contains(farther), "{told}");
+    let (told, figure) = page("6.5", false);
+    assert!(figure.is_none() && !told.contains("motion.svg"), "{told}");
 }
 
 #[test]

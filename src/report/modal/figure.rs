@@ -211,6 +211,7 @@ fn told_over_time(case: &ModalCase, one: &OverTime) -> Value {
         "at": given(&of::EXCITATION_FREQUENCY, one.at),
         "motion": Motions::id(one.motion),
         "is_worst": one.is_worst,
+        "repeats": one.repeats,
         "place": case.places[one.place],
         "absorbers": absorbers.clone().map(|j| j + 1).collect::<Vec<_>>(),
         "there": absorbers.clone().all(|j| case.absorbers[*j].place == one.place),
