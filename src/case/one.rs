@@ -41,7 +41,7 @@ impl<'t> OneMode<'t> {
         if document.contains_key("oscillator") {
             return Self::beside_oscillator(document);
         }
-        if ["reduced", "modes", "band"].iter().any(|name| document.contains_key(*name)) {
+        if ["reduced", "modes"].iter().any(|name| document.contains_key(*name)) {
             return None;
         }
         let [mode, absorber, load] =
@@ -71,6 +71,10 @@ impl<'t> OneMode<'t> {
             .filter(|(key, _)| ["from", "to"].contains(&key.get_ref().as_ref()))
             .map(|(key, value)| (key.clone(), value.clone()))
             .collect();
+        // Both say a range.
+        if !band.is_empty() && document.contains_key("band") {
+            return None;
+        }
         if !band.is_empty() {
             let own = own_frequency(&mode, &band)?;
             excitation.insert(key("frequency", &load_span), own);

@@ -41,6 +41,35 @@ pub(super) struct OscillatorTable {
     damping_ratio: Option<f64>,
 }
 
+impl OscillatorTable {
+    /// The structure that a table says; none where something was reported.
+    fn structure(&self, reader: &mut Reader, table: &Table) -> Option<Structure> {
+        let mass_kg = self.mass;
+        let stiffness_n_per_m = match (self.stiffness, self.frequency) {
+            (Some(stiffness), _) => stiffness,
+            (None, frequency) => stiffness_of(reader, table, frequency?, mass_kg)?,
+        };
+        let alone = Structure { mass_kg, stiffness_n_per_m, damping_n_s_per_m: 0.0 };
+        let damping_n_s_per_m = match (self.damping, self.damping_ratio) {
+            (Some(damping), _) => damping,
+            (None, ratio) => ratio? * alone.critical_damping_n_s_per_m(),
+        };
+        Some(Structure { damping_n_s_per_m, ..alone })
+    }
+
+    /// The same as a mode: its natural frequency in Hz, its damping ratio and its mass in kg.
+    pub(super) fn mode(&self, reader: &mut Reader, table: &Table) -> Option<[f64; 3]> {
+        let of = self.structure(reader, table)?;
+        let own = || of.natural_frequency_rad_per_s() / TAU;
+        let ratio = || of.damping_n_s_per_m / of.critical_damping_n_s_per_m();
+        Some([
+            self.frequency.unwrap_or_else(own),
+            self.damping_ratio.unwrap_or_else(ratio),
+            of.mass_kg,
+        ])
+    }
+}
+
 /// The small mass that moves freely between two walls of the oscillator.
 #[derive(Deserialize, JsonSchema)]
 #[schemars(deny_unknown_fields, extend("oneOf" = one_of("mass", "mass_ratio")))]
@@ -191,17 +220,14 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
     let excitation = reader.optional::<ExcitationTable>(root, TABLES[2]);
     hint_other_kind(reader, root);
     let (table, oscillator) = oscillator?;
-    let stiffness_n_per_m = match (oscillator.stiffness, oscillator.frequency) {
-        (Some(stiffness), _) => stiffness,
-        (None, frequency) => stiffness_of(reader, &table, frequency?, oscillator.mass)?,
-    };
+    let structure = oscillator.structure(reader, &table)?;
     let ((cavity, absorber), (place, excitation)) = (absorber?, excitation?);
     let (inclination_rad, support) = support::read(reader, &cavity, &absorber)?;
     let transient = excitation.transient(reader, &place, 1.0)?;
     let mut physical = Physical {
-        mass_kg: oscillator.mass,
-        stiffness_n_per_m,
-        damping_n_s_per_m: 0.0,
+        mass_kg: structure.mass_kg,
+        stiffness_n_per_m: structure.stiffness_n_per_m,
+        damping_n_s_per_m: structure.damping_n_s_per_m,
         absorber_mass_kg: match (absorber.mass, absorber.mass_ratio) {
             (Some(mass), _) => mass,
             (None, ratio) => ratio? * oscillator.mass / (reader.shape * reader.shape),
@@ -245,10 +271,6 @@ pub(super) fn read(reader: &mut Reader, root: &Table) -> Option<Physical> {
         reader.report(cavity.span_of_value("support_frequency"), message, expected, help);
         return None;
     }
-    physical.damping_n_s_per_m = match (oscillator.damping, oscillator.damping_ratio) {
-        (Some(damping), _) => damping,
-        (None, ratio) => ratio? * physical.critical_damping_n_s_per_m(),
-    };
     Some(physical)
 }
 

@@ -53,13 +53,13 @@ pub fn schema() -> Value {
     let has = |key: &str| json!({ "required": [key] });
     let reduced = json!({ "properties": { "reduced": { "anyOf": [has("mode"), has("absorber")] } }, "required": ["reduced"] });
     let listed =
-        json!({ "properties": { "absorber": { "type": "array" } }, "required": ["absorber"] });
+        |name: &str| json!({ "properties": { name: { "type": "array" } }, "required": [name] });
     json!({
         "$schema": drafts[0],
         "title": "vinesink case",
         "description": "A design of a vibro-impact nonlinear energy sink.",
         "type": "object",
-        "if": { "anyOf": [has("mode"), has("modes"), listed, reduced] },
+        "if": { "anyOf": [has("mode"), has("modes"), listed("absorber"), listed("excitation"), reduced] },
         "then": of_several,
         "else": of_one,
         // Editors complete by what they find here, and do not look behind `if`; anything fits.

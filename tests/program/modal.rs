@@ -121,10 +121,10 @@ fn slips_are_told_where_they_are() {
         &["area of the theory of one mode", "stable-share"],
     );
     refused("[criteria]", "[simulation]\ndiscard = 9\n[criteria]", &["`discard` has no meaning"]);
-    let both = format!("{}\n[oscillator]\nmass = \"1 kg\"\n[band]\nfrom = \"1 Hz\"\n", text(MAST));
-    let told = wrong(&both);
+    let both = "[oscillator]\nmass = \"1 kg\"\n[band]\nfrom = \"1 Hz\"\nto = \"2 Hz\"\n";
+    let told = wrong(&format!("{}\n{both}", text(MAST)));
     assert!(told.contains("[oscillator] has no meaning beside [[mode]]"), "{told}");
-    assert!(told.contains("write `from` and `to` in [excitation]"), "{told}");
+    assert!(told.contains("[band] is of one excitation, and there are several"), "{told}");
     let nine =
         "[[absorber]]\nplace = \"tip\"\nmass = \"1 g\"\nclearance = \"1 mm\"\nrestitution = 0.5\n"
             .repeat(8);
@@ -222,24 +222,93 @@ fn a_slip_is_told_once_with_what_to_do() {
         let told = wrong(&good.replace(from, to));
         assert!(told.contains(words) && !told.contains("is missing"), "{to}: {told}");
     }
-    // The structure of one absorber with two.
     let two = "title = \"t\"\nsource = \"s\"\n[oscillator]\nmass = \"1 kg\"\nfrequency = \"3 Hz\"\ndamping_ratio = 0.01\n";
-    let rest = &good[good.find("[[absorber]]").expect("an absorber")..];
-    let told = wrong(&format!("{two}{rest}"));
-    assert!(
-        told.contains("[oscillator] has no meaning beside several absorbers or loads"),
-        "{told}"
-    );
-    assert!(
-        told.contains("write [[mode]] with frequency") && !told.contains("is missing"),
-        "{told}"
-    );
     // Beside one mode that is written as a list of one, too.
     let one = "[[mode]]\nfrequency = \"3 Hz\"\ndamping_ratio = 0.01\nmass = \"1 kg\"\nshape = { tip = 1 }\n\
                [[absorber]]\nmass = \"20 g\"\nclearance = \"2 mm\"\nrestitution = 0.6\n\
                [excitation]\nkind = \"force\"\namplitude = \"1 N\"\nfrequency = \"3 Hz\"\n";
     assert!(is_modal(&format!("{two}{one}")));
     assert!(wrong(&format!("{two}{one}")).contains("[oscillator] has no meaning beside [[mode]]"));
+}
+
+/// `[oscillator]` is a way to write one mode at one place, also with several absorbers or loads; `[band]` says the range of a load.
+#[test]
+fn an_oscillator_may_have_several_absorbers_and_a_load_a_band() {
+    let head = "title = \"t\"\nsource = \"s\"\n";
+    let absorber = |clearance: f64| {
+        format!("[[absorber]]\nmass = \"20 g\"\nclearance = \"{clearance} mm\"\nrestitution = 0.6\n")
+    };
+    let absorbers = absorber(2.0) + &absorber(0.7);
+    let stiffness = 2.0 * (std::f64::consts::TAU * 3.0).powi(2);
+    let oscillator = format!(
+        "[oscillator]\nmass = \"2 kg\"\nstiffness = \"{stiffness:?} N/m\"\ndamping = \"{:?} N s/m\"\n",
+        0.02 * (stiffness * 2.0).sqrt()
+    );
+    let mode = |further: &str| {
+        format!(
+            "[[mode]]\nfrequency = \"3 Hz\"\ndamping_ratio = 0.01\nmass = \"2 kg\"\n\
+             shape = {{ structure = 1.0 }}\n{further}"
+        )
+    };
+    let force = "kind = \"force\"\namplitude = \"1 N\"\n";
+    let own = "frequency = \"3 Hz\"\n";
+    let range = "from = \"2.8 Hz\"\nto = \"3.1 Hz\"\n";
+    let alike = [
+        // With its own stiffness and damping, and a band.
+        [
+            format!("{oscillator}{absorbers}[excitation]\n{force}{own}[band]\n{range}"),
+            format!("{}{absorbers}[excitation]\n{force}{range}", mode("")),
+        ],
+        // A base takes the whole structure along.
+        [
+            format!("{oscillator}{absorbers}[[excitation]]\nkind = \"base-displacement\"\namplitude = \"1 mm\"\n{own}"),
+            format!(
+                "{}{absorbers}[[excitation]]\nkind = \"base-displacement\"\namplitude = \"1 mm\"\n{own}",
+                mode("participation = 1.0\n")
+            ),
+        ],
+    ];
+    for [oscillator, mode] in alike {
+        let [a, b] = [&oscillator, &mode].map(|body| {
+            let text = format!("{head}{body}[criteria]\npeak_displacement = \"<= 9 mm\"\n");
+            assert!(is_modal(&text), "{text}");
+            ModalCase::parse("case.toml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+        });
+        assert_eq!([&a.places, &b.places], [&["structure".to_owned()]; 2]);
+        assert_eq!((&a.loads, &a.absorbers, &a.criteria), (&b.loads, &b.absorbers, &b.criteria));
+        for (of, other) in [
+            (a.modes[0].frequency_hz, b.modes[0].frequency_hz),
+            (a.modes[0].damping_ratio, b.modes[0].damping_ratio),
+            (a.modes[0].mass_kg, b.modes[0].mass_kg),
+        ] {
+            // Rounding of a root.
+            assert!((of / other - 1.0).abs() < 1e-14, "{of} {other}");
+        }
+    }
+    // One of each with a band is the engine of one mode.
+    let one = format!("{head}{}{}[[excitation]]\n{force}{own}[band]\n{range}", mode(""), absorber(2.0));
+    assert!(!is_modal(&one), "{one}");
+    for (body, words) in [
+        (
+            format!("{oscillator}{absorbers}[excitation]\n{force}{range}[band]\n{range}"),
+            "[band] and the excitation both say a range",
+        ),
+        (
+            format!("{oscillator}{absorbers}[excitation]\n{force}{own}[band]\nfrom = \"3 Hz\"\nto = \"3 Hz\"\n"),
+            "the band ends where it begins",
+        ),
+        (
+            format!("{}{absorbers}[excitation]\n{force}{own}", oscillator.replace("damping = ", "damping_ratio = 0.9 #")),
+            "damped too heavily for several absorbers",
+        ),
+        (
+            format!("{}{absorbers}[excitation]\n{force}{own}", oscillator.replace("mass = ", "# ")),
+            "`mass` is missing in [oscillator]",
+        ),
+    ] {
+        let told = wrong(&format!("{head}{body}"));
+        assert!(told.contains(words) && told.lines().count() == 1, "{told}");
+    }
 }
 
 /// A slip of a unit or of a per cent sign is told where it is; shipped cases have none.

@@ -24,6 +24,7 @@ use super::{AbsorberKey, ActsOn, Load, ModalCase, PlacedAbsorber, StructuralMode
 use crate::case::criteria::UPTO;
 use crate::case::error::CaseError;
 use crate::case::limits::{Asked, read_limits};
+use crate::case::physical::OscillatorTable;
 use crate::case::reader::{Reader, Table, fields, kind};
 use crate::case::settings::{
     AccuracySettings, AlternativesSettings, PageUnits, SimulationSettings,
@@ -31,7 +32,7 @@ use crate::case::settings::{
 use crate::case::uncertainty::{UncertaintyOfSeveral, read_of_several};
 use crate::case::{Heading, refuse_units};
 use crate::excitation::Scene;
-use crate::system::MOST_MODES;
+use crate::system::{LARGEST_DAMPING_RATIO, MOST_MODES};
 
 /// An absorber of the structure.
 #[derive(Deserialize, JsonSchema)]
@@ -91,6 +92,18 @@ struct ReportOfSeveral {
     units: PageUnits,
 }
 
+/// The range of frequencies of the one excitation, in place of its own. The table may be left out.
+#[derive(Deserialize, JsonSchema)]
+#[schemars(deny_unknown_fields)]
+struct BandOfSeveral {
+    /// Where it begins, above 0.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0), example = "8 Hz")]
+    from: f64,
+    /// Where it ends, above `from`.
+    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0), example = "9 Hz")]
+    to: f64,
+}
+
 /// Tables of such a file.
 #[derive(Deserialize, JsonSchema)]
 #[expect(
@@ -98,11 +111,13 @@ struct ReportOfSeveral {
     reason = "each table is read by itself, so that one that is wrong hides no other"
 )]
 struct ModalTables {
+    oscillator: Option<OscillatorTable>,
     mode: Option<OneOrMore<ModeTable>>,
     modes: Option<ModesTable>,
     reduced: Option<ModalReducedTable>,
     absorber: Option<OneOrMore<ModalAbsorberTable>>,
     excitation: Option<OneOrMore<LoadTable>>,
+    band: Option<BandOfSeveral>,
     simulation: Option<SimulationSettings>,
     criteria: Option<ModalCriteriaTable>,
     optimize: Option<ModalOptimizeTable>,
@@ -116,7 +131,7 @@ struct ModalTables {
 /// The forms of a structure, by the tables that each needs.
 fn forms() -> Value {
     let physical = |modes: &str| json!({ "required": [modes, "absorber", "excitation"] });
-    json!([physical("mode"), physical("modes"), { "required": ["reduced"] }])
+    json!([physical("oscillator"), physical("mode"), physical("modes"), { "required": ["reduced"] }])
 }
 
 /// Starts at each frequency of a range unless given, and under a load of one frequency, as with one mode: no neighbour then finds what
@@ -141,13 +156,9 @@ pub(super) fn read(
         .filter(|name| !own.contains(name))
         .collect();
     let root = reader.root_of::<Heading>(document, &[own, &of_one].concat());
-    refuse_oscillator(reader, &root);
-    let others = of_one.into_iter().filter(|name| *name != "oscillator" && root.has(name));
-    for name in others {
-        let help = match name {
-            "band" => "write `from` and `to` in [excitation] instead of `frequency`",
-            _ => "remove the table: it is about a structure with one mode",
-        };
+    refuse_both(reader, &root);
+    for name in of_one.into_iter().filter(|name| root.has(name)) {
+        let help = "remove the table: it is about a structure with one mode";
         let message = format!("[{name}] has no meaning beside [[mode]] or [[absorber]]");
         let expected = format!("expected the tables {}", own.join(", "));
         reader.report(root.span_of(name), message, expected, help);
@@ -187,6 +198,12 @@ pub(super) fn read(
                 damping_of_file(&root).map_or(Vec::new(), |span| vec![span; read.1.len()]);
             modes_from = Some(told);
             read
+        }
+        (None, false) if root.has("oscillator") && !root.has("mode") => {
+            let (table, mode) = read_oscillator(reader, &root).unzip();
+            spans.damping.extend(table);
+            let places = mode.iter().map(|_| THE_PLACE.to_owned()).collect();
+            (places, mode.into_iter().collect())
         }
         (None, false) => {
             let tables = tables::<ModeTable>(reader, &root, "mode");
@@ -249,6 +266,13 @@ pub(super) fn read(
             loads.push(load);
             spans.frequencies.push(written);
         }
+    }
+    if let Some((table, band)) = reader.optional::<BandOfSeveral>(&root, "band")
+        && let Some(range_hz) = band_of(reader, &table, &band, &loads)
+    {
+        loads.iter_mut().for_each(|load| load.range_hz = range_hz);
+        let written = ["from", "to"].map(|key| table.span_of_value(key)).to_vec();
+        spans.frequencies.iter_mut().for_each(|one| one.clone_from(&written));
     }
     let lists_loads = root.value("excitation").is_some_and(|one| one.get_ref().is_array());
     let simulation = reader.settings::<SimulationSettings>(&root, "simulation");
@@ -372,30 +396,74 @@ pub(super) fn read(
     Ok(Some((case, spans)))
 }
 
-/// Refuses `[oscillator]`, which is the structure of one absorber.
-fn refuse_oscillator(reader: &mut Reader, root: &Table) {
-    if root.value("oscillator").is_none() {
-        return;
-    }
+/// What the one place of `[oscillator]` is called.
+const THE_PLACE: &str = "structure";
+
+/// Refuses `[oscillator]` beside modes.
+fn refuse_both(reader: &mut Reader, root: &Table) {
     let own = ["mode", "modes", "reduced"].into_iter().find(|name| root.has(name));
-    let (message, expected, help) = match own {
-        Some(own) => {
-            let own = if own == "mode" { "[[mode]]".to_owned() } else { format!("[{own}]") };
-            (
-                format!("[oscillator] has no meaning beside {own}: both say what the structure is"),
-                "expected one of the two",
-                format!("remove [oscillator], or {own} where the structure has one mode and one absorber"),
-            )
-        }
-        None => (
-            "[oscillator] has no meaning beside several absorbers or loads: it has one of each".to_owned(),
-            "expected the structure as tables [[mode]]",
-            "write [[mode]] with frequency, damping_ratio, mass and shape = { tip = 1.0 }, and place = \"tip\" in each \
-             [[absorber]]; or keep one [absorber] and one [excitation]"
-                .to_owned(),
-        ),
+    let (Some(own), Some(_)) = (own, root.value("oscillator")) else { return };
+    let own = if own == "mode" { "[[mode]]".to_owned() } else { format!("[{own}]") };
+    let message =
+        format!("[oscillator] has no meaning beside {own}: both say what the structure is");
+    let help = format!("remove [oscillator], or {own} where the structure has one mode");
+    reader.report(root.span_of("oscillator"), message, "expected one of the two", help);
+}
+
+/// The structure of `[oscillator]`, a mode at one place that moves with its base, and where it says its damping.
+fn read_oscillator(reader: &mut Reader, root: &Table) -> Option<(Range<usize>, StructuralMode)> {
+    let (table, read) = reader.optional::<OscillatorTable>(root, "oscillator")?;
+    let [frequency_hz, damping_ratio, mass_kg] = read.mode(reader, &table)?;
+    let key = if table.has("damping") { "damping" } else { "damping_ratio" };
+    let span = table.span_of_value(key);
+    if damping_ratio > LARGEST_DAMPING_RATIO {
+        let message = "the structure is damped too heavily for several absorbers or loads";
+        let expected = format!("expected a damping ratio of at most {LARGEST_DAMPING_RATIO}");
+        let help =
+            "check its unit; one absorber and one load may be on a structure that does not ring";
+        reader.report(span, message, expected, help);
+        return None;
+    }
+    let mode = StructuralMode {
+        frequency_hz,
+        damping_ratio,
+        mass_kg,
+        shape: vec![1.0],
+        participation: 1.0,
+        forcing: 0.0,
     };
-    reader.report(root.span_of("oscillator"), message, expected, help);
+    Some((span, mode))
+}
+
+/// The range of `[band]`, in place of the frequency of the one load; none where something was reported.
+fn band_of(
+    reader: &mut Reader,
+    table: &Table,
+    band: &BandOfSeveral,
+    loads: &[Load],
+) -> Option<[f64; 2]> {
+    let span = table.span.clone();
+    match loads {
+        [load] if load.range_hz[0] < load.range_hz[1] => {
+            let message = "[band] and the excitation both say a range of frequencies";
+            let help = "remove [band], or write `frequency` in place of `from` and `to`";
+            reader.report(span, message, "expected one of the two", help);
+            None
+        }
+        [_, _, ..] => {
+            let message = "[band] is of one excitation, and there are several";
+            let help = "write `from` and `to` in each [[excitation]] that has a range";
+            reader.report(span, message, "expected one excitation", help);
+            None
+        }
+        _ if band.from >= band.to => {
+            let message = "the band ends where it begins, or before";
+            let help = "swap `from` and `to`, or write a larger `to`";
+            reader.report(table.span_of_value("to"), message, "expected `to` above `from`", help);
+            None
+        }
+        _ => Some([band.from, band.to]),
+    }
 }
 
 /// Where the table `[modes]` says the damping ratio of all modes, or else names their file.
