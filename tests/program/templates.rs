@@ -292,3 +292,70 @@ fn criteria_are_counted_by_what_they_came_to() {
         assert!(text.starts_with(&format!("c: {words}\n")), "{text}");
     }
 }
+
+/// What a search of several absorbers may come to, on its page and on a terminal: the sentence is the same.
+#[test]
+fn every_search_of_several_absorbers_is_told() {
+    let of = |id: &str, value: f64| json!({ "id": id, "value": value, "error": 0.0, "method": "simulation" });
+    let absorbers = json!([{
+        "mass": of("absorber_mass", 3.0), "place": "tip", "clearance": of("clearance", 2.7e-3),
+        "restitution": of("restitution", 0.3),
+    }]);
+    let load = json!({
+        "amplitude": of("force_amplitude", 0.3), "place": "tip", "mode": null,
+        "from": of("excitation_frequency", 1.0), "to": of("excitation_frequency", 1.2),
+    });
+    let row = |value: Value, holds: bool| {
+        json!({
+            "absorbers": absorbers, "value": value, "loads": [of("peak_displacement", 2.9e-3)],
+            "criteria": null, "all_hold": holds,
+        })
+    };
+    let mut sentences = std::collections::BTreeSet::new();
+    for (objective, id) in [
+        ("criteria", "peak_displacement"),
+        ("worst-amplitude", "peak_displacement"),
+        ("stable-share", "stable_share"),
+        ("margin", "smallest_margin"),
+    ] {
+        for answer in ["found", "none", "not-reached"] {
+            for (asked, holds, is_optimum) in
+                [(true, true, true), (true, false, false), (false, true, false)]
+            {
+                let found = of(id, 0.1);
+                let one = row(found.clone(), holds);
+                let mut robust = one.clone();
+                for key in ["expected", "worst_corner", "optimum_expected", "optimum_worst_corner"]
+                {
+                    robust[key] = found.clone();
+                }
+                (robust["combinations"], robust["is_optimum"]) = (json!(5), json!(is_optimum));
+                let by_orbits = objective == "stable-share" || objective == "margin";
+                let best = if answer == "none" { json!([]) } else { json!([one]) };
+                let robust = if asked { robust } else { Value::Null };
+                let at = json!({
+                    "title": "t", "answer": answer, "objective": objective, "asked": asked,
+                    "by_orbits": by_orbits,
+                    "best": best,
+                    "own": one, "nearest": absorbers, "at_bound": holds, "candidates": 120,
+                    "bounds": {
+                        "clearances": [[of("clearance", 1e-3), of("clearance", 8e-3)]], "common": true,
+                        "restitution": null, "places": ["tip"], "split_mass": false,
+                    },
+                    "loads": [load], "robust": robust,
+                    "version": "0", "case_sha256": "0",
+                });
+                let facts = json!({ "at": at, "figures": [] });
+                let [markdown, terminal] =
+                    ["modal-optimum.md", "modal-optimum.txt"].map(|name| page(name, &facts));
+                let sentence = terminal.lines().nth(2).expect("a sentence").to_owned();
+                assert!(!sentence.is_empty() && terminal.contains("Looked at: 120"), "{terminal}");
+                let told = markdown.lines().nth(2).expect("a sentence").replace('\\', "");
+                assert_eq!(told, format!("> **{sentence}**"));
+                sentences.insert(sentence);
+                assert_eq!(markdown.contains("[uncertainty]"), asked, "{markdown}");
+            }
+        }
+    }
+    assert!(sentences.len() > 8, "{sentences:?}");
+}
