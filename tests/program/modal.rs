@@ -236,7 +236,9 @@ fn a_slip_is_told_once_with_what_to_do() {
 fn an_oscillator_may_have_several_absorbers_and_a_load_a_band() {
     let head = "title = \"t\"\nsource = \"s\"\n";
     let absorber = |clearance: f64| {
-        format!("[[absorber]]\nmass = \"20 g\"\nclearance = \"{clearance} mm\"\nrestitution = 0.6\n")
+        format!(
+            "[[absorber]]\nmass = \"20 g\"\nclearance = \"{clearance} mm\"\nrestitution = 0.6\n"
+        )
     };
     let absorbers = absorber(2.0) + &absorber(0.7);
     let stiffness = 2.0 * (std::f64::consts::TAU * 3.0).powi(2);
@@ -261,7 +263,9 @@ fn an_oscillator_may_have_several_absorbers_and_a_load_a_band() {
         ],
         // A base takes the whole structure along.
         [
-            format!("{oscillator}{absorbers}[[excitation]]\nkind = \"base-displacement\"\namplitude = \"1 mm\"\n{own}"),
+            format!(
+                "{oscillator}{absorbers}[[excitation]]\nkind = \"base-displacement\"\namplitude = \"1 mm\"\n{own}"
+            ),
             format!(
                 "{}{absorbers}[[excitation]]\nkind = \"base-displacement\"\namplitude = \"1 mm\"\n{own}",
                 mode("participation = 1.0\n")
@@ -286,7 +290,8 @@ fn an_oscillator_may_have_several_absorbers_and_a_load_a_band() {
         }
     }
     // One of each with a band is the engine of one mode.
-    let one = format!("{head}{}{}[[excitation]]\n{force}{own}[band]\n{range}", mode(""), absorber(2.0));
+    let one =
+        format!("{head}{}{}[[excitation]]\n{force}{own}[band]\n{range}", mode(""), absorber(2.0));
     assert!(!is_modal(&one), "{one}");
     for (body, words) in [
         (
@@ -294,11 +299,16 @@ fn an_oscillator_may_have_several_absorbers_and_a_load_a_band() {
             "[band] and the excitation both say a range",
         ),
         (
-            format!("{oscillator}{absorbers}[excitation]\n{force}{own}[band]\nfrom = \"3 Hz\"\nto = \"3 Hz\"\n"),
+            format!(
+                "{oscillator}{absorbers}[excitation]\n{force}{own}[band]\nfrom = \"3 Hz\"\nto = \"3 Hz\"\n"
+            ),
             "the band ends where it begins",
         ),
         (
-            format!("{}{absorbers}[excitation]\n{force}{own}", oscillator.replace("damping = ", "damping_ratio = 0.9 #")),
+            format!(
+                "{}{absorbers}[excitation]\n{force}{own}",
+                oscillator.replace("damping = ", "damping_ratio = 0.9 #")
+            ),
             "damped too heavily for several absorbers",
         ),
         (
@@ -371,7 +381,6 @@ fn other_commands_say_who_reads_it() {
         ["simulate", "--periods", "9"],
         ["analyze", "--fidelity", "orbit"],
         ["report", "--fidelity", "orbit"],
-        ["optimize", "--out", "reports"],
     ] {
         let [command, option, value] = arguments;
         let output = vinesink(&[command, MAST, option, value]);

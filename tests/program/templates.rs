@@ -347,7 +347,7 @@ fn every_search_of_several_absorbers_is_told() {
                 });
                 let facts = json!({ "at": at, "figures": [] });
                 let [markdown, terminal] =
-                    ["modal-optimum.md", "modal-optimum.txt"].map(|name| page(name, &facts));
+                    ["loads-optimum.md", "loads-optimum.txt"].map(|name| page(name, &facts));
                 let sentence = terminal.lines().nth(2).expect("a sentence").to_owned();
                 assert!(!sentence.is_empty() && terminal.contains("Looked at: 120"), "{terminal}");
                 let told = markdown.lines().nth(2).expect("a sentence").replace('\\', "");
