@@ -241,7 +241,8 @@ fn an_oscillator_may_have_several_absorbers_and_a_load_a_band() {
         )
     };
     let absorbers = absorber(2.0) + &absorber(0.7);
-    let stiffness = 2.0 * (std::f64::consts::TAU * 3.0).powi(2);
+    let natural = std::f64::consts::TAU * 3.0;
+    let stiffness = 2.0 * natural * natural;
     let oscillator = format!(
         "[oscillator]\nmass = \"2 kg\"\nstiffness = \"{stiffness:?} N/m\"\ndamping = \"{:?} N s/m\"\n",
         0.02 * (stiffness * 2.0).sqrt()
