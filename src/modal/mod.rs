@@ -47,7 +47,7 @@ pub use orbits::{LoadOrbits, Stretches, at_resonances, orbits};
 pub use over_time::{LoadImpact, OverTime, usual_periods};
 pub use ranges::looks;
 pub use sensors::sensors;
-pub use theory::{GroupTheory, LoadTheory};
+pub use theory::{AbsorberManifold, ExactAmplitude, GroupTheory, LoadTheory};
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]

@@ -5,7 +5,7 @@
 
 use super::driven_mode;
 use crate::analysis::{
-    AbsorberGroup, GroupFixedPoint, UnforcedMode, effective_restitutions,
+    AbsorberGroup, GroupFixedPoint, Manifold, UnforcedMode, effective_restitutions,
     neglected_at_leading_order, scattered,
 };
 use crate::case::{Load, ModalCase};
@@ -28,8 +28,44 @@ pub struct LoadTheory {
     pub scattered: Vec<(usize, f64)>,
     /// The absorbers at leading order; none where one's restitution then is below 0, or all sit at nodes.
     pub group: Option<GroupTheory>,
-    /// Amplitudes of the first harmonics of the exact orbits there, in m, ascending, and whether each attracts.
-    pub exact: Vec<(f64, bool)>,
+    /// The exact orbits there, by ascending amplitude.
+    pub exact: Vec<ExactAmplitude>,
+}
+
+/// An exact orbit as theory sees one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactAmplitude {
+    /// Amplitude of its first harmonic in m.
+    pub amplitude: f64,
+    /// For each absorber of the case that of its straight lines between the walls, in m.
+    pub absorbers: Vec<f64>,
+    /// Whether it attracts.
+    pub attracts: bool,
+}
+
+/// The manifold of an absorber in the mode that a load drives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AbsorberManifold {
+    /// The absorber, by its number in the case from 0.
+    pub absorber: usize,
+    /// Its clearance in m, over which its own amplitude is.
+    pub clearance: f64,
+    /// That of the place that moves farthest, in m, over which the structure's amplitude is: larger where the absorber's place moves less.
+    pub seen: f64,
+    /// The manifold, with the restitution that its impacts seem to have.
+    pub manifold: Manifold,
+}
+
+impl AbsorberManifold {
+    /// The absorber's amplitude, and that of the structure, at a point of the manifold over the clearance; in m.
+    pub fn at(&self, [absorber, structure]: [f64; 2]) -> [f64; 2] {
+        [absorber * self.clearance, structure * self.seen]
+    }
+
+    /// Its amplitude in m on the stable branch, or beyond it, where the structure has one in m; none below the fold.
+    pub fn absorber_at(&self, amplitude: f64) -> Option<f64> {
+        Some(self.clearance * self.manifold.stable_absorber(amplitude / self.seen)?)
+    }
 }
 
 /// Absorbers on a mode at leading order.
@@ -45,6 +81,8 @@ pub struct GroupTheory {
     pub points: Vec<(f64, bool)>,
     /// Amplitudes of the load at which two fixed points collide, in its unit, ascending.
     pub collisions: Vec<f64>,
+    /// The manifolds of the absorbers that the mode moves, in the order of the case.
+    pub manifolds: Vec<AbsorberManifold>,
 }
 
 impl LoadTheory {
@@ -75,7 +113,16 @@ impl LoadTheory {
             let point = |one: &GroupFixedPoint| (farthest * one.amplitude, one.stable);
             let times = load.amplitude / group.forcing;
             let collisions = group.saddle_nodes();
+            let moved = (0..case.absorbers.len())
+                .filter(|j| case.modes[mode].shape[case.absorbers[*j].place] != 0.0);
+            let manifolds = moved.zip(&group.members).map(|(absorber, member)| AbsorberManifold {
+                absorber,
+                clearance: case.absorbers[absorber].clearance_m,
+                seen: farthest * member.clearance,
+                manifold: member.manifold,
+            });
             GroupTheory {
+                manifolds: manifolds.collect(),
                 mass_ratio: group.mass_ratio,
                 error: neglected_at_leading_order(group.mass_ratio, group.detuning, group.damping)
                     + beside,
@@ -96,9 +143,14 @@ impl LoadTheory {
             exact: Vec::new(),
         };
         let admissible = orbits.iter().filter(|orbit| orbit.admissible);
-        let exact = admissible.map(|orbit| (theory.amplitude(case, orbit), orbit.stable()));
+        let quarter = 0.25 * system.period();
+        let exact = admissible.map(|orbit| ExactAmplitude {
+            amplitude: theory.amplitude(case, orbit),
+            absorbers: orbit.impact_speeds.iter().map(|speed| quarter * speed).collect(),
+            attracts: orbit.stable(),
+        });
         theory.exact = exact.collect();
-        theory.exact.sort_by(|a, b| a.0.total_cmp(&b.0));
+        theory.exact.sort_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
         Some(theory)
     }
 }

@@ -9,7 +9,7 @@ mod diagram;
 mod dissipation;
 mod motions;
 mod over_time;
-mod parts;
+pub(in crate::report) mod parts;
 mod peaks;
 mod ranges;
 pub mod regimes;

@@ -35,7 +35,7 @@ pub(super) fn manifold_part(manifold: &Manifold, [first, last]: [f64; 2]) -> Lin
 }
 
 /// The manifold up to `B/b = last`: what is not stable, and the stable branch.
-pub(super) fn manifold(manifold: &Manifold, last: f64) -> [Line; 2] {
+pub(in crate::report) fn manifold(manifold: &Manifold, last: f64) -> [Line; 2] {
     let breaking = manifold.symmetry_breaking.absorber_amplitude;
     let left = manifold_part(manifold, [-1.0, manifold.fold_shift]);
     let right = manifold_part(manifold, [breaking - 1.0, last.max(breaking) - 1.0]);
@@ -74,7 +74,7 @@ pub(super) fn fixed_points(
 }
 
 /// How a case's own fixed points look.
-pub(super) fn own_points() -> [(Marker, Color); 2] {
+pub(in crate::report) fn own_points() -> [(Marker, Color); 2] {
     [Role::Stable, Role::Unstable].map(|role| (role.marker(), role.color()))
 }
 

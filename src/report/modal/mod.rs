@@ -370,6 +370,7 @@ pub fn files(
         figure::loads(case, answer, beside, &document),
         figure::forces(case, answer, beside, &document),
         figure::over_time(case, beside, &document),
+        figure::manifolds(case, beside, &document),
     ];
     let compared = answer.alternatives.as_ref();
     drawn.extend(compared.and_then(|found| choice::figure(units(case), found, &document)));

@@ -41,8 +41,9 @@ pub(super) fn row(case: &ModalCase, found: &LoadTheory) -> Value {
         "restitutions": restitutions.collect::<Vec<_>>(),
         "scattered": scattered.collect::<Vec<_>>(),
         "group": found.group.as_ref().map(group),
-        "exact": found.exact.iter().map(|(one, stable)| {
-            json!({ "amplitude": Quantity::new(&of::OSCILLATOR_AMPLITUDE, *one, Method::ExactOrbit), "stable": stable })
-        }).collect::<Vec<_>>(),
+        "exact": found.exact.iter().map(|one| json!({
+            "amplitude": Quantity::new(&of::OSCILLATOR_AMPLITUDE, one.amplitude, Method::ExactOrbit),
+            "stable": one.attracts,
+        })).collect::<Vec<_>>(),
     })
 }
