@@ -4,13 +4,30 @@ use serde_json::{Value, json};
 
 use super::{closed, given};
 use crate::case::ModalCase;
+use crate::cavity::ManifoldPoint;
 use crate::method::Method;
-use crate::modal::{GroupTheory, LoadTheory};
+use crate::modal::{AbsorberManifold, GroupTheory, LoadTheory};
 use crate::quantity::catalogue as of;
 use crate::quantity::{Kind, Quantity};
 
 fn by_theory(kind: &'static Kind, value: f64) -> Quantity {
     Quantity::new(kind, value, Method::Theory)
+}
+
+/// The ends of the stable branch of an absorber's manifold: its own amplitude, and the structure's where it moves farthest.
+fn manifold(of_one: &AbsorberManifold) -> Value {
+    let end = |at: &ManifoldPoint| {
+        let [absorber, structure] = of_one.at([at.absorber_amplitude, at.oscillator_amplitude]);
+        json!({
+            "absorber_amplitude": by_theory(&of::ABSORBER_AMPLITUDE, absorber),
+            "oscillator_amplitude": by_theory(&of::OSCILLATOR_AMPLITUDE, structure),
+        })
+    };
+    json!({
+        "absorber": of_one.absorber + 1,
+        "fold": end(&of_one.manifold.fold),
+        "symmetry_breaking": end(&of_one.manifold.symmetry_breaking),
+    })
 }
 
 /// A row: modes and absorbers by their numbers, from 1.
@@ -26,6 +43,8 @@ pub(super) fn row(case: &ModalCase, found: &LoadTheory) -> Value {
             "mass_ratio": closed(&of::MASS_RATIO, one.mass_ratio),
             "range": one.range.map(|range| range.map(|end| by_theory(&of::OSCILLATOR_AMPLITUDE, end))),
             "points": one.points.iter().map(point).collect::<Vec<_>>(),
+            // Of each absorber that the mode moves, by its number from 1: where its manifold is stable, from the fold on.
+            "manifolds": one.manifolds.iter().map(manifold).collect::<Vec<_>>(),
             // Amplitudes of the load at which two of them collide.
             "collisions": one.collisions.iter().map(|at| by_theory(kind, *at)).collect::<Vec<_>>(),
         })
