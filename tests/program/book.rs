@@ -273,6 +273,26 @@ fn keys(schema: &Value) -> BTreeSet<String> {
     keys
 }
 
+/// The tables of a case by their names, each with its keys; the file itself has no name. A list of tables within a table has
+/// both names.
+fn tables(schema: &Value) -> BTreeMap<String, BTreeSet<String>> {
+    let mut tables = BTreeMap::from([(String::new(), keys(schema))]);
+    for key in keys(schema) {
+        let table = &schema["properties"][&key];
+        let inside = keys(table);
+        for list in &inside {
+            let items = &table["properties"][list]["items"];
+            if items["properties"].is_object() {
+                tables.insert(format!("{key}.{list}"), keys(items));
+            }
+        }
+        if !inside.is_empty() {
+            tables.insert(key, inside);
+        }
+    }
+    tables
+}
+
 /// The names that a key may have as its value.
 fn names(schema: &Value, found: &mut BTreeSet<String>) {
     match schema {
@@ -292,36 +312,35 @@ fn every_key_of_a_case_has_its_line() {
     let text = &pages()["case-file.md"];
     // Rows of tables begin with a key between backticks; a heading names the table of the case.
     let mut told: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    let mut rows: BTreeMap<(String, String), String> = BTreeMap::new();
     let mut table = String::new();
-    let heading = Regex::new(r"^## .*`\[([a-z]+)\]`").expect("a pattern");
+    let heading = Regex::new(r"^##+ .*`\[+([a-z.]+)\]+`").expect("a pattern");
     for (line, inside) in fenced(text) {
         if inside {
             continue;
         }
-        if line.starts_with("### ") {
-            "other".clone_into(&mut table);
-        } else if let Some(named) = heading.captures(line) {
+        if let Some(named) = heading.captures(line) {
             named[1].clone_into(&mut table);
+        } else if line.starts_with("### ") {
+            "other".clone_into(&mut table);
         } else if line.starts_with("## ") {
             table.clear();
         }
         let first = line.strip_prefix("| `").and_then(|row| row.split('|').next());
         for key in first.into_iter().flat_map(|cell| cell.split(", ")) {
             let key = key.trim().trim_matches('`').to_owned();
+            rows.entry((table.clone(), key.clone())).or_default().push_str(line);
             told.entry(table.clone()).or_default().insert(key);
         }
     }
-    let schema = &vinesink::case::schema()["$defs"]["one"];
-    let mut wanted: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
-    let mut values = BTreeSet::new();
-    names(schema, &mut values);
-    for key in keys(schema) {
-        let inside = keys(&schema["properties"][&key]);
-        wanted.entry(String::new()).or_default().insert(key.clone());
-        if !inside.is_empty() {
-            wanted.insert(key, inside);
-        }
+    let schema = vinesink::case::schema();
+    let [one, several] = ["one", "several"].map(|part| tables(&schema["$defs"][part]));
+    let mut wanted = one.clone();
+    for (table, keys) in &several {
+        wanted.entry(table.clone()).or_default().extend(keys.iter().cloned());
     }
+    let mut values = BTreeSet::new();
+    names(&schema["$defs"], &mut values);
     for (table, keys) in &wanted {
         let empty = BTreeSet::new();
         let told = told.get(table).unwrap_or(&empty);
@@ -332,6 +351,15 @@ fn every_key_of_a_case_has_its_line() {
     }
     for table in told.keys() {
         assert!(wanted.contains_key(table), "docs/src/case-file.md has [{table}], no case has");
+    }
+    // Where a table is of every structure, what one mode and one absorber do not have is told in the key's row.
+    for (table, keys) in one.iter().filter(|(table, _)| !table.is_empty()) {
+        for key in several.get(table).into_iter().flatten().filter(|key| !keys.contains(*key)) {
+            let row = rows.get(&(table.clone(), key.clone())).map_or("", String::as_str);
+            let is_list = several.contains_key(&format!("{table}.{key}"));
+            let says = is_list || row.contains("several");
+            assert!(says, "docs/src/case-file.md: `{key}` of [{table}] is of several alone");
+        }
     }
     for name in values {
         assert!(text.contains(&format!("`{name}`")), "docs/src/case-file.md lacks `{name}`");
