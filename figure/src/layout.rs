@@ -210,9 +210,10 @@ fn dress(panel: &Panel, plot: Rect, spans: Spans, x_words: bool, legend: &[usize
         let y = plot.bottom + TICK + SMALL + 6.0 + LINE * (i as f64 + 0.5);
         words.push(large(text, [cx, y], Anchor::Middle));
     }
-    if let Some(heading) = &panel.heading {
-        let at = [plot.left, plot.top - legend_room - LINE / 2.0 - 4.0];
-        words.push(Words { bold: true, ..large(heading, at, Anchor::Start) });
+    let heading = panel.heading.as_ref().map(|text| wrap(text, LARGE, plot.width() + 40.0));
+    for (i, text) in heading.iter().flat_map(|lines| lines.iter().rev()).enumerate() {
+        let at = [plot.left, plot.top - legend_room - LINE * (i as f64 + 0.5) - 4.0];
+        words.push(Words { bold: true, ..large(text, at, Anchor::Start) });
     }
     frame.words.extend(words);
     frame

@@ -68,6 +68,22 @@ fn narrow_words_neither_touch_nor_are_cut() {
     }
 }
 
+/// A heading that is wider than its panel goes on below, and takes no room from the panel beside it.
+#[test]
+fn a_long_heading_is_wrapped() {
+    let heading = ["the", "displacement", "of", "a", "place"].repeat(4).join(" ");
+    let panel = |text: &str| {
+        simple(vec![Layer::curve(Role::Stable, vec![[0.0; 2], [1.0; 2]])]).panels[0]
+            .clone()
+            .with_heading(text)
+    };
+    let figure = Figure::new("wrapped", "").with_layout(Layout::columns(&[1.0; 2]));
+    let figure = figure.with_size(500, 320).with_panel(panel(&heading)).with_panel(panel("short"));
+    let drawing = draw(&figure).expect("can be drawn");
+    common::words_are_apart(&figure, &drawing.texts);
+    assert!(!has_text(&drawing, &heading) && has_text(&drawing, "short"));
+}
+
 /// Words that a phone has no room for, and a figure that is nothing but bars, keep the usual drawing.
 #[test]
 fn what_would_not_be_read_is_not_narrow() {

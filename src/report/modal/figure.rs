@@ -246,7 +246,7 @@ fn manifold_panel(case: &ModalCase, found: &LoadTheory, group: &GroupTheory) -> 
     let mut panel = Panel::new(x, y).with_heading(format!(
         "{on}, {at}: mode {} at {}",
         found.mode + 1,
-        case.places[found.place]
+        place(case, found.place)
     ));
     for (k, ([unstable, stable], one)) in curves.into_iter().zip(&group.manifolds).enumerate() {
         let (thin, thick, name) = match case.absorbers.len() {
@@ -317,10 +317,14 @@ fn displaced(case: &ModalCase, units: Units, of_motion: &OverTime) -> Panel {
     let OverTime { times_s, displacement_m, load, at, place, .. } = of_motion;
     let line = times_s.iter().zip(displacement_m).map(|(at, x)| [*at, *x]).collect();
     let frequency = units.text(&of::EXCITATION_FREQUENCY, *at);
-    let on = heading(case, *load, &case.loads[*load]);
+    // Beside several others its number is enough.
+    let on = match case.loads.len() {
+        1 => heading(case, *load, &case.loads[*load]),
+        _ => format!("load {}", load + 1),
+    };
     Panel::new(time(units, of_motion), AxisOf::si(units, &of::DISPLACEMENT).axis(FITTED))
         .with(Layer::curve(Role::Simulation, line))
-        .with_heading(format!("{}, {on}, {frequency}", case.places[*place]))
+        .with_heading(format!("{}, {on}, {frequency}", self::place(case, *place)))
 }
 
 /// One of the absorbers that are shown between its walls; what is drawn is `named` in one panel.
@@ -382,7 +386,7 @@ fn limits(case: &ModalCase, farthest: Option<Of>) -> Vec<(f64, String)> {
     found.dedup_by(|a, b| a.0 == b.0);
     let several = found.len() > 1;
     let named = |(limit, of): (f64, Of)| match of {
-        Of::Place(place) if several => (limit, format!("limit at {}", case.places[place])),
+        Of::Place(place) if several => (limit, format!("limit at {}", self::place(case, place))),
         _ => (limit, "limit".to_owned()),
     };
     found.into_iter().map(named).collect()
@@ -395,9 +399,21 @@ fn with_limits(panel: Panel, limits: &[(f64, String)]) -> Panel {
     })
 }
 
+/// Most characters of a place's name in a drawing.
+const NAME: usize = 16;
+
+/// The name of a place, cut where it is too long for a drawing.
+fn place(case: &ModalCase, number: usize) -> String {
+    let name = &case.places[number];
+    if name.chars().count() <= NAME {
+        return name.clone();
+    }
+    name.chars().take(NAME - 1).chain(['…']).collect()
+}
+
 pub(super) fn heading(case: &ModalCase, number: usize, load: &Load) -> String {
     let on = match load.on {
-        ActsOn::Place(place) => format!("force at {}", case.places[place]),
+        ActsOn::Place(place) => format!("force at {}", self::place(case, place)),
         ActsOn::Mode(mode) => format!("force in mode {}", mode + 1),
         ActsOn::Modes => "forces in all modes".to_owned(),
         ActsOn::Base => "moving base".to_owned(),
