@@ -710,8 +710,9 @@ fn characters_that_nobody_sees_reach_no_page_and_no_terminal() {
         _ => line.replace("place = \"tip\"", &format!("place = {}", toml(&place))),
     });
     let mast = mast.collect::<Vec<_>>().join("\n");
-    // One load is enough.
+    // One load and one absorber are enough.
     let (head, rest) = mast.split_once("[[excitation]]").expect("loads");
+    let (head, _) = head.rsplit_once("[[absorber]]").expect("two");
     let (load, rest) = rest.split_once("[[excitation]]").expect("loads");
     let (_, tail) = rest.split_once("[criteria]").expect("a table");
     let load = load
