@@ -54,6 +54,18 @@ pub fn must_be_new(path: &Path) -> Result<(), StoreError> {
     if path.symlink_metadata().is_ok() { Err(exists(path)) } else { Ok(()) }
 }
 
+/// Refuses a file whose folder is not there, before work begins whose result is to be written to it.
+///
+/// # Errors
+/// [`StoreError`] with the folder.
+pub fn must_have_folder(path: &Path) -> Result<(), StoreError> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let Some(folder) = folder.filter(|folder| !folder.is_dir()) else { return Ok(()) };
+    let message =
+        format!("cannot write {}: there is no folder {}", path.display(), folder.display());
+    Err(StoreError::new(message, Some("create the folder first, or name another file")))
+}
+
 fn exists(path: &Path) -> StoreError {
     let message = format!("{} exists already and is left as it is", path.display());
     StoreError::new(message, Some("choose another name, or remove the file first"))

@@ -68,6 +68,7 @@ at the end; lengths are over the absorber's own clearance, tau is in fast time o
 
 pub fn run(arguments: Arguments) -> Result<bool> {
     let OneCase { path, long, reading, .. } = &arguments.one;
+    arguments.impacts.as_deref().map_or(Ok(()), store::must_have_folder)?;
     let read = match arguments.initial {
         Some(_) => case_file::read_even_at_rest(path, *reading)?,
         None => case_file::read_any(path, *reading)?,

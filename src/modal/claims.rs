@@ -85,7 +85,7 @@ fn fixed_points(case: &ModalCase, theory: &LoadTheory, orbits: &[ModalOrbit]) ->
         let near = motions::nearest(amplitude, &own, &amplitudes, *error);
         let observed = near.map_or(Finding::NoOrbit, |k| Finding::Stability {
             stable: orbits[k].stable(),
-            multiplier: Some(orbits[k].spectral_radius()),
+            multiplier: Some(per_period(&orbits[k])),
         });
         claims.push(Claim::of_outcome(
             Statement::Stability { point, absorber_amplitude: None, stable },
@@ -101,6 +101,11 @@ fn fixed_points(case: &ModalCase, theory: &LoadTheory, orbits: &[ModalOrbit]) ->
     claims
 }
 
+/// The largest multiplier of a whole period.
+fn per_period(orbit: &ModalOrbit) -> f64 {
+    orbit.spectral_radius() * orbit.spectral_radius()
+}
+
 /// That a simulation which starts on an orbit repeats, and that one beside it comes to it or leaves it.
 fn simulated(
     system: &ModalSystem,
@@ -108,7 +113,7 @@ fn simulated(
     number: usize,
 ) -> Result<Vec<Claim>, ModalStartError> {
     let begin = orbit_state(system, orbit);
-    let multiplier = orbit.spectral_radius() * orbit.spectral_radius();
+    let multiplier = per_period(orbit);
     let after = |simulation: &mut ModalSimulation, periods: u64| -> ModalState {
         simulation.run(periods, u64::MAX, &mut ());
         simulation.state()

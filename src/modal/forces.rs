@@ -47,9 +47,8 @@ pub struct ForceStep {
 /// What all limits come to with other amplitudes, over the load's own.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForceLimits {
-    /// Between which of those that were looked at, the load's own among them, all hold with their errors; none where they do not
-    /// with its own.
-    pub holds: Option<[f64; 2]>,
+    /// Between which of those that were looked at all hold with their errors, one after the other; none where they hold with none.
+    pub holds: Vec<[f64; 2]>,
     /// Those with which it is too close to call.
     pub open: Vec<f64>,
     /// Those with which one fails.
@@ -133,14 +132,11 @@ impl OverForce {
         let times = |of: &dyn Fn(&ForceStep) -> bool| -> Vec<f64> {
             self.steps.iter().filter(|step| of(step)).map(|step| step.times).collect()
         };
-        let own = self.steps.iter().position(|step| step.times == 1.0 && holds(step));
-        let stretch = own.map(|own| {
-            let before = self.steps[..own].iter().rev().take_while(|step| holds(step)).last();
-            let behind = self.steps[own..].iter().take_while(|step| holds(step)).last();
-            [before, behind].map(|step| step.map_or(1.0, |step| step.times))
-        });
+        let together = self.steps.chunk_by(|a, b| holds(a) == holds(b));
+        let stretches = together.filter(|steps| holds(&steps[0]));
+        let stretches = stretches.map(|steps| [steps[0].times, steps[steps.len() - 1].times]);
         let open = times(&|step| !fails(step) && !holds(step));
-        Some(ForceLimits { holds: stretch, open, fails: times(&fails) })
+        Some(ForceLimits { holds: stretches.collect(), open, fails: times(&fails) })
     }
 }
 

@@ -44,7 +44,22 @@ pub(super) fn candidate(case: &ModalCase, parts: &[f64]) -> ModalCase {
             one.mass_kg = Rounding::Nearest.of(together * share / sum);
         }
     }
+    if *split_mass {
+        keep_places(&case.absorbers, &mut absorbers);
+    }
     ModalCase { absorbers, ..case.clone() }
+}
+
+/// Gives absorbers that may share their mass otherwise, and so are alike, the numbers of those that were where they are.
+fn keep_places(own: &[PlacedAbsorber], found: &mut [PlacedAbsorber]) {
+    for j in 0..own.len() {
+        let stays = |k: &usize| found[*k].place == own[j].place && found[*k].place != own[*k].place;
+        if found[j].place != own[j].place
+            && let Some(k) = (0..own.len()).find(stays)
+        {
+            found.swap(j, k);
+        }
+    }
 }
 
 /// The bounds of an absorber's clearance in m.

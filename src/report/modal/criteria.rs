@@ -33,8 +33,13 @@ fn placed(case: &ModalCase, one: &Judged, mut row: Value) -> Value {
         Of::Place(place) => json!(case.places[place]),
         Of::Absorber(j) => json!(j + 1),
     };
+    let parts = match one.criterion.measure.part() {
+        Part::Place => case.places.len(),
+        Part::Absorber => case.absorbers.len(),
+        Part::Whole => 0,
+    };
     row[key] = named(one.criterion.of);
-    if !worst.is_empty() {
+    if parts > 1 {
         row[worst] = named(one.of);
     }
     row["load"] = json!(one.load + 1);

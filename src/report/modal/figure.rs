@@ -56,6 +56,15 @@ pub(super) fn loads(
         panel = panel.with(
             Layer::marked(marker, Role::Simulation.color(), seen(along)).labelled("with absorbers"),
         );
+        let worst = answer.worst(case, Some(k)).map(|worst| worst.found);
+        if let Some(([at, value], true)) =
+            worst.and_then(|worst| Some(([worst.at?, worst.value], worst.rests())))
+        {
+            // On the line without them, where it would not be seen as the worst.
+            let marker = Marker::hollow(Shape::Circle).sized(7.0);
+            let layer = Layer::marked(marker, Role::Simulation.color(), vec![[at, value]]);
+            panel = panel.with(layer.labelled("worst: at rest"));
+        }
         figure = figure.with_panel(panel.with_heading(heading(case, k, &along.load)));
     }
     in_rows(figure).with_facts("captions/loads", facts.clone())
@@ -119,6 +128,8 @@ fn seen(along: &AlongLoad) -> Vec<[f64; 2]> {
 
 /// Width of the bar of an absorber with the free room beside it, over that of the panel.
 const BAR: f64 = 0.03;
+/// What the axis of amplitudes goes on beyond the first and the last, as a factor: marks on its ends would be cut.
+const EDGE: f64 = 1.04;
 /// An absorber at work.
 const WORKS: Style = Style::new(Color::BluishGreen, 6.0, Dash::Solid);
 
@@ -146,7 +157,7 @@ pub(super) fn forces(
         // An absorber may work far above what is seen, and how far beyond a limit decides nothing.
         let most = seen(false).into_iter().map(|[_, y]| y).fold(0.0, f64::max);
         let top = 1.15 * limits.last().map_or(most, |(limit, _)| most.clamp(*limit, 3.0 * limit));
-        let range = [first.times, last.times].map(|times| times * load.amplitude);
+        let range = [first.times / EDGE, last.times * EDGE].map(|times| times * load.amplitude);
         let mut x = AxisOf::si(units, load.amplitude_kind()).axis(range);
         x.scale = AxisScale::Log;
         let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
@@ -384,7 +395,7 @@ fn limits(case: &ModalCase, farthest: Option<Of>) -> Vec<(f64, String)> {
     let mut found: Vec<(f64, Of)> = peaks.map(|one| (one.limit, one.of)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.dedup_by(|a, b| a.0 == b.0);
-    let several = found.len() > 1;
+    let several = found.len() > 1 || case.places.len() > 1;
     let named = |(limit, of): (f64, Of)| match of {
         Of::Place(place) if several => (limit, format!("limit at {}", self::place(case, place))),
         _ => (limit, "limit".to_owned()),

@@ -113,7 +113,7 @@ fn forces_row(case: &ModalCase, load: &Load, of_load: &OverForce) -> Value {
     let amplitude = |times: f64| simulated(load.amplitude_kind(), times * load.amplitude);
     let limits = of_load.limits(case).map(|limits| {
         json!({
-            "holds": limits.holds.map(|ends| ends.map(amplitude)),
+            "holds": limits.holds.into_iter().map(|ends| ends.map(amplitude)).collect::<Vec<_>>(),
             "open": limits.open.into_iter().map(amplitude).collect::<Vec<_>>(),
             "fails": limits.fails.into_iter().map(amplitude).collect::<Vec<_>>(),
         })

@@ -53,6 +53,13 @@ impl SeenFrom {
         self.flown(periods, &mut records)?;
         let mut regimes = records.found(motion.repeats_after);
         self.at_rest.iter().for_each(|j| regimes.insert_at_rest(*j));
+        // One that impacts so seldom that it did not while it was watched does not rest.
+        let impacts = motion.impacts_per_period.iter().zip(&motion.resting);
+        for (regime, (impacts, resting)) in regimes.regimes.iter_mut().zip(impacts) {
+            if *regime == Regime::AtRest && resting.is_none() && impacts[0] > 0.0 {
+                *regime = Regime::BelowTwo;
+            }
+        }
         Some(regimes)
     }
 
