@@ -433,12 +433,17 @@ fn a_case_to_start_from_is_refused_with_what_to_do() {
     let folder = folder.path();
     fs::write(folder.join("rigid.unv"), set_55([0.0, 1.0, 1.0])).expect("written");
     fs::write(folder.join("text.csv"), "no modes\n").expect("written");
+    fs::write(folder.join("empty.csv"), "\n").expect("written");
+    let note = "frequency (Hz),damping_ratio (%),mass (kg),tip,note\n1.1,0.5,30,1.0,1st\n";
+    fs::write(folder.join("note.csv"), note).expect("written");
     fs::create_dir(folder.join("cases")).expect("a folder");
     for (name, modes, words) in [
         ("a", "0", "--modes 0: a case has 1 to 8 modes"),
         ("a", "9", "--modes 9: a case has 1 to 8 modes"),
         ("a", "mast.csv", "--modes mast.csv: there is no such file"),
         ("a", "text.csv", "text.csv is not a table of modes"),
+        ("a", "empty.csv", "empty.csv is empty"),
+        ("a", "note.csv", "places = { tip = "),
         ("a", "rigid.unv", "no case can have any of its modes: mode 1 has 0 Hz"),
         ("cases/a", "rigid.unv", "rigid.unv is not in the folder of cases/a.toml"),
     ] {

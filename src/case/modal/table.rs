@@ -35,6 +35,10 @@ impl ModesFile {
         let bytes = universal::without_binary(bytes);
         let text = text_of(name, "a file of modes", &bytes)
             .map_err(|(message, help)| CaseError::of_file(name, message, &help))?;
+        if text.trim_matches(['\u{feff}', ' ', '\t', '\r', '\n']).is_empty() {
+            let help = "write a head such as frequency (Hz),damping_ratio (%),mass (kg),tip and a line for each mode below";
+            return Err(CaseError::of_file(name, format!("{name} is empty"), help));
+        }
         Ok(Self { name: name.to_owned(), text: text.into_owned(), sha256 })
     }
 
@@ -294,7 +298,8 @@ fn mode(
     for (cell, column) in cells.iter().zip(columns) {
         let wrong = |expected: &str| {
             let message = format!("{} is \"{}\"", column.name, cell.trim());
-            problem(text, cell, message, expected, "write numbers such as 0.25 or 2.5e-1")
+            let help = "write numbers such as 0.25; or leave the column out, or name those that are places: places = { tip = \"tip\" } in [modes]";
+            problem(text, cell, message, expected, help)
         };
         let Some(unit) = column.unit else { continue };
         let number = reading.number(cell, unit).ok_or_else(|| wrong("expected a number"))?;
