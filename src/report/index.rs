@@ -108,7 +108,7 @@ impl Summary {
             let excitation = match of(&["sweep_from"]) {
                 Some(from) => json!({ "from": from, "to": of(&["sweep_to"]) }),
                 None if !self.loads.is_empty() => {
-                    range_of(&self.loads, &["/load/from", "/load/to"])
+                    range_of(&self.loads, &["/excitation/from", "/excitation/to"])
                 }
                 None => one(frequency),
             };

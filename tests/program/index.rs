@@ -235,3 +235,11 @@ fn the_shipped_index_lists_every_report() {
         assert!(shipped().join(link).is_file(), "{link} is linked and missing");
     }
 }
+
+/// A structure with loads is driven at their frequencies, from the lowest to the highest.
+#[test]
+fn loads_have_their_frequencies_in_the_index() {
+    let index = fs::read_to_string("reports/README.md").expect("the index");
+    let line = index.lines().find(|line| line.contains("](mast/report.md)")).expect("a line");
+    assert!(line.contains("| 0.935 Hz to 21.24 Hz |"), "{line}");
+}

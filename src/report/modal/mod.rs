@@ -27,7 +27,7 @@ use crate::case::{ActsOn, Load, ModalCase, Of, StructuralMode};
 use crate::criteria::Worst;
 use crate::executor::Serial;
 use crate::method::Method;
-use crate::modal::{Beside, ForceStep, LoadClaim, ModalAnswer, OverForce, Stretches};
+use crate::modal::{Beside, DamperChoice, ForceStep, LoadClaim, ModalAnswer, OverForce, Stretches};
 use crate::orbits::ReachEnd;
 use crate::quantity::catalogue as of;
 use crate::quantity::{Dimension, Kind, Quantity, Units};
@@ -267,7 +267,9 @@ pub fn document(
     let worst = answer.worst(case, None);
     let (bare, peak) = (answer.bare(), worst.map_or(f64::NAN, |one| one.found.value));
     let error = worst.map_or(0.0, |one| one.found.error);
-    let damper = beside.dampers.first().map(|one| one.worst.iter().copied().fold(0.0, f64::max));
+    // Of the better choice.
+    let largest = |one: &DamperChoice| one.worst.iter().copied().fold(0.0, f64::max);
+    let damper = beside.dampers.iter().map(largest).min_by(f64::total_cmp);
     let level = |peak: f64| 20.0 * libm::log10(peak / bare);
     let mut quantities = vec![
         given(&of::CLEARANCE, case.least_clearance_m()),
