@@ -307,6 +307,11 @@ impl Measure {
         }
     }
 
+    /// Whether a structure that moves in sines has it, which linear devices have a closed form of.
+    pub fn is_of_sines(self) -> bool {
+        self.of_sine(1.0, 1.0).is_some()
+    }
+
     /// The largest of that along a band, over the clearance and in fast time, of sines with these amplitudes; infinite where
     /// nothing limits them.
     pub fn largest_of_sines(

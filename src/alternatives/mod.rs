@@ -143,12 +143,12 @@ impl Alternatives {
 /// What devices are compared by where they are driven steadily: the first criterion, in the order of a page, of which dampers have a
 /// closed form; else the peak of any place.
 pub(crate) fn compared_by(criteria: &[Criterion]) -> Option<&Criterion> {
-    criteria.iter().find(|one| one.measure.of_sine(1.0, 1.0).is_some())
+    criteria.iter().find(|one| one.measure.is_of_sines())
 }
 
 /// The same as it was judged.
 pub(crate) fn compared(judged: &[Judged]) -> Option<&Judged> {
-    judged.iter().find(|one| one.criterion.measure.of_sine(1.0, 1.0).is_some())
+    judged.iter().find(|one| one.criterion.measure.is_of_sines())
 }
 
 /// What is asked at most of a measure of a place, or of any.

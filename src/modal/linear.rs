@@ -74,7 +74,9 @@ pub(super) fn asked_of(
 
 /// The most of what a criterion is about under any load, in SI units; none as there.
 pub fn linear_most(case: &ModalCase, asked: &Criterion, dampers: &[ModalDamper]) -> Option<f64> {
-    asked.measure.of_sine(0.0, 0.0)?;
+    if !asked.measure.is_of_sines() {
+        return None;
+    }
     let along = |load: &Load| {
         let of = |at: f64| {
             asked_of(case, asked, &amplitudes(case, load, at, dampers), at).unwrap_or_default()

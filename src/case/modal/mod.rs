@@ -8,6 +8,7 @@ mod listing;
 mod load;
 mod mode;
 mod number;
+mod of_one;
 mod place;
 mod read;
 mod reduced;

@@ -13,6 +13,7 @@ use super::asked::{ModalCriteriaTable, ModalOptimizeTable, read_bounds, read_con
 use super::file::{ModesTable, modes_of_file};
 use super::load::{LoadTable, read_load};
 use super::mode::{ModeTable, read_mode, read_modes};
+use super::of_one::{BandOfSeveral, THE_PLACE, band_of, read_oscillator, refuse_both};
 use super::place::{check_names, find_place};
 use super::reduced::{
     ModalReducedTable, ReducedAbsorberTable, ReducedModeTable, read_reduced_load, read_reduced_mode,
@@ -32,7 +33,7 @@ use crate::case::settings::{
 use crate::case::uncertainty::{UncertaintyOfSeveral, read_of_several};
 use crate::case::{Heading, refuse_units};
 use crate::excitation::Scene;
-use crate::system::{LARGEST_DAMPING_RATIO, MOST_MODES};
+use crate::system::MOST_MODES;
 
 /// An absorber of the structure.
 #[derive(Deserialize, JsonSchema)]
@@ -90,18 +91,6 @@ struct ReportOfSeveral {
     /// Units of the case's pages, figures and text for a terminal: SI unless given. Files for programs, the index and
     /// `diff` are in SI; not beside `[reduced]`.
     units: PageUnits,
-}
-
-/// The range of frequencies of the one excitation, in place of its own. The table may be left out.
-#[derive(Deserialize, JsonSchema)]
-#[schemars(deny_unknown_fields)]
-struct BandOfSeveral {
-    /// Where it begins, above 0.
-    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0), example = "8 Hz")]
-    from: f64,
-    /// Where it ends, above `from`.
-    #[schemars(extend("x-measurand" = "a frequency", "exclusiveMinimum" = 0), example = "9 Hz")]
-    to: f64,
 }
 
 /// Tables of such a file.
@@ -394,76 +383,6 @@ pub(super) fn read(
     }
     case.sweep = read_sweep(reader, &root, &case);
     Ok(Some((case, spans)))
-}
-
-/// What the one place of `[oscillator]` is called.
-const THE_PLACE: &str = "structure";
-
-/// Refuses `[oscillator]` beside modes.
-fn refuse_both(reader: &mut Reader, root: &Table) {
-    let own = ["mode", "modes", "reduced"].into_iter().find(|name| root.has(name));
-    let (Some(own), Some(_)) = (own, root.value("oscillator")) else { return };
-    let own = if own == "mode" { "[[mode]]".to_owned() } else { format!("[{own}]") };
-    let message =
-        format!("[oscillator] has no meaning beside {own}: both say what the structure is");
-    let help = format!("remove [oscillator], or {own} where the structure has one mode");
-    reader.report(root.span_of("oscillator"), message, "expected one of the two", help);
-}
-
-/// The structure of `[oscillator]`, a mode at one place that moves with its base, and where it says its damping.
-fn read_oscillator(reader: &mut Reader, root: &Table) -> Option<(Range<usize>, StructuralMode)> {
-    let (table, read) = reader.optional::<OscillatorTable>(root, "oscillator")?;
-    let [frequency_hz, damping_ratio, mass_kg] = read.mode(reader, &table)?;
-    let key = if table.has("damping") { "damping" } else { "damping_ratio" };
-    let span = table.span_of_value(key);
-    if damping_ratio > LARGEST_DAMPING_RATIO {
-        let message = "the structure is damped too heavily for several absorbers or loads";
-        let expected = format!("expected a damping ratio of at most {LARGEST_DAMPING_RATIO}");
-        let help =
-            "check its unit; one absorber and one load may be on a structure that does not ring";
-        reader.report(span, message, expected, help);
-        return None;
-    }
-    let mode = StructuralMode {
-        frequency_hz,
-        damping_ratio,
-        mass_kg,
-        shape: vec![1.0],
-        participation: 1.0,
-        forcing: 0.0,
-    };
-    Some((span, mode))
-}
-
-/// The range of `[band]`, in place of the frequency of the one load; none where something was reported.
-fn band_of(
-    reader: &mut Reader,
-    table: &Table,
-    band: &BandOfSeveral,
-    loads: &[Load],
-) -> Option<[f64; 2]> {
-    let span = table.span.clone();
-    match loads {
-        [load] if load.range_hz[0] < load.range_hz[1] => {
-            let message = "[band] and the excitation both say a range of frequencies";
-            let help = "remove [band], or write `frequency` in place of `from` and `to`";
-            reader.report(span, message, "expected one of the two", help);
-            None
-        }
-        [_, _, ..] => {
-            let message = "[band] is of one excitation, and there are several";
-            let help = "write `from` and `to` in each [[excitation]] that has a range";
-            reader.report(span, message, "expected one excitation", help);
-            None
-        }
-        _ if band.from >= band.to => {
-            let message = "the band ends where it begins, or before";
-            let help = "swap `from` and `to`, or write a larger `to`";
-            reader.report(table.span_of_value("to"), message, "expected `to` above `from`", help);
-            None
-        }
-        _ => Some([band.from, band.to]),
-    }
 }
 
 /// Where the table `[modes]` says the damping ratio of all modes, or else names their file.
