@@ -5,7 +5,7 @@ use super::{DESIGN, Known, Room, compared, compared_by};
 use crate::band::{Survey, SurveySettings, Worst};
 use crate::case::Case;
 use crate::criteria;
-use crate::dampers::Designing;
+use crate::dampers::{Designing, SineLimits};
 use crate::excitation::{Piece, Record, Scene, Transient};
 use crate::executor::Executor;
 use crate::flights::{DrivenError, Places};
@@ -21,6 +21,8 @@ use crate::transient::{Run, Study, longest};
 pub(super) struct DriftedCase<'a> {
     pub case: Case,
     measure: Measure,
+    /// What dampers are designed for where it is driven steadily.
+    asked: SineLimits,
     /// How thoroughly motions of the case are searched.
     effort: &'a Effort,
     /// Natural frequency over the case's own.
@@ -48,7 +50,15 @@ impl<'a> DriftedCase<'a> {
         let pieces =
             case.records().iter().map(|record| record.pieces_to_rest(&units, Record::LONGEST));
         let pieces = pieces.collect();
-        Self { band: case.range(), pieces, case, measure, effort, factor }
+        Self {
+            band: case.range(),
+            asked: criteria::sine_limits(&case),
+            pieces,
+            case,
+            measure,
+            effort,
+            factor,
+        }
     }
 
     /// The largest value and stroke along the band.
@@ -140,6 +150,18 @@ impl Drifting for DriftedCase<'_> {
             }
         };
         [worst, units.length(stroke)]
+    }
+
+    /// Where it is driven steadily by all that is asked, as the damper that is best for the case.
+    fn cost(&self, damper: &TunedMassDamper) -> [f64; 2] {
+        if self.case.design.transient().is_some() || self.asked.is_of_displacement() {
+            return self.told(Some(damper), Room::AsDesigned);
+        }
+        let along = BandSystems::of(&self.band);
+        let damper = damper.on_detuned(self.factor);
+        let missed = self.asked.missed(&along, |system| damper.amplitude(system));
+        let stroke = along.largest(|system| damper.stroke(system)).1;
+        [missed, self.case.units().length(stroke)]
     }
 
     fn absorber(&self, on: &dyn Executor) -> Result<Option<[f64; 2]>, DrivenError> {

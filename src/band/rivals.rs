@@ -1,7 +1,7 @@
 //! What else could be done along a band: nothing, or a tuned mass damper of the same mass, with the best design of it.
 
 use super::Band;
-use crate::dampers::{self, AtBound};
+use crate::dampers::{self, AtBound, SineLimits};
 use crate::linear::{BandSystems, Damped, TunedMassDamper, bare_amplitude};
 
 /// What can be done without the absorber. Lengths over the clearance.
@@ -21,10 +21,10 @@ impl Rivals {
         AtBound::of(self.damper.tuning, self.damper.damping_ratio)
     }
 
-    /// Those along a band.
-    pub fn along(band: &Band) -> Self {
+    /// Those along a band, the damper by what is asked.
+    pub fn along(band: &Band, asked: &SineLimits) -> Self {
         let along = BandSystems::of(band);
-        let damper = dampers::for_band(&along);
+        let damper = dampers::for_band(&along, asked);
         Self { bare: along.largest(bare_amplitude), damper, damped: along.damped(damper) }
     }
 
@@ -55,6 +55,10 @@ mod tests {
         .expect("valid")
     }
 
+    fn along(band: &Band) -> Rivals {
+        Rivals::along(band, &SineLimits::default())
+    }
+
     fn around_resonance(base: System) -> Band {
         Band { base, over: BandOver::Frequency, range: [0.7, 1.3], spectrum: Vec::new() }
     }
@@ -66,7 +70,7 @@ mod tests {
     #[test]
     fn the_design_of_an_undamped_oscillator_is_den_hartogs_but_for_what_he_neglects() {
         for mu in [0.005, 0.02, 0.08] {
-            let rivals = Rivals::along(&around_resonance(system(mu, 0.0, Excitation::Force)));
+            let rivals = along(&around_resonance(system(mu, 0.0, Excitation::Force)));
             let height = (1.0 + 2.0 / mu).sqrt();
             assert!((rivals.damped.amplitude / height - 1.0).abs() < 4e-3, "{mu} {rivals:?}");
             let den_hartog = TunedMassDamper::den_hartog(mu);
@@ -84,7 +88,7 @@ mod tests {
             [(0.015, 0.004, Excitation::Force), (0.01, 0.02, Excitation::BaseDisplacement)]
         {
             let band = around_resonance(system(mu, zeta, excitation));
-            let Rivals { damper, damped, .. } = Rivals::along(&band);
+            let Rivals { damper, damped, .. } = along(&band);
             for (tuning, damping) in
                 [(0.99, 1.0), (1.01, 1.0), (1.0, 0.9), (1.0, 1.1), (0.995, 1.05)]
             {

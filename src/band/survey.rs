@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use super::rivals::Rivals;
 use super::{Band, Stretch, margin, theory};
 use crate::analysis::{Strip, Zone};
+use crate::dampers::SineLimits;
 use crate::executor::Executor;
 use crate::linear::bare_along;
 use crate::motions::{Along, Effort, Extreme, Motion, Motions, Value, along};
@@ -20,6 +21,8 @@ pub struct SurveySettings {
     pub extremes: Vec<Extreme>,
     /// Whether an absorber that stays at rest is one of the motions.
     pub count_rest: bool,
+    /// What the tuned mass damper beside the absorber is designed for.
+    pub asked: SineLimits,
 }
 
 /// What is known along a band. Lengths over the clearance; places are `Omega`, or the amplitude over the
@@ -30,10 +33,13 @@ pub struct Survey {
     pub motions: Along,
     /// Whether an absorber that stays at rest counts.
     pub count_rest: bool,
+    /// What the tuned mass damper beside the absorber is designed for.
+    asked: SineLimits,
     /// What else is known, worked out where somebody asks.
     zones: OnceLock<Vec<Stretch<Zone>>>,
     bare: OnceLock<(f64, f64)>,
     rivals: OnceLock<Rivals>,
+    least_moved: OnceLock<f64>,
     smallest_gap: OnceLock<(f64, f64)>,
 }
 
@@ -62,13 +68,15 @@ impl Survey {
         own: Option<&Motions>,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
-        let SurveySettings { effort, extremes, count_rest } = settings;
+        let SurveySettings { effort, extremes, count_rest, asked } = settings;
         Ok(Self {
             motions: along(band, extremes, own, effort.as_ref(), executor)?,
             count_rest: *count_rest,
+            asked: asked.clone(),
             zones: OnceLock::new(),
             bare: OnceLock::new(),
             rivals: OnceLock::new(),
+            least_moved: OnceLock::new(),
             smallest_gap: OnceLock::new(),
         })
     }
@@ -98,9 +106,18 @@ impl Survey {
         *self.bare.get_or_init(|| bare_along(self.band()))
     }
 
-    /// The structure alone, and the tuned mass damper of the absorber's mass.
+    /// The structure alone, and the tuned mass damper of the absorber's mass that is best for what is asked.
     pub fn rivals(&self) -> &Rivals {
-        self.rivals.get_or_init(|| Rivals::along(self.band()))
+        self.rivals.get_or_init(|| Rivals::along(self.band(), &self.asked))
+    }
+
+    /// The largest amplitude with the damper that lets the structure move least, whatever is asked.
+    pub fn least_moved(&self) -> f64 {
+        let by_any = || Rivals::along(self.band(), &SineLimits::default()).damped.amplitude;
+        match self.asked.is_of_displacement() {
+            true => self.rivals().damped.amplitude,
+            false => *self.least_moved.get_or_init(by_any),
+        }
     }
 
     /// Where the clearance may be off least before the stable 1:1 motion is lost, and by which share; 0

@@ -12,6 +12,7 @@ mod scope;
 
 use crate::band::{Survey, SurveySettings};
 use crate::case::{Case, Criterion, Of, Relation};
+use crate::dampers::SineLimits;
 use crate::linear::{BandSystems, bare_amplitude};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
@@ -161,7 +162,18 @@ pub fn settings(case: &Case) -> SurveySettings {
         effort: needs_simulation(&case.criteria).then(|| case.effort()),
         extremes: extremes.collect(),
         count_rest: case.count_inactive,
+        asked: sine_limits(case),
     }
+}
+
+/// What is asked at most of a structure that moves in sines, over the clearance and in fast time.
+pub fn sine_limits(case: &Case) -> SineLimits {
+    let units = case.units();
+    let at_most = case.criteria.iter().filter(|one| one.relation == Relation::AtMost);
+    SineLimits::of(at_most.filter_map(|one| {
+        let kind = one.measure.kind(Device::Damper)?;
+        Some((one.measure, one.limit / units.number(kind.dimension, 1.0)))
+    }))
 }
 
 /// Judges every criterion of a case by a survey of its range, as [`settings`] asks for it.

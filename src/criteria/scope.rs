@@ -104,7 +104,7 @@ impl Scope<'_> {
     fn against(&self, criterion: &Criterion) -> f64 {
         match criterion.measure.against() {
             Some(Device::Without) => self.survey.bare().1,
-            Some(Device::Damper) => self.survey.rivals().damped.amplitude,
+            Some(Device::Damper) => self.survey.least_moved(),
             _ => f64::NAN,
         }
     }

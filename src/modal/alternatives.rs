@@ -1,7 +1,6 @@
 //! Alternatives to the absorbers of a structure of several modes, also where its natural frequencies are off.
 
 use super::along::AlongEffort;
-use super::cost::cost;
 use super::dampers::{DamperChoice, PlacedDampers};
 use super::linear::{
     amplitudes, asked_of, largest, largest_peak, linear_most, linear_peak, places, resonances,
@@ -9,8 +8,8 @@ use super::linear::{
 };
 use super::{ModalAnswer, ModalError};
 use crate::alternatives::{Alternatives, Drifting, Own, Room, compared, compared_by};
-use crate::case::{ActsOn, Criterion, Load, ModalCase, Of};
-use crate::dampers::Designing;
+use crate::case::{ActsOn, Criterion, Load, ModalCase, Of, Relation};
+use crate::dampers::{Designing, missed_with};
 use crate::executor::Executor;
 use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse};
 use crate::measure::Measure;
@@ -24,10 +23,6 @@ const ASIDE: f64 = 0.02;
 const LOOKED_AT: [u32; 2] = [64, 8];
 /// How far beside a resonance it is looked at too, over it: so that its top has even neighbours.
 const NEAR: f64 = 1e-3;
-/// What the largest displacement over that of the structure alone counts beside limits that are of something else: one that holds
-/// by a little more is not worth several times the vibration.
-const BESIDE: f64 = 0.1;
-
 /// Its case, and where dampers are looked at in a design.
 pub(super) struct DriftedStructure {
     case: ModalCase,
@@ -114,7 +109,10 @@ impl Drifting for DriftedStructure {
     fn cost(&self, dampers: &PlacedDampers) -> [f64; 2] {
         let case = &self.case;
         let on = dampers.on(case, self.factor);
-        let (mut over, mut peak) = (vec![0.0_f64; case.criteria.len()], 0.0_f64);
+        let is_asked =
+            |one: &&Criterion| one.relation == Relation::AtMost && one.measure.is_of_sines();
+        let limits: Vec<&Criterion> = case.criteria.iter().filter(is_asked).collect();
+        let (mut over, mut peak) = (vec![0.0_f64; limits.len()], 0.0_f64);
         let mut stroke = 0.0_f64;
         let most = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
         for (load, all) in case.loads.iter().zip(&self.along) {
@@ -136,18 +134,15 @@ impl Drifting for DriftedStructure {
             };
             peak = peak.max(top(&|_, there| most(&there.places)));
             stroke = stroke.max(top(&|_, there| most(&there.strokes)));
-            for (over, one) in over.iter_mut().zip(&case.criteria) {
+            for (over, one) in over.iter_mut().zip(&limits) {
                 let part = |at: f64, there: &ModalAmplitudes| {
                     asked_of(case, one, there, at).map_or(0.0, |own| one.part(own))
                 };
                 *over = over.max(top(&part));
             }
         }
-        let others = case.criteria.iter().any(|one| one.measure != Measure::Peak);
-        // What nothing limits alone is nothing to compare with.
-        let beside = others && self.bare.is_finite();
-        let missed = cost(&over) + if beside { BESIDE * peak / self.bare } else { 0.0 };
-        [if case.criteria.is_empty() { peak } else { missed }, stroke]
+        let others = limits.iter().any(|one| one.measure != Measure::Peak);
+        [missed_with(&over, others, [peak, self.bare]), stroke]
     }
 
     /// More coarsely than for the verdict, in windows of the usual length.

@@ -7,7 +7,6 @@ mod along;
 mod alternatives;
 mod beside;
 mod claims;
-mod cost;
 mod dampers;
 mod forces;
 mod judge;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use vinesink::alternatives::{Alternatives, Row, Which};
 use vinesink::answer::{Answer, Asked, Decided};
 use vinesink::case::Case;
-use vinesink::dampers::{AtBound, Designing, best, for_band};
+use vinesink::dampers::{AtBound, Designing, SineLimits, best, for_band};
 use vinesink::executor::Serial;
 use vinesink::linear::{BandSystems, TunedMassDamper, bare_amplitude};
 
@@ -321,7 +321,7 @@ fn a_damper_of_any_band_is_one_that_makes_sense() {
             let range = case.range();
             let along = BandSystems::of(&range);
             let worst = |damper: &TunedMassDamper| along.largest(|one| damper.amplitude(one)).1;
-            let found = for_band(&along);
+            let found = for_band(&along, &SineLimits::default());
             let at_bound = AtBound::of(found.tuning, found.damping_ratio);
             let what = format!("{text}{found:?} {at_bound:?}");
             assert!((0.1..=10.0).contains(&found.tuning), "{what}");

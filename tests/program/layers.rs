@@ -110,7 +110,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "transient",
         ],
     ),
-    ("dampers", &["excitation", "linear", "system"]),
+    ("dampers", &["excitation", "linear", "measure", "system"]),
     (
         "operating_range",
         &[

@@ -2,9 +2,9 @@
 
 use crate::case::{Criterion, ModalCase, Objective};
 use crate::criteria::Judged;
+use crate::dampers::missed;
 use crate::measure::Measure;
 use crate::modal::ModalAnswer;
-use crate::modal::cost::cost;
 use crate::modal::judge::unflown;
 
 /// What absorbers are looked for by.
@@ -48,7 +48,7 @@ impl Aim {
     pub(super) fn value(self, case: &ModalCase, answer: &ModalAnswer, errors: bool) -> [f64; 2] {
         let lost = [f64::INFINITY, 0.0];
         match self {
-            Self::Room => [cost(&reaches(case, answer, errors)), 0.0],
+            Self::Room => [missed(&reaches(case, answer, errors)), 0.0],
             Self::Of(_) => match self.exact(case) {
                 Some(value) => [value, 0.0],
                 None => {

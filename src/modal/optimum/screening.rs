@@ -1,9 +1,9 @@
 //! How candidates are ranked: from few starts at few frequencies.
 
 use crate::case::{Criterion, Load, ModalCase, Relation};
+use crate::dampers::missed;
 use crate::measure::{Measure, Part};
 use crate::modal::ModalAnswer;
-use crate::modal::cost::cost;
 use crate::modal::judge::against;
 use crate::modal::rest::farthest_at_rest;
 use crate::modal::sensors::{measured, parts, sensors};
@@ -29,7 +29,7 @@ impl<'a> Screening<'a> {
         let limits = limits(case, own);
         let looked_at = frequencies(case, own, &limits);
         let most = |n: usize| looked_at.iter().map(|one| one.over[n]).fold(0.0, f64::max);
-        let own_cost = cost(&(0..limits.len()).map(most).collect::<Vec<_>>());
+        let own_cost = missed(&(0..limits.len()).map(most).collect::<Vec<_>>());
         Self { case, limits, looked_at, sensors: sensors(case), own_cost }
     }
 
@@ -48,11 +48,11 @@ impl<'a> Screening<'a> {
             for (over, limit) in over.iter_mut().zip(limits) {
                 *over = over.max(over_limit(case, &motions, limit));
             }
-            if cost(&over) > most {
+            if missed(&over) > most {
                 break;
             }
         }
-        cost(&over)
+        missed(&over)
     }
 }
 

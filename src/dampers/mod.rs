@@ -1,6 +1,8 @@
 //! Tuned mass dampers, each designed for what is asked of it: the smallest amplitude along a band, the fastest decay of a
 //! release, the smallest displacement in a sweep. A simplex looks for tuning and damping ratio.
 
+mod missed;
+
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::{Mutex, PoisonError};
@@ -12,6 +14,8 @@ use serde::Serialize;
 use crate::excitation::{SineSweep, SweepRate, amplitude};
 use crate::linear::{BandSystems, TunedMassDamper, released, swept};
 use crate::system::{Cavity, Excitation, Parameters, Scales, State, System};
+
+pub use missed::{SineLimits, missed, missed_with};
 
 /// Size of the first simplex of a design, in the logarithms of tuning and damping ratio.
 const SIMPLEX: [f64; 2] = [0.02, 0.3];
@@ -224,15 +228,15 @@ impl<F: Fn(&[f64]) -> f64> CostFunction for &Cost<F> {
     }
 }
 
-/// The damper of the absorber's mass whose largest amplitude along a band is smallest, with the damping of
-/// the structure and the kind of its excitation. For a single excitation that of Den Hartog: the best
+/// The damper of the absorber's mass that is best along a band, with the damping of the structure and the kind of its excitation:
+/// by what is asked, or else with the smallest largest amplitude. For a single excitation that of Den Hartog: the best
 /// for one frequency alone would be undamped and of no use beside it.
-pub fn for_band(along: &BandSystems) -> TunedMassDamper {
+pub fn for_band(along: &BandSystems, asked: &SineLimits) -> TunedMassDamper {
     let start = TunedMassDamper::den_hartog(along.band.base.mass_ratio());
     if along.band.is_of_one_frequency() {
         return start;
     }
-    best(start, Designing::USUAL, |damper| along.largest(|system| damper.amplitude(system)).1)
+    best(start, Designing::USUAL, |damper| asked.missed(along, |system| damper.amplitude(system)))
 }
 
 /// Designs that were found, by the numbers that decide them: those of a sweep over clearances are one.
