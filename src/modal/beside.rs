@@ -40,9 +40,13 @@ impl Beside {
         on: &dyn Executor,
     ) -> Result<Self, ModalError> {
         answer.observe(on);
-        let worst = |k: usize| answer.worst(case, Some(k)).and_then(|worst| worst.found.at);
+        let worst = |k: usize| {
+            let farthest = answer.worst(case, Some(k)).and_then(|worst| worst.found.at);
+            let judged = answer.judged.iter().filter(|one| one.load == k);
+            farthest.into_iter().chain(judged.filter_map(|one| one.at)).collect::<Vec<f64>>()
+        };
         let each = answer.along.iter().enumerate();
-        let forces = each.map(|(k, along)| OverForce::of(case, along, worst(k), on));
+        let forces = each.map(|(k, along)| OverForce::of(case, along, &worst(k), on));
         let forces = forces.collect::<Result<_, _>>()?;
         let compared = answer.alternatives.as_ref();
         let usual =

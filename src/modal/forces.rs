@@ -15,11 +15,11 @@ const NEAR: f64 = 0.02;
 /// Relative distance up to which two frequencies are one.
 const APART: f64 = 1e-3;
 
-/// What a load does with other amplitudes, at one frequency or two.
+/// What a load does with other amplitudes, at some frequencies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OverForce {
-    /// In Hz, ascending: the natural frequency of the mode that it is about, or the middle of its range; and where its own amplitude
-    /// is worst.
+    /// In Hz, ascending: the natural frequency of the mode that it is about, or the middle of its range; and where criteria are worst
+    /// with its own amplitude, and the displacement.
     pub at: Vec<f64>,
     /// By ascending amplitude.
     pub steps: Vec<ForceStep>,
@@ -56,7 +56,7 @@ pub struct ForceLimits {
 }
 
 impl OverForce {
-    /// Of what is known along a load that is worst at a frequency: other amplitudes are searched as the case itself is, of a load over
+    /// Of what is known along a load that is worst at some frequencies: other amplitudes are searched as the case itself is, of a load over
     /// a range of frequencies with half of its starts in the usual windows. None where the structure has no steady motion.
     ///
     /// # Errors
@@ -64,14 +64,16 @@ impl OverForce {
     pub fn of(
         case: &ModalCase,
         along: &AlongLoad,
-        worst_at: Option<f64>,
+        worst_at: &[f64],
         on: &dyn Executor,
     ) -> Result<Option<Self>, ModalError> {
         let load = &along.load;
-        let mut at: Vec<f64> = worst_at.into_iter().collect();
+        let mut at: Vec<f64> = Vec::new();
         let centre = load.centre(case);
-        if at.iter().all(|at| (at / centre - 1.0).abs() > APART) {
-            at.push(centre);
+        for one in worst_at.iter().chain([&centre]) {
+            if at.iter().all(|at| (at / one - 1.0).abs() > APART) {
+                at.push(*one);
+            }
         }
         at.retain(|at| case.system(load, *at).is_ok());
         at.sort_by(f64::total_cmp);
@@ -105,13 +107,13 @@ impl OverForce {
             let bare = at.iter().map(|at| linear_peak(case, &load, *at, &[]));
             let bare = bare.fold(0.0, f64::max);
             let motions = found.iter().flat_map(|one| one.motions.iter().cloned()).collect();
-            let answer = |case: &ModalCase, places: Vec<AtFrequency>| {
-                let along = AlongLoad::at_some(load, places, along.bare.clone());
-                ModalAnswer::judged(case, vec![along])
-            };
-            let judged = answer(&here, found.to_vec()).in_contact(&here, |shifted| {
+            let some = |places| AlongLoad::at_some(load, places, along.bare.clone());
+            // Of its own amplitude all is known.
+            let own = if times[step] == 1.0 { along.clone() } else { some(found.to_vec()) };
+            let judged = ModalAnswer::judged(&here, vec![own]).in_contact(&here, |shifted| {
                 let places = at.iter().map(|at| AtFrequency::of(shifted, &load, *at, effort, &[]));
-                Ok(answer(shifted, places.collect::<Result<_, _>>()?))
+                let places = places.collect::<Result<_, _>>()?;
+                Ok(ModalAnswer::judged(shifted, vec![some(places)]))
             })?;
             let outcomes = judged.judged.iter().map(Judged::outcome).collect();
             Ok(ForceStep { times: times[step], motions, bare, outcomes })

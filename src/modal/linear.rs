@@ -2,6 +2,7 @@
 
 use crate::case::{Criterion, Load, ModalCase, Of};
 use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse, frequencies_with};
+use crate::measure::Measure;
 use crate::numerics::scan;
 
 /// Pieces of a range in which the largest amplitude is looked for, beside ever closer ones around the modes.
@@ -50,6 +51,23 @@ pub fn linear_peak(case: &ModalCase, load: &Load, at: f64, dampers: &[ModalDampe
     amplitudes(case, load, at, dampers).places.into_iter().fold(0.0, f64::max)
 }
 
+/// The largest of a measure of any place at a frequency in Hz, in SI units; not a number of what sines do not have.
+pub fn linear_at(
+    case: &ModalCase,
+    load: &Load,
+    at: f64,
+    dampers: &[ModalDamper],
+    measure: Measure,
+) -> f64 {
+    let amplitude = linear_peak(case, load, at, dampers);
+    measure.of_sine(amplitude, fast(case, at)).unwrap_or(f64::NAN)
+}
+
+/// A frequency in Hz in rad over the unit of time of a case.
+fn fast(case: &ModalCase, at: f64) -> f64 {
+    case.omega() * at / case.modes[0].frequency_hz
+}
+
 /// The largest amplitude of any place along a load.
 pub(super) fn largest_peak(case: &ModalCase, load: &Load, dampers: &[ModalDamper]) -> f64 {
     let of_place = |p: usize| {
@@ -69,7 +87,7 @@ pub(super) fn asked_of(
     let places = amplitudes.places.iter().enumerate();
     let places = places.filter(|(p, _)| asked.of.holds(Of::Place(*p)));
     let amplitude = places.map(|(_, amplitude)| *amplitude).fold(0.0, f64::max);
-    asked.measure.of_sine(amplitude, case.omega() * at / case.modes[0].frequency_hz)
+    asked.measure.of_sine(amplitude, fast(case, at))
 }
 
 /// The most of what a criterion is about under any load, in SI units; none as there.

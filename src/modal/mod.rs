@@ -40,12 +40,12 @@ pub use beside::Beside;
 pub use claims::{LoadClaim, claims};
 pub use dampers::{DamperChoice, PlacedDampers};
 pub use forces::{ForceLimits, ForceStep, OverForce, working_range};
-pub use linear::{linear_most, linear_peak, linear_places};
+pub use linear::{linear_at, linear_most, linear_peak, linear_places};
 pub use optimum::{Aim, JudgedAbsorbers, ModalOptimum, RobustAbsorbers, checks, clearance_bounds};
 pub use orbits::{LoadOrbits, Stretches, at_resonances, orbits};
 pub use over_time::{LoadImpact, OverTime, usual_periods};
 pub use ranges::looks;
-pub use sensors::sensors;
+pub use sensors::{largest_of, sensors};
 pub use theory::{AbsorberManifold, ExactAmplitude, GroupTheory, LoadTheory};
 
 /// Why there is no answer.

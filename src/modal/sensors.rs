@@ -89,6 +89,17 @@ pub fn sensors(case: &ModalCase) -> Vec<Sensor> {
     readings.into_iter().flat_map(of).collect()
 }
 
+/// The largest of a measure in a motion, of what is asked about, with its error; none of what no motion has.
+pub fn largest_of(
+    case: &ModalCase,
+    motion: &ModalMotion,
+    measure: Measure,
+    asked: Of,
+) -> Option<[f64; 2]> {
+    let each = parts(case, measure, asked).filter_map(|of| measured(case, motion, of, measure));
+    each.max_by(|a, b| a[0].total_cmp(&b[0]))
+}
+
 /// What a place or an absorber has of a measure in a motion, in SI units, and its error; none of what no motion has.
 pub(super) fn measured(
     case: &ModalCase,

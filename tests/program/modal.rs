@@ -841,7 +841,8 @@ fn a_report_tells_what_other_amplitudes_do() {
     let answer = ModalAnswer::of(&case, &Serial).expect("flown");
     for k in 0..case.loads.len() {
         let worst = answer.worst(&case, Some(k)).expect("a motion").found;
-        let found = OverForce::of(&case, &answer.along[k], worst.at, &Serial).expect("flown");
+        let found =
+            OverForce::of(&case, &answer.along[k], worst.at.as_slice(), &Serial).expect("flown");
         let found = found.expect("a steady motion");
         let own = case.loads[k].centre(&case);
         assert!(
@@ -888,7 +889,7 @@ fn a_report_tells_what_other_amplitudes_do() {
         read_any(Path::new("cases/several/graded.toml"), Reach::Folder).expect("a case");
     let AnyCase::Several(graded) = graded else { panic!("one mode") };
     let answer = ModalAnswer::of(&graded, &Serial).expect("flown");
-    let found = OverForce::of(&graded, &answer.along[0], None, &Serial).expect("flown");
+    let found = OverForce::of(&graded, &answer.along[0], &[], &Serial).expect("flown");
     let found = found.expect("a steady motion");
     for (range, clearance) in found.working.iter().zip([0.005, 0.010, 0.020]) {
         let [from, to] = range.expect("not at a node");
@@ -897,7 +898,7 @@ fn a_report_tells_what_other_amplitudes_do() {
     assert_eq!(found.limits(&graded), None, "no limit is asked for");
     // Two frequencies that are almost the same are one.
     let near = 1.0005 * graded.loads[0].centre(&graded);
-    let found = OverForce::of(&graded, &answer.along[0], Some(near), &Serial).expect("flown");
+    let found = OverForce::of(&graded, &answer.along[0], &[near], &Serial).expect("flown");
     assert_eq!(found.expect("a steady motion").at, [near]);
 }
 

@@ -266,3 +266,55 @@ fn absorbers_at_rest_are_named_and_a_reduction_takes_a_device() {
     assert!(!kept("peak_displacement = '<= 9 m'\nreduction_db = '>= 3'\n"));
     assert!(!kept("impact_velocity = '<= 9 m/s'\n"));
 }
+
+/// A page lists the motion that decides each criterion, at the frequency where it does; what it says of the load's own amplitude is the
+/// verdict; and what is asked is drawn.
+#[test]
+fn what_decides_is_listed_and_drawn_and_the_own_amplitude_has_the_verdict() {
+    let text = format!(
+        "{HEAD}[[mode]]\nfrequency = '180 Hz'\ndamping_ratio = '1.5 %'\nmass = '120 g'\nparticipation = 1.3\n\
+         shape = {{ centre = 1.0, corner = 0.35 }}\n\
+         [[mode]]\nfrequency = '410 Hz'\ndamping_ratio = '1.5 %'\nmass = '90 g'\nparticipation = 0.5\n\
+         shape = {{ centre = -0.6, corner = 1.0 }}\n\
+         [[absorber]]\nplace = 'centre'\nmass = '6 g'\nclearance = '60 um'\nrestitution = 0.5\n\
+         [excitation]\nkind = 'base-displacement'\namplitude = '4 um'\nfrom = '150 Hz'\nto = '430 Hz'\n\
+         [simulation]\nstarts = 2\n\
+         [criteria]\npeak_displacement = '<= 140 um'\nacceleration = '<= 250 m/s2'\nimpact_velocity = '<= 0.3 m/s'\n"
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let (path, out) = (folder.path().join("case.toml"), folder.path().join("out"));
+    fs::write(&path, text).expect("written");
+    let [path, out] = [&path, &out].map(|one| one.to_str().expect("UTF-8"));
+    vinesink(&["report", path, "--criteria-only", "--out", out]);
+    let document = fs::read_to_string(format!("{out}/case/report.json")).expect("a report");
+    let document: Value = serde_json::from_str(&document).expect("JSON");
+    let load = &document["loads"][0];
+    let rows = document["criteria"]["all"].as_array().expect("criteria");
+    let mut elsewhere = 0;
+    for row in rows {
+        if row["at"]["value"] == load["worst"]["at"]["value"] {
+            continue;
+        }
+        elsewhere += 1;
+        let there = load["decides"].as_array().expect("frequencies");
+        let there = there.iter().find(|one| one["at"]["value"] == row["at"]["value"]);
+        let there = there.unwrap_or_else(|| panic!("{row}"));
+        let mut asked = there["criteria"].as_array().expect("criteria").iter();
+        let number = asked.position(|one| one["name"] == row["name"]).expect("the criterion");
+        let motions = there["motions"].as_array().expect("motions");
+        let decides = motions.iter().find(|one| one["id"] == row["motion"]).expect("the motion");
+        assert_eq!(decides["has"][number]["value"], row["found"]["value"], "{row}");
+    }
+    assert!(elsewhere >= 1, "{rows:?}");
+    // The second mode's acceleration fails far from where the structure moves farthest.
+    assert_eq!(document["verdict"]["word"], "fails");
+    let fails = load["forces"]["limits"]["fails"].as_array().expect("amplitudes");
+    assert!(fails.iter().any(|one| one["value"] == json!(4e-6)), "{}", load["forces"]["limits"]);
+    let figures: Vec<&str> = document["figures"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|one| one["name"].as_str())
+        .collect();
+    assert!(figures.contains(&"loads-acceleration"), "{figures:?}");
+}

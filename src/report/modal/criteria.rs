@@ -3,13 +3,13 @@
 use serde_json::{Value, json};
 
 use super::{
-    Beside, absorbers, along, alternatives, closed, given, numbers, ranges, told_of_one, units,
-    warnings,
+    Beside, absorbers, along, alternatives, closed, given, motions, numbers, ranges, simulated,
+    told_of_one, units, warnings,
 };
 use crate::case::{ModalCase, Of};
 use crate::criteria::Judged;
 use crate::measure::{Device, Part};
-use crate::modal::{ModalAnswer, linear_most};
+use crate::modal::{ModalAnswer, largest_of, linear_most};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::report::criteria::{Checked, row as criteria_row};
@@ -65,6 +65,40 @@ pub(super) fn criteria(case: &ModalCase, answer: &ModalAnswer) -> Value {
         counted["longest_contact_time"] = json!(longest.map(time));
     }
     json!(counted)
+}
+
+/// The motions at frequencies of a load where criteria are worst that are worst elsewhere than the displacement, each with what it has
+/// of these.
+pub(super) fn elsewhere(
+    case: &ModalCase,
+    answer: &ModalAnswer,
+    load: usize,
+    worst: Option<f64>,
+) -> Vec<Value> {
+    let along = &answer.along[load];
+    let own = || answer.judged.iter().filter(|one| one.load == load && one.motion.is_some());
+    let mut frequencies: Vec<f64> = own().filter_map(|one| one.at).collect();
+    frequencies.retain(|at| Some(*at) != worst);
+    frequencies.sort_by(f64::total_cmp);
+    frequencies.dedup();
+    let told = frequencies.into_iter().filter_map(|at| {
+        let there = along.at(at)?;
+        let judged: Vec<&Judged> = own().filter(|one| one.at == Some(at)).collect();
+        let mut rows = motions::rows(case, &there.motions);
+        for (row, motion) in rows.iter_mut().zip(&there.motions) {
+            let has = |one: &&Judged| {
+                let measure = one.criterion.measure;
+                let [value, error] = largest_of(case, motion, measure, one.criterion.of)?;
+                let kind = measure.kind(Device::Absorber)?;
+                Some(simulated(kind, value).with_error(error))
+            };
+            row["has"] = json!(judged.iter().map(has).collect::<Vec<_>>());
+        }
+        let criteria = judged.iter().map(|one| placed(case, one, row(one, frequency(one))));
+        let (at, criteria) = (given(&of::EXCITATION_FREQUENCY, at), criteria.collect::<Vec<_>>());
+        Some(json!({ "at": at, "criteria": criteria, "motions": rows }))
+    });
+    told.collect()
 }
 
 /// Whether values meet all criteria that have one; none where none has.

@@ -1,14 +1,18 @@
 //! The largest displacement under each load, over the frequency and over the amplitude, and the motion that has it over time, drawn.
 
+use std::cmp::Ordering;
+
 use serde_json::{Value, json};
 
 use super::{Beside, given, units};
 use crate::case::{ActsOn, Load, ModalCase, Of};
+use crate::criteria::Judged;
 use crate::linear::ModalDamper;
-use crate::measure::Measure;
+use crate::measure::{Device, Measure};
+use crate::method::Method;
 use crate::modal::{
     AbsorberManifold, AlongLoad, AtFrequency, ExactAmplitude, GroupTheory, LoadImpact, LoadTheory,
-    ModalAnswer, ModalOptimum, OverForce, OverTime, linear_peak, linear_places,
+    ModalAnswer, ModalOptimum, OverForce, OverTime, largest_of, linear_at, linear_places,
 };
 use crate::motions::{ModalMotion, Motions};
 use crate::quantity::Units;
@@ -27,39 +31,58 @@ const DAMPERS: Style = Style::new(Color::SkyBlue, 1.1, Dash::Solid);
 /// What is asked.
 const LIMIT: Style = Style::new(Color::Vermillion, 1.3, Dash::Dashed);
 
-/// Largest displacement of any place over the frequency, a panel for each load.
+/// Largest displacement of any place over the frequency, and what else criteria ask of a place; a panel for each load.
 pub(super) fn loads(
     case: &ModalCase,
     answer: &ModalAnswer,
     beside: &Beside,
     facts: &Value,
+) -> Vec<Figure> {
+    let mut asked: Vec<(String, Measure)> = vec![("loads".to_owned(), Measure::Peak)];
+    for one in case.criteria.iter().filter(|one| one.measure.is_of_sines()) {
+        if !asked.iter().any(|(_, known)| *known == one.measure) {
+            asked.push((format!("loads-{}", one.key.replace('_', "-")), one.measure));
+        }
+    }
+    let drawn = |(name, measure): (String, Measure)| {
+        of_loads(case, answer, beside, facts, (&name, measure))
+    };
+    asked.into_iter().map(drawn).collect()
+}
+
+/// The figure of a name and a measure.
+fn of_loads(
+    case: &ModalCase,
+    answer: &ModalAnswer,
+    beside: &Beside,
+    facts: &Value,
+    (name, measure): (&str, Measure),
 ) -> Figure {
-    let mut figure = Figure::new("loads", "");
+    let mut figure = Figure::new(name, "");
     for (k, along) in answer.along.iter().enumerate() {
         let [from, to] = along.load.range_hz;
         if from == to {
             continue;
         }
-        let limits = limits(case, answer.worst(case, Some(k)).map(|one| one.found.of));
-        let mut panel = over_frequency(case, &[along], &limits);
+        let worst = worst(case, answer, k, measure);
+        let limits = limits(case, measure, worst.map(|one| one.of));
+        let mut panel = over_frequency(case, &[along], measure, &limits);
         for (choice, style) in beside.dampers.iter().zip([DAMPER, DAMPERS]) {
             let dampers = choice.dampers.on(case, 1.0);
             let name = match dampers.len() {
                 1 => "one tuned mass damper".to_owned(),
                 many => format!("{many} tuned mass dampers"),
             };
-            let curve = without(case, &along.load, &dampers);
+            let curve = without(case, &along.load, &dampers, measure);
             panel = panel.with(Layer::curve(style, curve).labelled(name));
         }
         panel = with_limits(panel, &limits);
         let marker = Marker::filled(Shape::Circle).sized(5.0);
         panel = panel.with(
-            Layer::marked(marker, Role::Simulation.color(), seen(along)).labelled("with absorbers"),
+            Layer::marked(marker, Role::Simulation.color(), seen(case, along, measure))
+                .labelled("with absorbers"),
         );
-        let worst = answer.worst(case, Some(k)).map(|worst| worst.found);
-        if let Some(([at, value], true)) =
-            worst.and_then(|worst| Some(([worst.at?, worst.value], worst.rests())))
-        {
+        if let Some(Where { at: Some([at, value]), rests: true, .. }) = worst {
             // On the line without them, where it would not be seen as the worst.
             let marker = Marker::hollow(Shape::Circle).sized(7.0);
             let layer = Layer::marked(marker, Role::Simulation.color(), vec![[at, value]]);
@@ -67,7 +90,34 @@ pub(super) fn loads(
         }
         figure = figure.with_panel(panel.with_heading(heading(case, k, &along.load)));
     }
-    in_rows(figure).with_facts("captions/loads", facts.clone())
+    let mut facts = facts.clone();
+    facts["drawn"] = json!(measure.kind(Device::Absorber).map(|kind| kind.name));
+    in_rows(figure).with_facts("captions/loads", facts)
+}
+
+/// Where a measure is worst under a load.
+#[derive(Clone, Copy)]
+struct Where {
+    /// Which place has it.
+    of: Of,
+    /// At which frequency, and what it is there.
+    at: Option<[f64; 2]>,
+    /// Whether every absorber rests there.
+    rests: bool,
+}
+
+/// Where a measure is worst under a load: the displacement of any place, or what criteria ask of others.
+fn worst(case: &ModalCase, answer: &ModalAnswer, load: usize, measure: Measure) -> Option<Where> {
+    if measure == Measure::Peak {
+        let worst = answer.worst(case, Some(load))?.found;
+        let at = worst.at.map(|at| [at, worst.value]);
+        return Some(Where { of: worst.of, at, rests: worst.rests() });
+    }
+    let own = |one: &&Judged| one.criterion.measure == measure && one.load == load;
+    let worst = answer.judged.iter().filter(own);
+    let worst = worst.max_by(|a, b| a.found.partial_cmp(&b.found).unwrap_or(Ordering::Equal))?;
+    let rests = worst.inactive.is_some() && worst.decided_by == Method::ClosedForm;
+    Some(Where { of: worst.of, at: worst.at.zip(worst.found).map(<[f64; 2]>::from), rests })
 }
 
 /// The same with the absorbers of a case and with the best others that were found.
@@ -81,17 +131,22 @@ pub(super) fn optimum(case: &ModalCase, found: &ModalOptimum, facts: &Value) -> 
         }
         let other = best.and_then(|best| best.answer.along.get(k));
         let both: Vec<&AlongLoad> = [Some(own), other].into_iter().flatten().collect();
-        let limits = limits(case, found.own.answer.worst(case, Some(k)).map(|one| one.found.of));
-        let mut panel = with_limits(over_frequency(case, &both, &limits), &limits);
+        let measure = Measure::Peak;
+        let limits =
+            limits(case, measure, worst(case, &found.own.answer, k, measure).map(|one| one.of));
+        let mut panel = with_limits(over_frequency(case, &both, measure, &limits), &limits);
         let hollow = Marker::hollow(Shape::Circle).sized(5.0);
         panel = panel.with(
-            Layer::marked(hollow, Color::Grey, seen(own)).labelled("the case's own absorbers"),
+            Layer::marked(hollow, Color::Grey, seen(case, own, measure))
+                .labelled("the case's own absorbers"),
         );
         if let Some(other) = other {
             let filled = Marker::filled(Shape::Circle).sized(5.0);
             let name = if found.succeeds() { "the best" } else { "the best of the others" };
-            panel = panel
-                .with(Layer::marked(filled, Role::Simulation.color(), seen(other)).labelled(name));
+            panel = panel.with(
+                Layer::marked(filled, Role::Simulation.color(), seen(case, other, measure))
+                    .labelled(name),
+            );
         }
         figure = figure.with_panel(panel.with_heading(heading(case, k, &own.load)));
     }
@@ -100,28 +155,41 @@ pub(super) fn optimum(case: &ModalCase, found: &ModalOptimum, facts: &Value) -> 
 
 /// A panel over the range of a load, high enough for all motions that were found along it and for limits, with what the structure does
 /// without absorbers.
-fn over_frequency(case: &ModalCase, along: &[&AlongLoad], limits: &[(f64, String)]) -> Panel {
+fn over_frequency(
+    case: &ModalCase,
+    along: &[&AlongLoad],
+    measure: Measure,
+    limits: &[(f64, String)],
+) -> Panel {
     let (units, load) = (units(case), &along[0].load);
     let motions = along.iter().flat_map(|one| &one.places).flat_map(|one| &one.motions);
-    let highest = motions.map(most).fold(0.0, f64::max);
+    let found = motions.filter_map(|one| largest_of(case, one, measure, Of::Any));
+    let highest = found.map(|one| one[0]).fold(0.0, f64::max);
     let top = 1.15 * limits.iter().map(|one| one.0).fold(highest, f64::max);
     let x = AxisOf::si(units, &of::EXCITATION_FREQUENCY).axis(load.range_hz);
-    let y = AxisOf::si(units, &of::PEAK).axis([0.0, top]);
-    let bare = Layer::curve(Role::BareOscillator, without(case, load, &[]));
+    let kind = measure.kind(Device::Absorber).unwrap_or(&of::PEAK);
+    let y = AxisOf::si(units, kind).axis([0.0, top]);
+    let bare = Layer::curve(Role::BareOscillator, without(case, load, &[], measure));
     Panel::new(x, y).with(bare.labelled("without absorbers"))
 }
 
-/// The largest displacement of any place over the range of a load without absorbers, with dampers in their place.
-fn without(case: &ModalCase, load: &Load, dampers: &[ModalDamper]) -> Vec<[f64; 2]> {
+/// The largest of a measure of any place over the range of a load without absorbers, with dampers in their place.
+fn without(
+    case: &ModalCase,
+    load: &Load,
+    dampers: &[ModalDamper],
+    measure: Measure,
+) -> Vec<[f64; 2]> {
     let at = linear_places(load.range_hz, case).into_iter();
-    at.map(|at| [at, linear_peak(case, load, at, dampers)]).collect()
+    at.map(|at| [at, linear_at(case, load, at, dampers, measure)]).collect()
 }
 
-/// The largest displacement of each motion along a load, but for those in which every absorber rests: these are as without them.
-fn seen(along: &AlongLoad) -> Vec<[f64; 2]> {
+/// The largest of a measure in each motion along a load, but for those in which every absorber rests: these are as without them.
+fn seen(case: &ModalCase, along: &AlongLoad, measure: Measure) -> Vec<[f64; 2]> {
     let of = |one: &AtFrequency| {
         let acts = one.motions.iter().filter(|motion| !motion.rests());
-        acts.map(|motion| [one.at, most(motion)]).collect::<Vec<_>>()
+        let found = acts.filter_map(|motion| largest_of(case, motion, measure, Of::Any));
+        found.map(|[value, _]| [one.at, value]).collect::<Vec<_>>()
     };
     along.places.iter().flat_map(of).collect()
 }
@@ -153,7 +221,8 @@ pub(super) fn forces(
             });
             each.collect::<Vec<_>>()
         };
-        let limits = limits(case, answer.worst(case, Some(k)).map(|one| one.found.of));
+        let measure = Measure::Peak;
+        let limits = limits(case, measure, worst(case, answer, k, measure).map(|one| one.of));
         // An absorber may work far above what is seen, and how far beyond a limit decides nothing.
         let most = seen(false).into_iter().map(|[_, y]| y).fold(0.0, f64::max);
         let top = 1.15 * limits.last().map_or(most, |(limit, _)| most.clamp(*limit, 3.0 * limit));
@@ -386,11 +455,11 @@ pub(super) fn in_rows(figure: Figure) -> Figure {
     figure.with_layout(Layout::rows(&vec![1.0; count])).with_size(720, height)
 }
 
-/// Limits of displacements of any place or of the one that moves farthest, with their names, the smallest first: each once, by its
+/// Limits of a measure of any place or of the one that has most of it, with their names, the smallest first: each once, by its
 /// place where there is more than one.
-fn limits(case: &ModalCase, farthest: Option<Of>) -> Vec<(f64, String)> {
+fn limits(case: &ModalCase, measure: Measure, farthest: Option<Of>) -> Vec<(f64, String)> {
     let peaks = case.criteria.iter().filter(|one| {
-        one.measure == Measure::Peak && farthest.is_none_or(|farthest| one.of.holds(farthest))
+        one.measure == measure && farthest.is_none_or(|farthest| one.of.holds(farthest))
     });
     let mut found: Vec<(f64, Of)> = peaks.map(|one| (one.limit, one.of)).collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -26,5 +26,5 @@ pub fn at_frequency(case: &ModalCase, answer: &ModalAnswer) -> Result<Value, Ren
 /// [`RenderError`] if a template does not fit.
 pub fn over_frequency(case: &ModalCase, answer: &ModalAnswer) -> Result<Vec<Figure>, RenderError> {
     let facts = document("live", case, answer, &Beside::default(), Content::Report);
-    worded(vec![figure::loads(case, answer, &Beside::default(), &facts)], &units(case))
+    worded(figure::loads(case, answer, &Beside::default(), &facts), &units(case))
 }

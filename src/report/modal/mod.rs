@@ -209,6 +209,8 @@ fn along(case: &ModalCase, answer: &ModalAnswer, beside: &Beside) -> Vec<Value> 
             "worst": worst.map(|worst| worst_row(case, &worst)),
             // The motions there.
             "at_worst": here.map(|one| motions::rows(case, &one.motions)).unwrap_or_default(),
+            // Those at other frequencies where criteria are worst.
+            "decides": criteria::elsewhere(case, answer, k, worst.and_then(|worst| worst.found.at)),
             "alone": beside.alone.get(k).and_then(|one| one.as_ref()).map(|[value, error]| {
                 simulated(&of::PEAK, *value).with_error(*error)
             }),
@@ -368,12 +370,12 @@ pub fn files(
     beside: &Beside,
 ) -> Result<Files, RenderError> {
     let mut document = document(name, case, answer, beside, Content::Report);
-    let mut drawn = vec![
-        figure::loads(case, answer, beside, &document),
+    let mut drawn = figure::loads(case, answer, beside, &document);
+    drawn.extend([
         figure::forces(case, answer, beside, &document),
         figure::over_time(case, beside, &document),
         figure::manifolds(case, beside, &document),
-    ];
+    ]);
     let compared = answer.alternatives.as_ref();
     drawn.extend(compared.and_then(|found| choice::figure(units(case), found, &document)));
     drawn.extend(ranges::figure(case, answer, &document));
