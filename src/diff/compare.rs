@@ -49,7 +49,7 @@ fn explains(path: &str, key: &str) -> bool {
 }
 
 /// What names an element of a list, by the list's key; elements of others are numbered.
-const NATURAL_KEYS: [(&str, &[&str]); 12] = [
+const NATURAL_KEYS: [(&str, &[&str]); 14] = [
     ("alternatives", &["which", "drift", "dampers"]),
     ("answers", &["question"]),
     ("boundaries", &["kind", "branch"]),
@@ -58,17 +58,21 @@ const NATURAL_KEYS: [(&str, &[&str]); 12] = [
     ("doubts", &["kind"]),
     ("figures", &["name"]),
     ("holds_for", &["parameter", "load", "absorber"]),
+    ("manifolds", &["absorber"]),
     ("motions", &["regime"]),
     ("notes", &["kind", "limit", "message"]),
     ("ranges", &["parameter", "load", "absorber"]),
     ("rows", &["deviation"]),
+    ("theory", &["mode"]),
 ];
 
 /// Lists of a structure of several modes that are counted, as those along a band are: what they say stands in its worst values,
 /// criteria and limits.
-const COUNTED: [&str; 8] = [
+const COUNTED: [&str; 10] = [
     "compared",
     "loads/at_worst",
+    "loads/decides",
+    "loads/forces/at",
     "loads/forces/limits/fails",
     "loads/forces/limits/open",
     "loads/forces/steps",

@@ -61,11 +61,12 @@ const STATES: [&str; 9] = [
 const FURTHER_STATES: usize = 6;
 
 /// What a reader calls the keys of a document; others are called as they are.
-const WORDS: [(&str, &str); 23] = [
+const WORDS: [(&str, &str); 28] = [
     ("absorbers", "absorber"),
     ("alternatives", ""),
     ("answers", "answer"),
     ("band", ""),
+    ("bare", ""),
     ("boundaries", "boundary"),
     ("choice", ""),
     ("claims", "claim"),
@@ -73,14 +74,18 @@ const WORDS: [(&str, &str); 23] = [
     ("deviations", "deviation"),
     ("fixed_points", "fixed point"),
     ("forces", ""),
+    ("group", ""),
     ("loads", "load"),
     ("main", "main motion"),
-    ("most", "largest possible"),
+    ("manifolds", "manifold of"),
+    ("most", "at most"),
     ("motions", "motion"),
     ("orbits", "exact orbit"),
     ("places", "motions"),
+    ("points", "fixed point"),
     ("quantities", ""),
     ("ranges", "range of"),
+    ("restitutions", "absorber"),
     ("rows", ""),
     ("stretches", "stable range"),
     ("theory", ""),
@@ -173,9 +178,22 @@ pub(super) fn label(path: &str, kind: Option<&Kind>) -> String {
         if key == "worst" && kind.is_some() && path.starts_with("band/") {
             continue;
         }
+        let element = element.trim_end_matches(']').replace("][", " ");
+        // The ends of what was tried.
+        if let ("holds", Some((which, end))) = (key, element.split_once(' ')) {
+            let which = if which == "1" { String::new() } else { format!(" ({which})") };
+            words.push(format!("hold{which} {}", if end == "1" { "from" } else { "to" }));
+            continue;
+        }
         let known = WORDS.iter().find(|(name, _)| *name == key);
-        words.push(known.map_or_else(|| key.replace('_', " "), |(_, word)| (*word).to_owned()));
-        words.push(element.trim_end_matches(']').replace("][", " "));
+        // Orbits of several modes, each by its number.
+        let is_orbit = key == "exact" && !element.is_empty();
+        words.push(match known {
+            _ if is_orbit => "exact orbit".to_owned(),
+            Some((_, word)) => (*word).to_owned(),
+            None => key.replace('_', " "),
+        });
+        words.push(element);
     }
     if let Some(kind) = kind
         && let Some(field) = words.iter_mut().rfind(|word| !word.is_empty())
@@ -219,6 +237,21 @@ mod tests {
                 "boundary saddle-node stable exact: clearance at the boundary",
             ),
             ("theory/orbits[2]/stable", None, "exact orbit 2 stable"),
+            (
+                "loads[1]/theory[mode 2]/exact[1]/amplitude",
+                Some(&of::OSCILLATOR_AMPLITUDE),
+                "load 1 mode 2 exact orbit 1: amplitude of the oscillator",
+            ),
+            (
+                "loads[2]/forces/limits/holds[1][2]",
+                Some(&of::FORCE_AMPLITUDE),
+                "load 2 limits hold to: amplitude of the force",
+            ),
+            (
+                "loads[1]/bare/peak",
+                Some(&of::BARE_PEAK),
+                "load 1: peak displacement without absorber",
+            ),
             ("theory/area", None, "area"),
         ] {
             assert_eq!(label(path, kind), words);
