@@ -6,6 +6,7 @@ use super::error::Problem;
 use super::inputs::Input;
 use super::support::{Orientation, SOFT, is_stiff, metres, static_length};
 use super::{BandOver, BandSettings, Case, Design, Rounding, record_faults};
+use crate::excitation::Scene;
 use crate::quantity::numbers::rounded_to;
 
 /// Ratio of the frequencies of drive and structure from which on they have nothing to do with one another.
@@ -20,6 +21,8 @@ pub(super) const HEAVY_DAMPING: f64 = 0.2;
 const ROUNDING: f64 = 1e-12;
 /// Mass ratios between which an absorber is a small mass, and a mass at all.
 pub(super) const MASS_RATIOS: [f64; 2] = [1e-6, 0.5];
+/// The most that a structure moves without absorbers, over the clearance, between which its unit is no slip.
+const MOVES: [f64; 2] = [1.0 / 30.0, 1000.0];
 /// Per cent that are told.
 const LARGEST: f64 = 1e12;
 /// Coefficient above which nothing slides.
@@ -36,8 +39,9 @@ pub(super) fn of(case: &Case) -> Vec<Problem> {
     found.extend(read.mass_ratio());
     found.extend(read.friction());
     found.extend(read.held());
-    // Beside another slip the size of what is left out means nothing.
+    // Beside another slip sizes mean nothing.
     if found.is_empty() {
+        found.extend(read.clearance());
         found.extend(read.support());
     }
     found.extend(record_faults::of(case));
@@ -174,6 +178,22 @@ impl Read<'_> {
         Some(self.warning(at, message, "no small mass beside a structure", meant))
     }
 
+    /// That the structure, driven at one amplitude, moves far less or far more than to a wall.
+    fn clearance(&self) -> Option<Problem> {
+        let system = &self.case.system;
+        let of_amplitude =
+            self.case.band.as_ref().is_some_and(|one| one.over == BandOver::Amplitude);
+        if of_amplitude || self.case.design.scene() != Scene::Steady {
+            return None;
+        }
+        let zeta = 0.5 * system.mass_ratio() * system.damping();
+        let moved = system.mass_ratio() * system.forcing_per_clearance();
+        let (message, label, meant) = far_from_walls(resonant(moved, zeta))?;
+        let at = self.input(1, &["clearance"])?;
+        let message = format!("`clearance` = {}: {message}", at.as_written);
+        Some(self.warning(at, message, label, meant.to_owned()))
+    }
+
     fn friction(&self) -> Option<Problem> {
         let at = self.input(1, &["friction"]).filter(|at| at.value > MOST_FRICTION)?;
         let message = format!("`friction` = {} means {}", at.as_written, percent(at.value));
@@ -282,6 +302,26 @@ impl Read<'_> {
             format!("it is small up to {}; its length or stretch is then {length}", hertz(softest));
         Some(self.warning(at, message, "no soft support", meant))
     }
+}
+
+/// The most that a static displacement becomes at any frequency, and with that of a base added.
+pub(super) fn resonant(moved: f64, damping_ratio: f64) -> f64 {
+    moved * (1.0 + 0.5 / damping_ratio)
+}
+
+/// What is wrong with a clearance where a structure without absorbers moves at most so many times as far: message, label and what to
+/// do.
+pub(super) fn far_from_walls(most: f64) -> Option<(String, &'static str, &'static str)> {
+    let [least, largest] = MOVES;
+    let meant = "check its unit: an absorber acts where the structure moves by about a quarter of its clearance to some times that";
+    let moves = "the structure without absorbers moves at most";
+    if most < least && most > 0.0 {
+        let message = format!("{moves} {}", times(most, "that"));
+        return Some((message, "no wall is ever reached", meant));
+    }
+    let message = || format!("{moves} {}", times(most, "that"));
+    (most > largest && most.is_finite())
+        .then(|| (message(), "walls that are hardly apart beside that", meant))
 }
 
 /// What a frequency was meant to be, that is `ratio` times the one it should be near.

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use assert_cmd::Command;
 use tempfile::TempDir;
-use vinesink::case::Case;
+use vinesink::case::{Case, ModalCase};
 
 use crate::common::{BAND, BRIDGE};
 
@@ -135,6 +135,42 @@ fn masses_that_are_no_absorber_name_the_slip() {
 }
 
 /// The truth is the inclined plane and a linear oscillator with both masses.
+/// The bridge moves by 151 mm at resonance: its static 1.2 mm, 125 times and once.
+#[test]
+fn clearances_far_from_what_moves_name_the_slip() {
+    let clearance =
+        |of: &str| slipped(BRIDGE, "clearance = \"50 mm\"", &format!("clearance = \"{of}\""));
+    one_warning(&clearance("50 m"), 11, &["50 m: the structure", "1/332 of that", "its unit"]);
+    one_warning(&clearance("50 um"), 11, &["50 um", "3020 times that"]);
+    let moderate = [clearance("4 m"), clearance("0.2 mm")];
+    // Undamped it may move as far as you like; where the amplitude varies it is another.
+    let undamped = slipped(&clearance("50 m"), "\"0.4 %\"", "0");
+    let over = format!(
+        "{}\n[band]\nof = \"amplitude\"\nfrom = \"250 N\"\nto = \"100 kN\"\n",
+        clearance("50 m")
+    );
+    for case in moderate.into_iter().chain([undamped, over]) {
+        assert_eq!(warnings(&case), [], "{case}");
+    }
+    let two = "[[mode]]\nmass = \"1200 kg\"\nfrequency = \"2.1 Hz\"\ndamping_ratio = \"0.4 %\"\nshape = { a = 1.0, b = 0.0 }\n\
+               [[mode]]\nmass = \"1200 kg\"\nfrequency = \"9 Hz\"\ndamping_ratio = \"0.4 %\"\nshape = { a = 0.0, b = 1.0 }\n\
+               [[absorber]]\nplace = \"a\"\nmass = \"18 kg\"\nclearance = \"CLEARANCE\"\nrestitution = 0.6\n\
+               [[excitation]]\nkind = \"force\"\nplace = \"a\"\namplitude = \"250 N\"\nfrequency = \"2.1 Hz\"\n";
+    let of_two = |clearance: &str| {
+        let text =
+            format!("title = \"t\"\nsource = \"s\"\n{}", two.replace("CLEARANCE", clearance));
+        let case = ModalCase::parse("case.toml", &text).expect("a valid case");
+        case.warnings.iter().map(|one| one.message.clone()).collect::<Vec<_>>()
+    };
+    let [of_metres, of_micrometres] = ["50 m", "50 um"].map(of_two);
+    assert!(of_metres.len() == 1 && of_metres[0].contains("1/332 of that"), "{of_metres:?}");
+    assert!(
+        of_micrometres.len() == 1 && of_micrometres[0].contains("3020 times"),
+        "{of_micrometres:?}"
+    );
+    assert_eq!(of_two("50 mm"), [] as [String; 0]);
+}
+
 #[test]
 fn cavities_that_hold_the_absorber_name_the_slip() {
     let cavity =

@@ -3,10 +3,12 @@
 
 use std::ops::Range;
 
-use super::{AbsorberKey, ModalCase};
+use super::{AbsorberKey, ActsOn, Load, ModalCase, PlacedAbsorber, StructuralMode};
 use crate::case::error::Problem;
-use crate::case::warnings::{FAR_APART, HEAVY_DAMPING, MASS_RATIOS};
-use crate::case::warnings::{hertz, meant, percent, short, times};
+use crate::case::warnings::{
+    FAR_APART, HEAVY_DAMPING, MASS_RATIOS, far_from_walls, hertz, meant, percent, resonant, short,
+    times,
+};
 
 /// Where numbers stand that a slip may be in.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -66,9 +68,33 @@ pub(super) fn of(
     if !case.reduced {
         found.extend(read.masses());
         found.extend(read.frequencies(spans));
+        // Beside another slip sizes mean nothing.
+        if found.is_empty() {
+            found.extend(read.clearances());
+        }
     }
     found.sort_by_key(|warning| warning.span.start);
     found
+}
+
+/// The most that a load may move a place without absorbers in m, with every mode at its resonance; infinite without damping.
+fn most_moved(case: &ModalCase, load: &Load, place: usize) -> f64 {
+    let of_mode = |(k, mode): (usize, &StructuralMode)| {
+        let omega = std::f64::consts::TAU * mode.frequency_hz;
+        let force = match load.on {
+            ActsOn::Place(pushed) => mode.shape[pushed] * load.amplitude,
+            ActsOn::Mode(driven) if driven == k => load.amplitude,
+            ActsOn::Modes => mode.forcing * load.amplitude * mode.mass_kg,
+            ActsOn::Mode(_) => 0.0,
+            ActsOn::Base => {
+                let moved = mode.participation * load.amplitude;
+                return resonant((mode.shape[place] * moved).abs(), mode.damping_ratio);
+            }
+        };
+        let moved = (mode.shape[place] * force).abs() / (mode.mass_kg * omega * omega);
+        if moved > 0.0 { resonant(moved, mode.damping_ratio) } else { 0.0 }
+    };
+    case.modes.iter().enumerate().map(of_mode).sum()
 }
 
 struct Read<'a> {
@@ -117,6 +143,21 @@ impl Read<'_> {
             Some(self.warning(span, message, "no small mass beside a structure", UNITS.to_owned()))
         };
         mass_ratios(self.case).zip(&self.case.values).filter_map(of).collect()
+    }
+
+    /// Clearances of absorbers that no load moves their place to, or far beyond.
+    fn clearances(&self) -> Vec<Problem> {
+        let case = self.case;
+        let key = AbsorberKey::ALL.iter().position(|key| *key == AbsorberKey::Clearance);
+        let of = |(absorber, values): (&PlacedAbsorber, &[Option<Range<usize>>; 4])| {
+            let span = values[key?].as_ref()?;
+            let moved = case.loads.iter().map(|load| most_moved(case, load, absorber.place));
+            let most = moved.fold(0.0, f64::max) / absorber.clearance_m;
+            let (message, label, meant) = far_from_walls(most)?;
+            let message = format!("`clearance` = {}: {message}", self.written(span));
+            Some(self.warning(span, message, label, meant.to_owned()))
+        };
+        case.absorbers.iter().zip(&case.values).filter_map(of).collect()
     }
 
     /// Frequencies of loads that are far from those of all modes.
