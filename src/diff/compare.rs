@@ -14,10 +14,11 @@ use crate::motions::wilson;
 const MANY: usize = 8;
 
 /// What has a way of its own; all else is compared value by value. Of these it is compared which fields there are.
-const APART: [&str; 11] = [
+const APART: [&str; 12] = [
     "asked",
     "case",
     "criteria",
+    "files",
     "format",
     "inputs",
     "main",
@@ -237,7 +238,7 @@ impl Comparator<'_> {
                         }
                         (Some(a), Some(b)) => self.values(&at, new, a, b),
                         // The format of before does not say it; files are inputs.
-                        _ if ["asked", "provenance/files"].contains(&at.as_str()) => {}
+                        _ if ["asked", "files", "provenance/files"].contains(&at.as_str()) => {}
                         (a, b) => self.on_one_side(&at, a, b),
                     }
                 }

@@ -217,7 +217,7 @@ impl Document {
             }
         }
         for (file, digest) in self.files() {
-            let (path, name) = (format!("provenance/files[{file}]"), format!("content of {file}"));
+            let (path, name) = (format!("files[{file}]"), format!("content of {file}"));
             let begin: String = digest.chars().take(8).collect();
             let given = Given::new(path, &name, &json!(format!("SHA-256 {begin}…")));
             found.push(Given { name, ..given });
@@ -243,10 +243,19 @@ impl Document {
         self.report["case"].is_object()
     }
 
-    /// The files that its case read, by name, and the SHA-256 of each.
+    /// The files that its case read, by name, and the SHA-256 of each; earlier reports have them in their provenance.
     pub(super) fn files(&self) -> impl Iterator<Item = (&str, &str)> {
-        let files = self.report["provenance"]["files"].as_object();
-        files.into_iter().flatten().filter_map(|(name, it)| Some((name.as_str(), it.as_str()?)))
+        let own = self
+            .list("/files")
+            .iter()
+            .filter_map(|one| Some((one["path"].as_str()?, one["sha256"].as_str()?)));
+        let earlier = self.report["provenance"]["files"].as_object();
+        own.chain(
+            earlier
+                .into_iter()
+                .flatten()
+                .filter_map(|(name, it)| Some((name.as_str(), it.as_str()?))),
+        )
     }
 }
 
@@ -282,5 +291,25 @@ fn leaves(path: &str, name: &str, of: &Value, found: &mut Vec<Given>) {
             }
         }
         value => found.push(Given::new(path.to_owned(), name, value)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Reports of before say the same in their provenance.
+    #[test]
+    fn files_of_both_forms_are_the_same() {
+        let forms = [
+            json!({ "files": [{ "path": "quake.csv", "sha256": "12ab" }] }),
+            json!({ "provenance": { "files": { "quake.csv": "12ab" } } }),
+        ];
+        for report in forms {
+            let [place, remedy] = [String::new(), String::new()];
+            let remedy = Remedy { command: remedy, revision: None };
+            let of = Document { place, report, figures: BTreeMap::new(), case: None, remedy };
+            assert_eq!(of.files().collect::<Vec<_>>(), [("quake.csv", "12ab")]);
+        }
     }
 }

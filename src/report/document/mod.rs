@@ -67,12 +67,11 @@ pub fn answer(case: &Case, content: Content, fields: Value) -> Value {
 }
 
 /// Puts into a report what it was made from, so that a comparison misses none of it: every key of the case as written, and
-/// the SHA-256 of the files that the case reads, by their names, where it reads any.
+/// the SHA-256 of each file that the case reads, by its name there.
 pub fn keep_case(document: &mut Value, written: Value, files: BTreeMap<String, String>) {
     document["case"] = written;
-    if !files.is_empty() {
-        document["provenance"]["files"] = json!(files);
-    }
+    let file = |(path, sha256): (String, String)| json!({ "path": path, "sha256": sha256 });
+    document["files"] = files.into_iter().map(file).collect();
 }
 
 /// The same of any case: its title, source and SHA-256, the name of its units, and the fields.
