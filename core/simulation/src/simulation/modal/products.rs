@@ -58,12 +58,16 @@ impl Products {
 
     /// Adds a flight.
     pub fn add(&mut self, begin: &Phasors<MOST>, end: &Phasors<MOST>, duration: f64) {
-        let [first, last] = [begin, end].map(|at| self.phasors(at));
-        let all = self.modes + 1;
-        for (a, row) in self.differences.iter_mut().enumerate().take(all) {
-            let ([re, im], [later_re, later_im]) = (first[a], last[a]);
-            let with = first.iter().zip(&last).take(a + 1);
-            for (sum, (of, later)) in row.iter_mut().zip(with) {
+        let modes = self.modes;
+        // The excitation stands behind the modes; a copy of all phasors would take longer than the sums.
+        let phasor = |at: &Phasors<MOST>, k: usize| match k < modes {
+            true => at.z[k],
+            false => [at.rotor[1], at.rotor[0]],
+        };
+        for (a, row) in self.differences.iter_mut().enumerate().take(modes + 1) {
+            let ([re, im], [later_re, later_im]) = (phasor(begin, a), phasor(end, a));
+            for (b, sum) in row.iter_mut().enumerate().take(a + 1) {
+                let (of, later) = (phasor(begin, b), phasor(end, b));
                 sum[0] += later_re * later[0] - re * of[0];
                 sum[1] += later_im * later[1] - im * of[1];
                 sum[2] += later_re * later[1] - re * of[1];
@@ -71,20 +75,15 @@ impl Products {
             }
         }
         for one in &mut self.slow {
-            let [a, b] = one.pair.map(|k| Phasor::new(first[k][0], first[k][1]));
+            let [a, b] = one.pair.map(|k| {
+                let [re, im] = phasor(begin, k);
+                Phasor::new(re, im)
+            });
             let turn = one.rate * duration;
             let ((sin, cos), size) = (libm::sincos(turn.im), libm::exp(turn.re));
             let mean = mean_to(turn, Phasor::new(size * cos, size * sin));
             one.integral += a * turned(b, one.conjugated) * mean * duration;
         }
-    }
-
-    fn phasors(&self, at: &Phasors<MOST>) -> [[f64; 2]; MOST + 1] {
-        let mut all = [[0.0; 2]; MOST + 1];
-        all[..MOST].copy_from_slice(&at.z);
-        let [sin, cos] = at.rotor;
-        all[self.modes] = [cos, sin];
-        all
     }
 
     /// The integral of the square of what has these factors of the phasors of modes, and of `sin` and `cos` of the phase, as the
