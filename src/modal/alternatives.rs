@@ -11,7 +11,7 @@ use crate::alternatives::{Alternatives, Drifting, Own, Room, compared, compared_
 use crate::case::{ActsOn, Criterion, Load, ModalCase, Of, Relation};
 use crate::dampers::{Designing, missed_with};
 use crate::executor::Executor;
-use crate::linear::{ModalAmplitudes, ModalDamper, ModalResponse};
+use crate::linear::{ModalAmplitudes, ModalDamper, PlacedResponse};
 use crate::measure::Measure;
 use crate::numerics::scan;
 use crate::operating_range::Varies;
@@ -30,8 +30,8 @@ pub(super) struct DriftedStructure {
     factor: f64,
     /// What devices are compared by; the largest displacement where that is none.
     asked: Option<Criterion>,
-    /// Frequencies in Hz along each load, with the structure alone; none where it has no steady motion by itself.
-    along: Vec<Vec<(f64, Option<ModalResponse>)>>,
+    /// Frequencies in Hz along each load, with the structure alone as dampers see it; none where it has no steady motion by itself.
+    along: Vec<Vec<(f64, Option<PlacedResponse>)>>,
     /// The largest displacement of any place without absorbers, in m.
     bare: f64,
 }
@@ -51,9 +51,14 @@ impl DriftedStructure {
     }
 
     fn with(case: ModalCase, factor: f64) -> Self {
+        let mut sites: Vec<usize> =
+            (0..case.modes.len()).map(|k| PlacedDampers::place(&case, k)).collect();
+        sites.sort_unstable();
+        sites.dedup();
         let of_load = |load: &Load| {
             let all = places(wide(load), &case, LOOKED_AT).into_iter();
-            all.map(|at| (at, response(&case, load, at))).collect()
+            let seen = |at: f64| Some(response(&case, load, at)?.seen_from(&sites));
+            all.map(|at| (at, seen(at))).collect()
         };
         let along = case.loads.iter().map(of_load).collect();
         let bare = case.loads.iter().map(|load| largest_peak(&case, load, &[])).fold(0.0, f64::max);
@@ -118,9 +123,9 @@ impl Drifting for DriftedStructure {
         for (load, all) in case.loads.iter().zip(&self.along) {
             let mut there: Vec<(f64, ModalAmplitudes)> = all
                 .iter()
-                .map(|(at, alone)| match alone {
-                    Some(alone) => (*at, alone.with(&on)),
-                    None => (*at, amplitudes(case, load, *at, &on)),
+                .map(|(at, alone)| {
+                    let seen = alone.as_ref().and_then(|alone| alone.with(&on, &dampers.places));
+                    (*at, seen.unwrap_or_else(|| amplitudes(case, load, *at, &on)))
                 })
                 .collect();
             let resonant = resonances(wide(load), case, &on).into_iter();

@@ -40,15 +40,20 @@ impl PlacedDampers {
         let (mut each, mut places) = (Vec::new(), Vec::new());
         for k in modes {
             let mode = &case.modes[*k];
-            let size = |p: &usize| mode.shape[*p].abs();
-            let place = (0..case.places.len()).max_by(|a, b| size(a).total_cmp(&size(b)));
-            let place = place.unwrap_or_default();
+            let place = Self::place(case, *k);
             let ratio = mass_kg * mode.shape[place] * mode.shape[place] / mode.mass_kg;
             // A mode that moves nowhere has none.
             each.push(TunedMassDamper::den_hartog(ratio.max(1e-9)));
             places.push(place);
         }
         Self { each, modes: modes.to_vec(), places, mass_kg }
+    }
+
+    /// Where the damper of a mode is.
+    pub(super) fn place(case: &ModalCase, mode: usize) -> usize {
+        let size = |p: &usize| case.modes[mode].shape[*p].abs();
+        let farthest = (0..case.places.len()).max_by(|a, b| size(a).total_cmp(&size(b)));
+        farthest.unwrap_or_default()
     }
 
     /// The natural frequency of each, in Hz.

@@ -18,7 +18,7 @@ pub use along::BandSystems;
 pub use along::{Damped, bare_along};
 pub use carried::{carried_frequencies, carried_state};
 pub use damper::TunedMassDamper;
-pub use modal::{ModalAmplitudes, ModalDamper, ModalResponse, frequencies_with};
+pub use modal::{ModalAmplitudes, ModalDamper, ModalResponse, PlacedResponse, frequencies_with};
 pub use motion::{Linear, driven, released, released_between, swept};
 pub use passage::Passage;
 pub use response::Meter;

@@ -122,40 +122,144 @@ impl ModalResponse {
 
     /// Amplitudes with these dampers; not a number where they have no steady motion.
     pub fn with(&self, dampers: &[ModalDamper]) -> ModalAmplitudes {
-        let omega = self.omega;
-        let stiffness = |of: &ModalDamper| {
-            let own = of.mass * of.frequency * of.frequency;
-            Complex::new(own, 2.0 * of.mass * of.damping_ratio * of.frequency * omega)
+        let shapes = |d: usize| dampers[d].shape.as_slice();
+        solved(
+            self.omega,
+            dampers,
+            |d, e| self.receptance(shapes(d), shapes(e)),
+            |d| self.free(shapes(d)),
+            self.places.iter().map(|(shape, free)| {
+                (*free, move |e: usize| self.receptance(shape, &dampers[e].shape))
+            }),
+        )
+    }
+
+    /// The same as dampers at some of its places see it, by the numbers of these places.
+    pub fn seen_from(&self, sites: &[usize]) -> PlacedResponse {
+        let under = |site: &usize| {
+            let there = &self.places[*site].0;
+            let each = self.places.iter().map(|(here, _)| self.receptance(here, there));
+            (*site, each.collect())
         };
-        // Stroke over the motion of its place.
-        let stroke = |of: &ModalDamper| {
-            let inertia = of.mass * omega * omega;
-            Complex::from(inertia) / (stiffness(of) - inertia)
-        };
-        let pushes: Vec<Complex<f64>> =
-            dampers.iter().map(|of| stroke(of) * stiffness(of)).collect();
-        let count = dampers.len();
-        let matrix = DMatrix::from_fn(count, count, |d, e| {
-            let own = Complex::from(f64::from(u8::from(d == e)));
-            own - self.receptance(&dampers[d].shape, &dampers[e].shape) * pushes[e]
+        PlacedResponse {
+            omega: self.omega,
+            free: self.places.iter().map(|(_, free)| *free).collect(),
+            under: sites.iter().map(under).collect(),
+        }
+    }
+}
+
+/// A structure without absorbers at one frequency, and how each of its places moves under a force at some of them: all that dampers
+/// there need of it, however they are tuned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedResponse {
+    omega: f64,
+    free: Vec<Complex<f64>>,
+    /// Displacement of each place under a force of 1 at one of them.
+    under: Vec<(usize, Vec<Complex<f64>>)>,
+}
+
+impl PlacedResponse {
+    /// Amplitudes with dampers at these places, to the bit those of [`ModalResponse::with`]; none where one is somewhere else.
+    pub fn with(&self, dampers: &[ModalDamper], places: &[usize]) -> Option<ModalAmplitudes> {
+        let under = places.iter().map(|place| {
+            let found = self.under.iter().find(|(site, _)| site == place);
+            found.map(|(_, each)| each.as_slice())
         });
-        let alone = DVector::from_fn(count, |d, _| self.free(&dampers[d].shape));
-        let solve = || matrix.lu().solve(&alone);
-        let moved = if count == 0 { Some(DVector::zeros(0)) } else { solve() };
-        let moved = moved.unwrap_or_else(|| DVector::repeat(count, Complex::from(f64::NAN)));
-        let amplitude = |value: Complex<f64>| libm::hypot(value.re, value.im);
-        let at = |(shape, free): &(Vec<f64>, Complex<f64>)| {
-            let of_dampers = (0..count)
-                .map(|e| self.receptance(shape, &dampers[e].shape) * pushes[e] * moved[e]);
-            amplitude(free + of_dampers.sum::<Complex<f64>>())
+        let under: Vec<&[Complex<f64>]> = under.collect::<Option<_>>()?;
+        Some(solved(
+            self.omega,
+            dampers,
+            |d, e| under[e][places[d]],
+            |d| self.free[places[d]],
+            self.free.iter().enumerate().map(|(p, free)| {
+                let under = &under;
+                (*free, move |e: usize| under[e][p])
+            }),
+        ))
+    }
+}
+
+/// Amplitudes of places and strokes of dampers at a frequency: by the displacement of the place of one under a force at that of another,
+/// that of each without dampers, and both of every place.
+fn solved<T: Fn(usize) -> Complex<f64>>(
+    omega: f64,
+    dampers: &[ModalDamper],
+    between: impl Fn(usize, usize) -> Complex<f64>,
+    alone: impl Fn(usize) -> Complex<f64>,
+    places: impl Iterator<Item = (Complex<f64>, T)>,
+) -> ModalAmplitudes {
+    let stiffness = |of: &ModalDamper| {
+        let own = of.mass * of.frequency * of.frequency;
+        Complex::new(own, 2.0 * of.mass * of.damping_ratio * of.frequency * omega)
+    };
+    // Stroke over the motion of its place.
+    let stroke = |of: &ModalDamper| {
+        let inertia = of.mass * omega * omega;
+        Complex::from(inertia) / (stiffness(of) - inertia)
+    };
+    let strokes: Vec<Complex<f64>> = dampers.iter().map(stroke).collect();
+    let pushes = dampers.iter().zip(&strokes).map(|(of, stroke)| stroke * stiffness(of));
+    let pushes: Vec<Complex<f64>> = pushes.collect();
+    let count = dampers.len();
+    let matrix = DMatrix::from_fn(count, count, |d, e| {
+        let own = Complex::from(f64::from(u8::from(d == e)));
+        own - between(d, e) * pushes[e]
+    });
+    let alone = DVector::from_fn(count, |d, _| alone(d));
+    let moved = if count == 0 { Some(DVector::zeros(0)) } else { matrix.lu().solve(&alone) };
+    let moved = moved.unwrap_or_else(|| DVector::repeat(count, Complex::from(f64::NAN)));
+    let amplitude = |value: Complex<f64>| libm::hypot(value.re, value.im);
+    let at = |(free, under): (Complex<f64>, T)| {
+        let of_dampers = (0..count).map(|e| under(e) * pushes[e] * moved[e]);
+        amplitude(free + of_dampers.sum::<Complex<f64>>())
+    };
+    let of_damper = |(stroke, x): (&Complex<f64>, &Complex<f64>)| amplitude(stroke * x);
+    ModalAmplitudes {
+        places: places.map(at).collect(),
+        strokes: strokes.iter().zip(moved.iter()).map(of_damper).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::{ModalAbsorber, ModalParameters, Mode};
+
+    /// What is put together beforehand is what is solved for at once, bit by bit; a damper elsewhere was not seen.
+    #[test]
+    fn what_dampers_see_is_the_response() {
+        let shapes = [[1.0, -0.4], [0.3, 1.0], [-0.2, 0.7]];
+        let mode = |frequency: f64, k: usize| Mode {
+            frequency,
+            damping_ratio: 0.01,
+            mass: 3.0,
+            forcing: 0.2,
+            participation: 0.4,
+            shape: vec![shapes[0][k]],
         };
-        ModalAmplitudes {
-            places: self.places.iter().map(at).collect(),
-            strokes: dampers
-                .iter()
-                .zip(moved.iter())
-                .map(|(of, x)| amplitude(stroke(of) * x))
-                .collect(),
+        let absorber = ModalAbsorber { mass: 0.1, clearance: 1.0, restitution: 0.5 };
+        for frequency_ratio in [0.97, 2.31] {
+            let parameters = ModalParameters {
+                modes: vec![mode(1.0, 0), mode(2.3, 1)],
+                absorbers: vec![absorber],
+                frequency_ratio,
+                base_amplitude: 0.3,
+            };
+            let system = ModalSystem::new(parameters).expect("valid");
+            let response = ModalResponse::of(&system, &shapes.map(Vec::from));
+            let seen = response.seen_from(&[0, 2]);
+            let damper = |place: usize, frequency: f64| ModalDamper {
+                mass: 0.1,
+                frequency,
+                damping_ratio: 0.1,
+                shape: shapes[place].to_vec(),
+            };
+            let both = [damper(2, 0.98), damper(0, 2.2)];
+            assert_eq!(seen.with(&both, &[2, 0]), Some(response.with(&both)));
+            assert_eq!(seen.with(&both[..1], &[2]), Some(response.with(&both[..1])));
+            assert_eq!(seen.with(&[], &[]), Some(response.with(&[])));
+            assert_eq!(seen.with(&[damper(1, 1.0)], &[1]), None);
         }
     }
 }
