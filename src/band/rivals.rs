@@ -28,6 +28,11 @@ impl Rivals {
         Self { bare: along.largest(bare_amplitude), damper, damped: along.damped(damper) }
     }
 
+    /// The same with the damper that lets the structure move least, whatever is asked.
+    pub fn of_displacement(band: &Band) -> Self {
+        Self::along(band, &SineLimits::default())
+    }
+
     /// What the damper comes to along the same band where the structure's natural frequency is `factor` times as high, and
     /// nobody told it; none where there is no such structure.
     pub fn damped_off(&self, band: &Band, factor: f64) -> Option<Damped> {
@@ -55,10 +60,6 @@ mod tests {
         .expect("valid")
     }
 
-    fn along(band: &Band) -> Rivals {
-        Rivals::along(band, &SineLimits::default())
-    }
-
     fn around_resonance(base: System) -> Band {
         Band { base, over: BandOver::Frequency, range: [0.7, 1.3], spectrum: Vec::new() }
     }
@@ -70,7 +71,8 @@ mod tests {
     #[test]
     fn the_design_of_an_undamped_oscillator_is_den_hartogs_but_for_what_he_neglects() {
         for mu in [0.005, 0.02, 0.08] {
-            let rivals = along(&around_resonance(system(mu, 0.0, Excitation::Force)));
+            let rivals =
+                Rivals::of_displacement(&around_resonance(system(mu, 0.0, Excitation::Force)));
             let height = (1.0 + 2.0 / mu).sqrt();
             assert!((rivals.damped.amplitude / height - 1.0).abs() < 4e-3, "{mu} {rivals:?}");
             let den_hartog = TunedMassDamper::den_hartog(mu);
@@ -88,7 +90,7 @@ mod tests {
             [(0.015, 0.004, Excitation::Force), (0.01, 0.02, Excitation::BaseDisplacement)]
         {
             let band = around_resonance(system(mu, zeta, excitation));
-            let Rivals { damper, damped, .. } = along(&band);
+            let Rivals { damper, damped, .. } = Rivals::of_displacement(&band);
             for (tuning, damping) in
                 [(0.99, 1.0), (1.01, 1.0), (1.0, 0.9), (1.0, 1.1), (0.995, 1.05)]
             {

@@ -113,7 +113,7 @@ impl Survey {
 
     /// The largest amplitude with the damper that lets the structure move least, whatever is asked.
     pub fn least_moved(&self) -> f64 {
-        let by_any = || Rivals::along(self.band(), &SineLimits::default()).damped.amplitude;
+        let by_any = || Rivals::of_displacement(self.band()).damped.amplitude;
         match self.asked.is_of_displacement() {
             true => self.rivals().damped.amplitude,
             false => *self.least_moved.get_or_init(by_any),

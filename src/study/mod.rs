@@ -16,7 +16,6 @@ pub mod stretches;
 use crate::analysis::{Analysis, AnalysisError};
 use crate::band::{Band, Rivals, Survey};
 use crate::case::Case;
-use crate::dampers::SineLimits;
 use crate::executor::Executor;
 use crate::flights::DrivenError;
 use crate::motions::{DiagramError, Effort, Measured, Motion, Motions, at_rest, measured};
@@ -173,7 +172,7 @@ impl CaseStudy {
             band: None,
             averages: None,
             simulated: false,
-            rivals: Rivals::along(&Band::point(system), &SineLimits::default()),
+            rivals: Rivals::of_displacement(&Band::point(system)),
             rest: None,
             deviations: None,
             exact: FullSystem::of(system),

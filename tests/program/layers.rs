@@ -152,6 +152,7 @@ const ROOMS: &[(&str, &[&str])] = &[
             "band",
             "case",
             "contact",
+            "dampers",
             "linear",
             "measure",
             "method",
