@@ -183,7 +183,9 @@ impl Read<'_> {
         let system = &self.case.system;
         let of_amplitude =
             self.case.band.as_ref().is_some_and(|one| one.over == BandOver::Amplitude);
-        if of_amplitude || self.case.design.scene() != Scene::Steady {
+        // What has no unit has none that is wrong.
+        let is_asked = self.case.design.is_physical() && !of_amplitude;
+        if !is_asked || self.case.design.scene() != Scene::Steady {
             return None;
         }
         let zeta = 0.5 * system.mass_ratio() * system.damping();
@@ -313,15 +315,14 @@ pub(super) fn resonant(moved: f64, damping_ratio: f64) -> f64 {
 /// do.
 pub(super) fn far_from_walls(most: f64) -> Option<(String, &'static str, &'static str)> {
     let [least, largest] = MOVES;
+    let label = match most {
+        short if short > 0.0 && short < least => "no wall is ever reached",
+        long if long > largest && long.is_finite() => "walls that are hardly apart beside that",
+        _ => return None,
+    };
+    let message = format!("the structure without absorbers moves at most {}", times(most, "that"));
     let meant = "check its unit: an absorber acts where the structure moves by about a quarter of its clearance to some times that";
-    let moves = "the structure without absorbers moves at most";
-    if most < least && most > 0.0 {
-        let message = format!("{moves} {}", times(most, "that"));
-        return Some((message, "no wall is ever reached", meant));
-    }
-    let message = || format!("{moves} {}", times(most, "that"));
-    (most > largest && most.is_finite())
-        .then(|| (message(), "walls that are hardly apart beside that", meant))
+    Some((message, label, meant))
 }
 
 /// What a frequency was meant to be, that is `ratio` times the one it should be near.

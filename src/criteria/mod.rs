@@ -169,8 +169,8 @@ pub fn settings(case: &Case) -> SurveySettings {
 /// What is asked at most of a structure that moves in sines, over the clearance and in fast time.
 pub fn sine_limits(case: &Case) -> SineLimits {
     let units = case.units();
-    let at_most = case.criteria.iter().filter(|one| one.relation == Relation::AtMost);
-    SineLimits::of(at_most.filter_map(|one| {
+    let limits = case.criteria.iter().filter(|one| one.limits_sines());
+    SineLimits::of(limits.filter_map(|one| {
         let kind = one.measure.kind(Device::Damper)?;
         Some((one.measure, one.limit / units.number(kind.dimension, 1.0)))
     }))
@@ -218,6 +218,11 @@ impl Criterion {
             Measure::NoCoexistence => 1.0,
             _ => self.limit.max(f64::MIN_POSITIVE),
         }
+    }
+
+    /// Whether it limits what a structure does that moves in sines, so that a linear device may be designed for it.
+    pub(crate) fn limits_sines(&self) -> bool {
+        self.relation == Relation::AtMost && self.measure.is_of_sines()
     }
 
     /// What a value is of what is allowed: 1 at the limit, more where it is missed.

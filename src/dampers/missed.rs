@@ -8,16 +8,22 @@ use crate::system::System;
 /// by a little more is not worth several times the vibration.
 const BESIDE: f64 = 0.1;
 
-/// What a design of dampers makes small: by how much limits are [`missed`], of `over` of what they allow, and where some are of
-/// something else than displacement a little of the largest displacement, over that of the structure alone; without limits that
+/// What a design of dampers makes small: by how much limits are [`missed`], each with what comes of what it allows, and where some are
+/// of something else than displacement a little of the largest displacement, over that of the structure alone; without limits that
 /// displacement.
-pub fn missed_with(over: &[f64], others: bool, [peak, bare]: [f64; 2]) -> f64 {
-    if over.is_empty() {
+pub fn missed_with(limits: &[(Measure, f64)], [peak, bare]: [f64; 2]) -> f64 {
+    if limits.is_empty() {
         return peak;
     }
+    let over: Vec<f64> = limits.iter().map(|(_, over)| *over).collect();
     // What nothing limits alone is nothing to compare with.
-    let beside = others && bare.is_finite();
-    missed(over) + if beside { BESIDE * peak / bare } else { 0.0 }
+    let beside = bare.is_finite() && !limits.iter().all(|(of, _)| is_of_displacement(*of));
+    missed(&over) + if beside { BESIDE * peak / bare } else { 0.0 }
+}
+
+/// Whether the smallest displacement leaves it most room.
+fn is_of_displacement(of: Measure) -> bool {
+    matches!(of, Measure::Peak | Measure::Rms)
 }
 
 /// Limits of what a structure of one mode does that moves in sines, by which its damper is designed: each measure with the most that
@@ -28,9 +34,9 @@ pub struct SineLimits(Vec<(Measure, f64)>);
 impl SineLimits {
     /// Of these limits; of displacement alone they ask for what nobody asks for, the smallest one.
     pub fn of(limits: impl Iterator<Item = (Measure, f64)>) -> Self {
-        let all: Vec<(Measure, f64)> = limits.filter(|(of, _)| of.is_of_sines()).collect();
-        let others = all.iter().any(|(of, _)| !matches!(of, Measure::Peak | Measure::Rms));
-        Self(if others { all } else { Vec::new() })
+        let all: Vec<(Measure, f64)> = limits.collect();
+        let is_of_one = all.iter().all(|(of, _)| is_of_displacement(*of));
+        Self(if is_of_one { Vec::new() } else { all })
     }
 
     /// Whether displacement alone is asked for.
@@ -40,10 +46,11 @@ impl SineLimits {
 
     /// [`missed_with`] along a band of a structure with a damper that lets it move by this amplitude.
     pub fn missed(&self, along: &BandSystems<'_>, amplitude: impl Fn(&System) -> f64) -> f64 {
-        let over = |(of, most): &(Measure, f64)| of.largest_of_sines(along, &amplitude) / most;
-        let over: Vec<f64> = self.0.iter().map(over).collect();
+        let over =
+            |(of, most): &(Measure, f64)| (*of, of.largest_of_sines(along, &amplitude) / most);
+        let over: Vec<(Measure, f64)> = self.0.iter().map(over).collect();
         let bare = if over.is_empty() { f64::NAN } else { along.largest(bare_amplitude).1 };
-        missed_with(&over, true, [along.largest(&amplitude).1, bare])
+        missed_with(&over, [along.largest(&amplitude).1, bare])
     }
 }
 

@@ -117,8 +117,6 @@ const FINEST: f64 = 0.25;
 const NARROWEST: f64 = 1.0 / 4096.0;
 /// Relative distance up to which two frequencies are one.
 const SAME: f64 = 1e-12;
-/// How far beside the frequency of an undamped mode it is looked at, over it.
-const BESIDE: f64 = 1e-6;
 /// Even steps that are longer than this, over a mode's frequency, may step over its resonance: it is then looked at beside it as well.
 const COARSE: f64 = 0.03;
 const CLOSE: [f64; 6] = [-0.1, -0.05, -0.025, 0.025, 0.05, 0.1];
@@ -132,8 +130,7 @@ pub fn seconds(case: &ModalCase) -> f64 {
         let [from, to] = load.range_hz;
         let most = first_and(AlongEffort::of(case).further, case, load);
         let places = if from < to { 0.5 * most as f64 } else { 1.0 };
-        let beside = steady(case, load, load.centre(case));
-        let Ok(system) = case.system(load, beside) else { return 0.0 };
+        let Ok(system) = case.system(load, load.centre(case)) else { return 0.0 };
         f64::from(case.starts_of(load)) * places * longest_flight(&system, case.periods)
     };
     let is_undamped = case.modes.iter().any(|mode| mode.damping_ratio == 0.0);
@@ -148,11 +145,6 @@ pub fn seconds_of_flight(case: &ModalCase, periods: f64) -> f64 {
     const IMPACTS: f64 = 3.0;
     let size = (case.modes.len() * case.absorbers.len()) as f64;
     periods * IMPACTS * IMPACT * size
-}
-
-/// A frequency in Hz, or one beside it: at its own an undamped mode has no steady motion.
-pub(super) fn steady(case: &ModalCase, load: &Load, at: f64) -> f64 {
-    if case.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) }
 }
 
 /// A search along a load.
@@ -198,7 +190,7 @@ impl Line for OfLoad<'_> {
     fn finest(&self) -> f64 {
         let Self { case, load, .. } = *self;
         let [from, to] = load.range_hz;
-        let system = case.system(load, steady(case, load, load.centre(case)));
+        let system = case.system(load, load.centre(case));
         let scale = |(k, mode): (usize, &StructuralMode)| {
             let added = system.as_ref().map_or(0.0, |system| {
                 let of = &system.modes()[k];
@@ -237,8 +229,8 @@ impl Line for OfLoad<'_> {
             let Site { at, further, patience, .. } = &sites[k];
             let (periods, patience) = (case.periods, patience * full);
             let effort = ModalEffort { starts, periods, patience, accuracy: None };
-            AtFrequency::of(case, load, steady(case, load, *at), effort, further)
-                .map(|found| (k, found))
+            let at = case.steady(load, *at);
+            AtFrequency::of(case, load, at, effort, further).map(|found| (k, found))
         };
         map(self.on, what, sites.len(), look).into_iter().collect()
     }
@@ -398,8 +390,7 @@ fn within(case: &ModalCase, load: &Load) -> Vec<f64> {
 /// Natural frequencies in the range of a load of the structure that carries its absorbers, in Hz.
 fn carried(case: &ModalCase, load: &Load) -> Vec<f64> {
     let [from, to] = load.range_hz;
-    let centre = steady(case, load, load.centre(case));
-    let Ok(system) = case.system(load, centre) else { return Vec::new() };
+    let Ok(system) = case.system(load, load.centre(case)) else { return Vec::new() };
     let all = carried_frequencies(&system).into_iter();
     all.map(|over| over * case.modes[0].frequency_hz).filter(|at| from < *at && *at < to).collect()
 }

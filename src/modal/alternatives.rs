@@ -8,7 +8,7 @@ use super::linear::{
 };
 use super::{ModalAnswer, ModalError};
 use crate::alternatives::{Alternatives, Drifting, Own, Room, compared, compared_by};
-use crate::case::{ActsOn, Criterion, Load, ModalCase, Of, Relation};
+use crate::case::{ActsOn, Criterion, Load, ModalCase, Of};
 use crate::dampers::{Designing, missed_with};
 use crate::executor::Executor;
 use crate::linear::{ModalAmplitudes, ModalDamper, PlacedResponse};
@@ -114,11 +114,9 @@ impl Drifting for DriftedStructure {
     fn cost(&self, dampers: &PlacedDampers) -> [f64; 2] {
         let case = &self.case;
         let on = dampers.on(case, self.factor);
-        let is_asked =
-            |one: &&Criterion| one.relation == Relation::AtMost && one.measure.is_of_sines();
-        let limits: Vec<&Criterion> = case.criteria.iter().filter(is_asked).collect();
-        let (mut over, mut peak) = (vec![0.0_f64; limits.len()], 0.0_f64);
-        let mut stroke = 0.0_f64;
+        let limits = case.criteria.iter().filter(|one| one.limits_sines());
+        let mut over: Vec<(&Criterion, f64)> = limits.map(|one| (one, 0.0)).collect();
+        let [mut peak, mut stroke] = [0.0_f64; 2];
         let most = |all: &[f64]| all.iter().copied().fold(0.0, f64::max);
         for (load, all) in case.loads.iter().zip(&self.along) {
             let mut there: Vec<(f64, ModalAmplitudes)> = all
@@ -139,15 +137,16 @@ impl Drifting for DriftedStructure {
             };
             peak = peak.max(top(&|_, there| most(&there.places)));
             stroke = stroke.max(top(&|_, there| most(&there.strokes)));
-            for (over, one) in over.iter_mut().zip(&limits) {
+            for (one, over) in &mut over {
                 let part = |at: f64, there: &ModalAmplitudes| {
                     asked_of(case, one, there, at).map_or(0.0, |own| one.part(own))
                 };
                 *over = over.max(top(&part));
             }
         }
-        let others = limits.iter().any(|one| one.measure != Measure::Peak);
-        [missed_with(&over, others, [peak, self.bare]), stroke]
+        let over: Vec<(Measure, f64)> =
+            over.into_iter().map(|(of, over)| (of.measure, over)).collect();
+        [missed_with(&over, [peak, self.bare]), stroke]
     }
 
     /// More coarsely than for the verdict, in windows of the usual length.

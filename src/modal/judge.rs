@@ -33,6 +33,11 @@ impl ModalAnswer {
         Worst::of(&scope.each(&peak), &peak)
     }
 
+    /// What each motion that counts, under any load, has of a criterion.
+    pub fn each(&self, case: &ModalCase, asked: &Criterion) -> Vec<Found> {
+        Scope { case, along: &self.along, load: None }.each(asked)
+    }
+
     /// A criterion by what is known.
     pub(super) fn judge(&self, case: &ModalCase, asked: &Criterion) -> Judged {
         let scope = Scope { case, along: &self.along, load: None };

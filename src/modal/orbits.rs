@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use super::ModalError;
-use super::along::steady;
 use super::theory::LoadTheory;
 use crate::case::{Load, ModalCase};
 use crate::executor::{Executor, map};
@@ -72,9 +71,7 @@ pub fn orbits(case: &ModalCase, on: &dyn Executor) -> Result<Vec<LoadOrbits>, Mo
 /// As [`orbits`].
 pub fn at_resonances(case: &ModalCase) -> Result<Vec<LoadOrbits>, ModalError> {
     let all = case.loads.iter().enumerate();
-    let each = all.flat_map(|(load, of)| {
-        of.resonances(case).into_iter().map(move |at| (load, steady(case, of, at)))
-    });
+    let each = all.flat_map(|(load, of)| of.resonances(case).into_iter().map(move |at| (load, at)));
     let found = each.map(|(load, at)| {
         let orbits = antiperiodic_orbits(&case.system(&case.loads[load], at)?);
         let theory = LoadTheory::of(case, (load, at), &orbits);
@@ -126,7 +123,7 @@ pub(super) fn stable_share(case: &ModalCase, load: &Load) -> Result<f64, ModalEr
         return Ok(f64::from(u8::from(attracts)));
     }
     let unit = case.modes[0].frequency_hz;
-    let system = case.system(load, steady(case, load, load.centre(case)))?;
+    let system = case.system(load, load.centre(case))?;
     let found = of(&system, ModalParameter::FrequencyRatio, unit, load.range_hz).found;
     // Of orbits that attract beside one another one is enough.
     let (mut share, mut reached) = (0.0, from);

@@ -214,14 +214,15 @@ impl Load {
     }
 
     /// The natural frequencies of modes in its range, of that which it acts on if it acts on one, in Hz; the middle of the range
-    /// where there is none.
+    /// where there is none. Of an undamped mode one [beside](ModalCase::steady) its own.
     pub fn resonances(&self, case: &ModalCase) -> Vec<f64> {
         let [from, to] = self.range_hz;
         let modes = case.modes.iter().enumerate();
         let acts = |k: usize| !matches!(self.on, ActsOn::Mode(mode) if mode != k);
         let own = modes.filter(|(k, _)| acts(*k)).map(|(_, mode)| mode.frequency_hz);
         let within: Vec<f64> = own.filter(|own| (from..=to).contains(own)).collect();
-        if within.is_empty() { vec![0.5 * (from + to)] } else { within }
+        let all = if within.is_empty() { vec![0.5 * (from + to)] } else { within };
+        all.into_iter().map(|at| case.steady(self, at)).collect()
     }
 
     /// The first of its [`resonances`](Self::resonances).
@@ -368,6 +369,13 @@ impl ModalCase {
     /// The mass that pages are in, in the case's own unit: the first mode's of a reduced case.
     pub fn mass_unit(&self) -> f64 {
         if self.reduced { self.modes[0].mass_kg } else { 1.0 }
+    }
+
+    /// A frequency in Hz of a load, or one beside it: at its own an undamped mode has no steady motion.
+    pub(crate) fn steady(&self, load: &Load, at: f64) -> f64 {
+        /// How far beside, over it.
+        const BESIDE: f64 = 1e-6;
+        if self.system(load, at).is_ok() { at } else { at * (1.0 + BESIDE) }
     }
 
     /// The structure with its absorbers under a load at a frequency in Hz: lengths in m, masses in kg, time `omega_1 t`. Shapes

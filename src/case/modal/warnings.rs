@@ -79,22 +79,21 @@ pub(super) fn of(
 
 /// The most that a load may move a place without absorbers in m, with every mode at its resonance; infinite without damping.
 fn most_moved(case: &ModalCase, load: &Load, place: usize) -> f64 {
-    let of_mode = |(k, mode): (usize, &StructuralMode)| {
+    // Over modal mass and the square of the mode's frequency.
+    let moved = |(k, mode): (usize, &StructuralMode)| {
         let omega = std::f64::consts::TAU * mode.frequency_hz;
-        let force = match load.on {
-            ActsOn::Place(pushed) => mode.shape[pushed] * load.amplitude,
-            ActsOn::Mode(driven) if driven == k => load.amplitude,
-            ActsOn::Modes => mode.forcing * load.amplitude * mode.mass_kg,
+        let over_mass = match load.on {
+            ActsOn::Place(pushed) => mode.shape[pushed] * load.amplitude / mode.mass_kg,
+            ActsOn::Mode(driven) if driven == k => load.amplitude / mode.mass_kg,
             ActsOn::Mode(_) => 0.0,
-            ActsOn::Base => {
-                let moved = mode.participation * load.amplitude;
-                return resonant((mode.shape[place] * moved).abs(), mode.damping_ratio);
-            }
+            ActsOn::Modes => mode.forcing * load.amplitude,
+            ActsOn::Base => mode.participation * load.amplitude * omega * omega,
         };
-        let moved = (mode.shape[place] * force).abs() / (mode.mass_kg * omega * omega);
+        let moved = (mode.shape[place] * over_mass).abs() / (omega * omega);
         if moved > 0.0 { resonant(moved, mode.damping_ratio) } else { 0.0 }
     };
-    case.modes.iter().enumerate().map(of_mode).sum()
+    let base = if load.on == ActsOn::Base { load.amplitude } else { 0.0 };
+    base + case.modes.iter().enumerate().map(moved).sum::<f64>()
 }
 
 struct Read<'a> {

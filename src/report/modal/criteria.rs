@@ -3,13 +3,13 @@
 use serde_json::{Value, json};
 
 use super::{
-    Beside, absorbers, along, alternatives, closed, given, motions, numbers, ranges, simulated,
-    told_of_one, units, warnings,
+    Beside, absorbers, along, alternatives, closed, given, motions, numbers, ranges, told_of_one,
+    units, warnings,
 };
-use crate::case::{ModalCase, Of};
-use crate::criteria::Judged;
+use crate::case::{Criterion, ModalCase, Of};
+use crate::criteria::{Found, Judged, Worst};
 use crate::measure::{Device, Part};
-use crate::modal::{ModalAnswer, largest_of, linear_most};
+use crate::modal::{ModalAnswer, linear_most};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::report::criteria::{Checked, row as criteria_row};
@@ -84,15 +84,21 @@ pub(super) fn elsewhere(
     let told = frequencies.into_iter().filter_map(|at| {
         let there = along.at(at)?;
         let judged: Vec<&Judged> = own().filter(|one| one.at == Some(at)).collect();
+        let found = judged.iter().map(|one| {
+            let mut all = answer.each(case, &one.criterion);
+            all.retain(|found| found.load == load && found.at == Some(at));
+            (&one.criterion, all)
+        });
+        let found: Vec<(&Criterion, Vec<Found>)> = found.collect();
         let mut rows = motions::rows(case, &there.motions);
-        for (row, motion) in rows.iter_mut().zip(&there.motions) {
-            let has = |one: &&Judged| {
-                let measure = one.criterion.measure;
-                let [value, error] = largest_of(case, motion, measure, one.criterion.of)?;
-                let kind = measure.kind(Device::Absorber)?;
-                Some(simulated(kind, value).with_error(error))
+        for (number, row) in rows.iter_mut().enumerate() {
+            let has = |(asked, all): &(&Criterion, Vec<Found>)| {
+                let own = all.iter().filter(|one| one.motion == number).copied();
+                let worst = Worst::of(&own.collect::<Vec<_>>(), asked)?.found;
+                let kind = asked.measure.kind(Device::Absorber)?;
+                Some(Quantity::new(kind, worst.value, worst.known_by).with_error(worst.own))
             };
-            row["has"] = json!(judged.iter().map(has).collect::<Vec<_>>());
+            row["has"] = json!(found.iter().map(has).collect::<Vec<_>>());
         }
         let criteria = judged.iter().map(|one| placed(case, one, row(one, frequency(one))));
         let (at, criteria) = (given(&of::EXCITATION_FREQUENCY, at), criteria.collect::<Vec<_>>());
