@@ -1,30 +1,34 @@
-//! The largest displacement under each load, over the frequency and over the amplitude, and the motion that has it over time, drawn.
+//! The largest displacement under each load, and what else is asked, over the frequency and over the amplitude, drawn; beside it the
+//! motion that has it over time (`over_time.rs`) and the manifolds of absorbers (`manifold.rs`).
+
+mod manifold;
+mod over_time;
 
 use std::cmp::Ordering;
 
 use serde_json::{Value, json};
 
-use super::{Beside, given, units};
+use super::units;
 use crate::case::{ActsOn, Load, ModalCase, Of};
 use crate::criteria::Judged;
 use crate::linear::ModalDamper;
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::modal::{
-    AbsorberManifold, AlongLoad, AtFrequency, ExactAmplitude, GroupTheory, LoadImpact, LoadTheory,
-    ModalAnswer, ModalOptimum, OverForce, OverTime, largest_of, linear_at, linear_places,
+    AlongLoad, AtFrequency, Beside, ModalAnswer, ModalOptimum, OverForce, largest_of, linear_at,
+    linear_places,
 };
-use crate::motions::{ModalMotion, Motions};
-use crate::quantity::Units;
+use crate::motions::ModalMotion;
 use crate::quantity::catalogue as of;
-use crate::report::chart::{AxisOf, FITTED};
+use crate::report::chart::AxisOf;
 use crate::report::figure::{
-    Axis, AxisScale, Color, Dash, Figure, Layer, Layout, MarkedPoint, Marker, Panel, Role, Shape,
-    Style,
+    AxisScale, Color, Dash, Figure, Layer, Layout, Marker, Panel, Role, Shape, Style,
 };
-use crate::report::figures::parts::{manifold, own_points};
 use crate::report::transient::DAMPER;
 use crate::simulation::Reading;
+
+pub(super) use manifold::manifolds;
+pub(super) use over_time::over_time;
 
 /// Several tuned mass dampers.
 const DAMPERS: Style = Style::new(Color::SkyBlue, 1.1, Dash::Solid);
@@ -254,193 +258,6 @@ pub(super) fn forces(
         figure = figure.with_panel(panel.with_heading(heading(case, k, load)));
     }
     in_rows(figure).with_facts("captions/forces", facts.clone())
-}
-
-/// Up to so many impacts of a panel have a tooltip.
-const TOOLTIPS: usize = 40;
-/// Range of a panel over the clearance: its walls have some room behind them.
-const BEHIND_WALLS: f64 = 1.35;
-/// Height of a panel, in that of one of several absorbers of a load: where there is one.
-const OF_ONE: f64 = 1.4;
-
-/// The motion in which the structure moves farthest under each load, over time: its displacement, and beside that each absorber between
-/// its walls.
-pub(super) fn over_time(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure {
-    let units = units(case);
-    let mut facts = facts.clone();
-    facts["over_time"] = beside.over_time.iter().map(|one| told_over_time(case, one)).collect();
-    let mut figure = Figure::new("motion", "").with_facts("captions/motion-of-loads", facts);
-    let (mut cells, mut heights) = (Vec::new(), Vec::new());
-    for one in &beside.over_time {
-        let (row, count) = (heights.len(), one.absorbers.len());
-        heights.extend(vec![if count > 1 { 1.0 } else { OF_ONE }; count]);
-        cells.push([0, row, 1, count]);
-        cells.extend((0..count).map(|k| [1, row + k, 1, 1]));
-        figure = figure.with_panel(displaced(case, units, one));
-        let each = (0..count).map(|k| between_walls(case, units, one, k, row + k == 0));
-        figure = each.fold(figure, Figure::with_panel);
-    }
-    let height = 50.0 + 165.0 * heights.iter().sum::<f64>();
-    figure.with_size(860, height as u32).with_layout(Layout::cells(&[1.0; 2], &heights, &cells))
-}
-
-/// How far the manifold is drawn beyond symmetry breaking and all points, over the absorber's own clearance.
-const BEYOND: f64 = 1.15;
-/// Colours of the manifolds of several absorbers.
-const MANIFOLDS: [Color; 4] = [Color::Blue, Color::BluishGreen, Color::Orange, Color::Vermillion];
-
-/// The manifolds of the absorbers in the modes that loads drive, with the fixed points of these and exact orbits; a panel for each.
-pub(super) fn manifolds(case: &ModalCase, beside: &Beside, facts: &Value) -> Figure {
-    let mut figure = Figure::new("sim", "");
-    for found in &beside.theory {
-        let Some(group) = &found.group else { continue };
-        figure = figure.with_panel(manifold_panel(case, found, group));
-    }
-    in_rows(figure).with_facts("captions/sim-of-loads", facts.clone())
-}
-
-fn manifold_panel(case: &ModalCase, found: &LoadTheory, group: &GroupTheory) -> Panel {
-    let units = units(case);
-    let amplitudes = group.points.iter().map(|(amplitude, _)| *amplitude);
-    let highest = amplitudes.chain(found.exact.iter().map(|one| one.amplitude)).fold(0.0, f64::max);
-    // Points of the manifold, of fixed points and of orbits with the absorber's own amplitude.
-    let of_point =
-        |one: &AbsorberManifold, amplitude: f64| Some([one.absorber_at(amplitude)?, amplitude]);
-    let of_orbit =
-        |one: &AbsorberManifold, of: &ExactAmplitude| [of.absorbers[one.absorber], of.amplitude];
-    let curves = group.manifolds.iter().map(|one| {
-        let breaking = one.manifold.symmetry_breaking.absorber_amplitude;
-        let reached = one.manifold.stable_absorber(highest / one.seen).unwrap_or_default();
-        let orbits = found.exact.iter().map(|of| of_orbit(one, of)[0] / one.clearance);
-        let last = BEYOND * orbits.chain([breaking, reached]).fold(0.0, f64::max);
-        manifold(&one.manifold, last)
-            .map(|line| line.into_iter().map(|at| one.at(at)).collect::<Vec<_>>())
-    });
-    let curves: Vec<[Vec<[f64; 2]>; 2]> = curves.collect();
-    let right = curves.iter().flatten().flatten().map(|[x, _]| *x).fold(0.0, f64::max);
-    let top = curves.iter().flatten().flatten().map(|[_, y]| *y).fold(0.0, f64::max);
-    let x = AxisOf::si(units, &of::ABSORBER_AMPLITUDE).axis([0.0, right]);
-    let y = AxisOf::si(units, &of::OSCILLATOR_AMPLITUDE).axis([0.0, top]);
-    let at = units.text(&of::EXCITATION_FREQUENCY, found.at);
-    let on = heading(case, found.load, &case.loads[found.load]);
-    let mut panel = Panel::new(x, y).with_heading(format!(
-        "{on}, {at}: mode {} at {}",
-        found.mode + 1,
-        place(case, found.place)
-    ));
-    for (k, ([unstable, stable], one)) in curves.into_iter().zip(&group.manifolds).enumerate() {
-        let (thin, thick, name) = match case.absorbers.len() {
-            1 => (Role::Unstable.style(), Role::Stable.style(), "stable".to_owned()),
-            _ => {
-                let color = MANIFOLDS[k % MANIFOLDS.len()];
-                let style = |width, dash| Style::new(color, width, dash);
-                let name = format!("absorber {}", one.absorber + 1);
-                (style(1.1, Dash::Dashed), style(2.2, Dash::Solid), name)
-            }
-        };
-        panel = panel
-            .with(Layer::curve(thin, unstable))
-            .with(Layer::curve(thick, stable).labelled(name));
-    }
-    for (stable, (marker, color)) in [true, false].into_iter().zip(own_points()) {
-        let what = if stable { "stable" } else { "unstable" };
-        let points = group.points.iter().filter(|(_, one)| *one == stable);
-        let points = points.flat_map(|(amplitude, _)| {
-            group.manifolds.iter().filter_map(|one| of_point(one, *amplitude))
-        });
-        let points: Vec<[f64; 2]> = points.collect();
-        if !points.is_empty() {
-            let layer = Layer::marked(marker.sized(9.0), color, points);
-            panel = panel.with(layer.labelled(format!("{what} fixed point")));
-        }
-    }
-    for attracts in [true, false] {
-        let orbits = found.exact.iter().filter(|one| one.attracts == attracts);
-        let orbits = orbits.flat_map(|of| group.manifolds.iter().map(|one| of_orbit(one, of)));
-        let orbits: Vec<[f64; 2]> = orbits.collect();
-        if !orbits.is_empty() {
-            let what = if attracts { "stable" } else { "unstable" };
-            let (marker, filled) = (Marker::hollow(Shape::Circle), Marker::filled(Shape::Circle));
-            let marker = if attracts { filled } else { marker };
-            let layer = Layer::marked(marker.sized(6.0), Role::ExactOrbit.color(), orbits);
-            panel = panel.with(layer.labelled(format!("{what} exact orbit")));
-        }
-    }
-    panel
-}
-
-/// What its caption says of one.
-fn told_over_time(case: &ModalCase, one: &OverTime) -> Value {
-    let absorbers = one.absorbers.iter();
-    json!({
-        "load": one.load + 1,
-        "at": given(&of::EXCITATION_FREQUENCY, one.at),
-        "motion": Motions::id(one.motion),
-        "is_worst": one.is_worst,
-        "repeats": one.repeats,
-        "place": case.places[one.place],
-        "absorbers": absorbers.clone().map(|j| j + 1).collect::<Vec<_>>(),
-        "there": absorbers.clone().all(|j| case.absorbers[*j].place == one.place),
-        "periods": one.periods,
-        "impacts": one.impacts.len(),
-    })
-}
-
-/// An axis of time.
-fn time(units: Units, of_motion: &OverTime) -> Axis {
-    let end = of_motion.times_s.last().copied().unwrap_or(1.0);
-    AxisOf::si(units, &of::TIME).axis([0.0, end])
-}
-
-/// The displacement of the place that moves farthest.
-fn displaced(case: &ModalCase, units: Units, of_motion: &OverTime) -> Panel {
-    let OverTime { times_s, displacement_m, load, at, place, .. } = of_motion;
-    let line = times_s.iter().zip(displacement_m).map(|(at, x)| [*at, *x]).collect();
-    let frequency = units.text(&of::EXCITATION_FREQUENCY, *at);
-    // Beside several others its number is enough.
-    let on = match case.loads.len() {
-        1 => heading(case, *load, &case.loads[*load]),
-        _ => format!("load {}", load + 1),
-    };
-    Panel::new(time(units, of_motion), AxisOf::si(units, &of::DISPLACEMENT).axis(FITTED))
-        .with(Layer::curve(Role::Simulation, line))
-        .with_heading(format!("{}, {on}, {frequency}", self::place(case, *place)))
-}
-
-/// One of the absorbers that are shown between its walls; what is drawn is `named` in one panel.
-fn between_walls(
-    case: &ModalCase,
-    units: Units,
-    of_motion: &OverTime,
-    index: usize,
-    named: bool,
-) -> Panel {
-    let OverTime { times_s, gaps_m, absorbers, impacts, .. } = of_motion;
-    let number = absorbers[index];
-    let clearance = case.absorbers[number].clearance_m;
-    let most = BEHIND_WALLS * clearance;
-    let y = AxisOf::si(units, &of::RELATIVE_DISPLACEMENT).axis([-most, most]);
-    let line = times_s.iter().zip(&gaps_m[index]).map(|(at, gap)| [*at, *gap]).collect();
-    let own: Vec<&LoadImpact> = impacts.iter().filter(|one| one.absorber == number + 1).collect();
-    let mark = |one: &&LoadImpact| {
-        let [time, speed] = [(&of::TIME, one.time_s), (&of::IMPACT_SPEED, one.speed())]
-            .map(|(kind, value)| units.text(kind, value));
-        let tip = (own.len() <= TOOLTIPS).then(|| format!("impact: t = {time}, speed {speed}"));
-        let mark = MarkedPoint::new(one.time_s, one.side.sign() * clearance);
-        MarkedPoint { tooltip: tip, ..mark }
-    };
-    let marks = Layer::points(Role::Impact, own.iter().map(mark));
-    let wall = Layer::horizontal(clearance, Role::Guide);
-    let [wall, marks] = match named {
-        true => [wall.labelled("walls"), marks.labelled("impacts")],
-        false => [wall, marks],
-    };
-    Panel::new(time(units, of_motion), y)
-        .with(wall)
-        .with(Layer::horizontal(-clearance, Role::Guide))
-        .with(Layer::curve(Role::Simulation, line))
-        .with(marks)
-        .with_heading(format!("absorber {}", number + 1))
 }
 
 /// The largest displacement of any place.
