@@ -214,7 +214,7 @@ impl Load {
     }
 
     /// The natural frequencies of modes in its range, of that which it acts on if it acts on one, in Hz; the middle of the range
-    /// where there is none. Of an undamped mode one [beside](ModalCase::steady) its own.
+    /// where there is none. Of an undamped mode one beside its own.
     pub fn resonances(&self, case: &ModalCase) -> Vec<f64> {
         let [from, to] = self.range_hz;
         let modes = case.modes.iter().enumerate();
