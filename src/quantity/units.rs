@@ -7,6 +7,7 @@ use std::ops::Deref;
 
 use super::Quantity;
 use super::catalogue::{Dimension, Kind};
+use super::unit::Unit;
 use crate::method::Method;
 use crate::system::STANDARD_GRAVITY;
 use crate::system::Scales;
@@ -21,13 +22,15 @@ pub struct Units {
     us: bool,
     /// Whether accelerations on pages are in g.
     in_g: bool,
+    /// A dimension whose numbers are in a unit of their own.
+    told_in: Option<(Dimension, Unit)>,
     /// Acceleration of the oscillator at the top of an impact's pulse, over the relative speed of the impact.
     pulse: Option<f64>,
 }
 
 impl From<Scales> for Units {
     fn from(scales: Scales) -> Self {
-        Self { scales, us: false, in_g: false, pulse: None }
+        Self { scales, us: false, in_g: false, told_in: None, pulse: None }
     }
 }
 
@@ -124,12 +127,12 @@ impl Units {
     /// Those of a page of quantities, with a clearance in metres, of an oscillator of 1 kg and 1 rad/s.
     pub const fn physical(clearance_m: f64) -> Self {
         let scales = Scales { physical: true, clearance: clearance_m, ..Scales::REDUCED };
-        Self { scales, us: false, in_g: false, pulse: None }
+        Self { scales, us: false, in_g: false, told_in: None, pulse: None }
     }
 
     /// Those of a reduced design whose clearance is 1.
     pub const fn reduced() -> Self {
-        Self { scales: Scales::REDUCED, us: false, in_g: false, pulse: None }
+        Self { scales: Scales::REDUCED, us: false, in_g: false, told_in: None, pulse: None }
     }
 
     /// The same with pages in inches and pounds; documents stay in SI, and a reduced design in its own units.
@@ -142,6 +145,13 @@ impl Units {
     #[must_use]
     pub const fn in_g(self) -> Self {
         Self { in_g: true, ..self }
+    }
+
+    /// The same with numbers of a dimension in the unit of this symbol, where it has such a one.
+    #[must_use]
+    pub fn told_in(self, dimension: Dimension, symbol: &str) -> Self {
+        let unit = dimension.accepted_units().find(|unit| unit.symbol == symbol);
+        Self { told_in: unit.map(|unit| (dimension, *unit)), ..self }
     }
 
     /// What documents call them: SI, or a reduced design's.

@@ -8,6 +8,9 @@ use super::Units;
 /// Smallest and largest number that is shown in a page's own unit of length before another prefix is taken.
 const PAGE_RANGE: [f64; 2] = [0.1, 1000.0];
 
+/// The same of a unit that an author chose.
+const TOLD_RANGE: [f64; 2] = [1e-3, 1e4];
+
 /// Units that stay below 1, down to [`LEAST_PLAIN`]: of a tower people say 0.79 Hz, not 790 mHz.
 const PLAIN: [&str; 2] = ["Hz", "N s/m"];
 const LEAST_PLAIN: f64 = 0.1;
@@ -51,6 +54,13 @@ impl Units {
             return own;
         }
         let size = value.abs();
+        let [least, most] = TOLD_RANGE;
+        if let Some((of, unit)) = self.told_in
+            && of == dimension
+            && (size == 0.0 || (least..most).contains(&(size / unit.size)))
+        {
+            return unit;
+        }
         let [least, most] = PAGE_RANGE;
         if dimension == Dimension::Length
             && (size == 0.0 || (least..most).contains(&self.length_number(size)))
@@ -184,6 +194,26 @@ fn signed(text: &str, value: f64) -> String {
 mod tests {
     use super::*;
     use crate::quantity::catalogue as of;
+
+    /// A limit of 0.25 m beside lengths in mm, of 300 um, and of what is too far away for its unit.
+    #[test]
+    fn a_dimension_may_be_told_in_a_unit_of_its_own() {
+        let units = Units::physical(7.5e-3);
+        for (symbol, value, text) in [
+            ("m", 0.211, "0.211 m"),
+            ("µm", 2.2e-4, "220 µm"),
+            ("in", 2.54e-3, "0.100 in"),
+            ("m", 3.9e-4, "0.390 mm"),
+            ("m/s", 0.211, "211 mm"),
+        ] {
+            assert_eq!(units.told_in(Dimension::Length, symbol).text(&of::PEAK, value), text);
+        }
+        let told = units.told_in(Dimension::Length, "m");
+        assert_eq!(told.text(&of::IMPACT_SPEED, 0.0741), "74.1 mm/s");
+        assert_eq!(Dimension::Length.written_unit("<= 300 um"), Some("µm"));
+        assert_eq!(Dimension::Velocity.written_unit(">=1e-3 m/s"), Some("m/s"));
+        assert_eq!(Dimension::Length.written_unit("<= 3"), None);
+    }
 
     #[test]
     fn a_prefix_keeps_the_number_between_1_and_1000() {

@@ -92,6 +92,8 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
             (_, Relation::Equal) => "equal",
         },
         "limit": kind.map(|kind| Quantity::new(kind, *limit, Method::Given)),
+        // In which that is written: its cells are in one unit.
+        "unit": kind.and_then(|kind| kind.dimension.written_unit(as_written)),
         "found": judged.found.zip(measure.kind_under(judged.records)).map(|(value, kind)| {
             Quantity::new(kind, value, judged.decided_by).with_error(error)
         }),
