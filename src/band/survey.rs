@@ -9,7 +9,7 @@ use crate::analysis::{Strip, Zone};
 use crate::dampers::SineLimits;
 use crate::executor::Executor;
 use crate::linear::bare_along;
-use crate::motions::{Along, Effort, Extreme, Motion, Motions, Value, along};
+use crate::motions::{Along, Effort, Extreme, Misses, Motion, Motions, Value, along, along_until};
 use crate::simulation::StartError;
 
 /// What a survey looks at.
@@ -68,9 +68,28 @@ impl Survey {
         own: Option<&Motions>,
         executor: &dyn Executor,
     ) -> Result<Self, StartError> {
-        let SurveySettings { effort, extremes, count_rest, asked } = settings;
-        Ok(Self {
-            motions: along(band, extremes, own, effort.as_ref(), executor)?,
+        let SurveySettings { effort, extremes, .. } = settings;
+        Ok(Self::with(settings, along(band, extremes, own, effort.as_ref(), executor)?))
+    }
+
+    /// The same that ends with the first place at which something is missed, if one is given that says so.
+    ///
+    /// # Errors
+    /// As [`Survey::of`].
+    pub fn until(
+        band: &Band,
+        settings: &SurveySettings,
+        misses: Option<&Misses<'_, Motions>>,
+        executor: &dyn Executor,
+    ) -> Result<Self, StartError> {
+        let SurveySettings { effort, extremes, .. } = settings;
+        let motions = along_until(band, extremes, None, effort.as_ref(), misses, executor)?;
+        Ok(Self::with(settings, motions))
+    }
+
+    fn with(SurveySettings { count_rest, asked, .. }: &SurveySettings, motions: Along) -> Self {
+        Self {
+            motions,
             count_rest: *count_rest,
             asked: asked.clone(),
             zones: OnceLock::new(),
@@ -78,7 +97,13 @@ impl Survey {
             rivals: OnceLock::new(),
             least_moved: OnceLock::new(),
             smallest_gap: OnceLock::new(),
-        })
+        }
+    }
+
+    /// The same with the motions at one of its places alone.
+    #[must_use]
+    pub fn only(&self, at: f64) -> Self {
+        Self { motions: self.motions.only(at), ..self.clone() }
     }
 
     /// The band.

@@ -10,13 +10,13 @@ pub mod contact;
 mod found;
 mod scope;
 
-use crate::band::{Survey, SurveySettings};
+use crate::band::{Rivals, Survey, SurveySettings};
 use crate::case::{Case, Criterion, Of, Relation};
 use crate::dampers::SineLimits;
-use crate::linear::{BandSystems, bare_amplitude};
+use crate::linear::{BandSystems, bare_along, bare_amplitude};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
-use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, RestKind};
+use crate::motions::{Along, Extreme, Fact, Motion, MotionKind, Motions, RestKind};
 use crate::system::MOST_MODES;
 use crate::transient::{Sample, Study};
 
@@ -205,6 +205,28 @@ pub fn open(case: &Case, survey: &Survey, judged: &[Judged], known: &[f64]) -> V
         }
     }
     open
+}
+
+/// Says of a place of a case's range whether a motion there that counts does not hold with its own error, or still settles: not
+/// every criterion can hold then.
+pub fn misses(case: &Case) -> impl Fn(&Motions) -> bool + '_ {
+    let (range, units) = (case.range(), case.units());
+    let against = |one: &Criterion| match one.measure.against() {
+        Some(Device::Without) => bare_along(&range).1,
+        Some(Device::Damper) => Rivals::of_displacement(&range).damped.amplitude,
+        _ => f64::NAN,
+    };
+    let of_motions = case.criteria.iter().filter(|one| one.measure.is_of_motions());
+    let asked: Vec<(&Criterion, f64)> = of_motions.map(|one| (one, against(one))).collect();
+    move |here: &Motions| {
+        let misses = |motion: &Motion, (one, against): &(&Criterion, f64)| {
+            let found = one.measure.of_motion(motion, &|fact| fact.of(motion), *against, &units);
+            let judged = found.map(|[value, error]| one.judged(Some(value), error, method(motion)));
+            judged.is_some_and(|of| !motion.settled() || of.outcome() != Outcome::Holds)
+        };
+        here.counting(case.count_inactive)
+            .any(|(_, motion)| asked.iter().any(|one| misses(motion, one)))
+    }
 }
 
 /// Decibels that count as much as missing a limit by all of it: a factor of 2.

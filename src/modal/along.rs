@@ -314,7 +314,11 @@ impl AlongLoad {
             let most = first_and(effort.further, case, load);
             let most_in_full = effort.most_in_full * modes_within(case, load);
             let (own, tolerance, are_dear) = (None, effort.tolerance, true);
-            sampled(&line, Sampling { first, own, worst, most, tolerance, most_in_full, are_dear })?
+            let misses = None;
+            let sampling =
+                Sampling { first, own, worst, most, tolerance, most_in_full, are_dear, misses };
+            let (places, between, _) = sampled(&line, sampling)?;
+            (places, between)
         } else {
             let starts = case.starts_at_one.min(effort.at_one);
             let patience = effort.patience[1];

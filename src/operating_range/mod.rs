@@ -219,7 +219,8 @@ impl<'a, C: Varies> Number<'a, C> {
     /// Goes outwards to where all criteria hold, if they do in the case itself, and unless that is all that is asked for on to
     /// where one fails.
     fn search(&self, own: Together, least: Together, up: bool) -> Result<Reach, C::Error> {
-        let case = Looked { at: self.own, outcome: own, full: true, blurred: false, step: 0.0 };
+        let case =
+            Looked { at: self.own, outcome: own, how: Depth::AsCheck, blurred: false, step: 0.0 };
         let near = self.varied.near(self.case.tolerance(self.varied), self.own, up);
         let steps = self.steps(&near, up);
         let (looked, reached) = (vec![case], Vec::new());
@@ -236,7 +237,8 @@ impl<'a, C: Varies> Number<'a, C> {
         let mut undecided = Vec::new();
         let within = |end: f64| looked.iter().position(|one| one.at == end).unwrap_or_default();
         let told = within(if own == Together::Hold { holds } else { end });
-        let tried = looked[1..=told].iter().filter(|one| one.full).map(|one| one.at).collect();
+        let tried =
+            looked[1..=told].iter().filter(|one| one.is_as_checked()).map(|one| one.at).collect();
         let within = within(end);
         for pair in looked[..=within].windows(2) {
             if pair.iter().any(|one| one.outcome == Together::Undecided) {
@@ -274,12 +276,28 @@ impl<'a, C: Varies> Number<'a, C> {
 struct Looked {
     at: f64,
     outcome: Together,
-    /// Whether that is what `check` says.
-    full: bool,
+    /// How deeply that was looked into.
+    how: Depth,
     /// Whether all that fails does so by less than its error.
     blurred: bool,
     /// The step that it is in.
     step: f64,
+}
+
+impl Looked {
+    /// Whether that is what `check` says: one that was looked into as far as that not all criteria hold may fail there.
+    fn is_as_checked(&self) -> bool {
+        match self.how {
+            Depth::AsCheck => true,
+            Depth::WhetherAllHold => self.outcome == Together::Hold,
+            Depth::OnTheWay => false,
+        }
+    }
+
+    /// Whether `check` says so that it comes to no less than this, or does.
+    fn is_told(&self, least: Together) -> bool {
+        self.is_as_checked() || (self.how == Depth::WhetherAllHold && least == Together::Hold)
+    }
 }
 
 /// A search in one direction.
@@ -308,7 +326,7 @@ impl<C: Varies> Outwards<'_, C> {
         let mut back = 1;
         loop {
             let end = self.end(least);
-            let known = (0..end).rev().find(|k| self.looked[*k].full).unwrap_or_default();
+            let known = (0..end).rev().find(|k| self.looked[*k].is_told(least)).unwrap_or_default();
             if end - known == 1 {
                 break;
             }
@@ -319,15 +337,16 @@ impl<C: Varies> Outwards<'_, C> {
         let end = self.end(least);
         let [known, beyond] = [end - 1, end].map(|k| &self.looked[k]);
         let (middle, step) = (0.5 * (known.at + beyond.at), beyond.step);
-        let there = self.look(middle, step, Depth::AsCheck)?;
+        let there = self.look(middle, step, Depth::telling(least))?;
         self.looked.insert(end, there);
         Ok((self.looked[self.end(least) - 1].at, false))
     }
 
     /// Whether one of the places comes to no less than this as `check` says it; so it is looked at, if it was not.
     fn comes_to(&mut self, k: usize, least: Together) -> Result<bool, C::Error> {
-        if !self.looked[k].full {
-            self.looked[k] = self.look(self.looked[k].at, self.looked[k].step, Depth::AsCheck)?;
+        if !self.looked[k].is_told(least) {
+            let Looked { at, step, .. } = self.looked[k];
+            self.looked[k] = self.look(at, step, Depth::telling(least))?;
         }
         Ok(self.looked[k].outcome >= least)
     }
@@ -337,7 +356,7 @@ impl<C: Varies> Outwards<'_, C> {
         loop {
             let outside = self.end(least);
             if outside == self.looked.len() {
-                if self.step_out()? {
+                if self.step_out(least)? {
                     continue;
                 }
                 return Ok(true);
@@ -345,8 +364,9 @@ impl<C: Varies> Outwards<'_, C> {
             let [inside, beyond] = [outside - 1, outside].map(|k| &self.looked[k]);
             let undecided = beyond.outcome == Together::Undecided;
             // With more starts and longer windows an error may be smaller.
-            if undecided && !beyond.full {
-                self.looked[outside] = self.look(beyond.at, beyond.step, Depth::AsCheck)?;
+            if undecided && !beyond.is_told(least) {
+                let (at, step) = (beyond.at, beyond.step);
+                self.looked[outside] = self.look(at, step, Depth::telling(least))?;
                 continue;
             }
             // Where exactly an error begins to matter is not known any better.
@@ -361,7 +381,7 @@ impl<C: Varies> Outwards<'_, C> {
     }
 
     /// Looks at the next step; whether there is one.
-    fn step_out(&mut self) -> Result<bool, C::Error> {
+    fn step_out(&mut self, least: Together) -> Result<bool, C::Error> {
         let own = self.number.own;
         let last = self.looked.last().map_or(own, |last| last.at);
         let next = self.steps.iter().find(|next| (*next - own).abs() > (last - own).abs());
@@ -369,7 +389,8 @@ impl<C: Varies> Outwards<'_, C> {
         if self.number.with(next).is_none() {
             return Ok(false);
         }
-        let how = if self.near.contains(&next) { Depth::AsCheck } else { Depth::OnTheWay };
+        let is_near = self.near.contains(&next);
+        let how = if is_near { Depth::telling(least) } else { Depth::OnTheWay };
         let there = self.look(next, (next - last).abs(), how)?;
         self.looked.push(there);
         Ok(true)
@@ -388,8 +409,8 @@ impl<C: Varies> Outwards<'_, C> {
         self.reached.retain(|one| one[0] != at);
         self.reached.extend(judged.first().and_then(|first| Some([at, first.found?])));
         let outcome = if judged.is_empty() { Together::Fail } else { Together::of(&judged) };
-        let full = how.of(self.number.case) == Depth::AsCheck;
-        Ok(Looked { at, outcome, full, blurred: is_blurred(&judged), step })
+        let how = how.of(self.number.case);
+        Ok(Looked { at, outcome, how, blurred: is_blurred(&judged), step })
     }
 }
 

@@ -8,7 +8,7 @@ use crate::criteria::{self, Judged};
 use crate::excitation::Transient;
 use crate::executor::Serial;
 use crate::flights::{DrivenError, Places};
-use crate::motions::{BandEffort, Effort};
+use crate::motions::{BandEffort, Effort, Misses, Motions};
 use crate::system::Parameter;
 use crate::transient::Study;
 
@@ -124,12 +124,19 @@ fn judge_band(case: &Case, effort: &Effort, how: Depth) -> Result<Vec<Judged>, D
         Survey::of(&case.range(), &settings, None, &Serial)
     };
     let again = |band: &Band, settings: &SurveySettings| Survey::of(band, settings, None, &Serial);
-    if how == Depth::AsCheck {
-        return Ok(judge_in_contact(case, &survey(*effort)?, *effort, again)?);
+    let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
+    if how != Depth::OnTheWay {
+        let (range, settings) = (case.range(), criteria::settings(case));
+        let misses = criteria::misses(case);
+        let until: Option<&Misses<'_, Motions>> = (how == Depth::WhetherAllHold).then_some(&misses);
+        let found = Survey::until(&range, &settings, until, &Serial)?;
+        if let Some(at) = found.motions.missed_at() {
+            return Ok(criteria::judge(case, &found.only(at)));
+        }
+        return Ok(judge_in_contact(case, &found, *effort, again)?);
     }
     // Most of a search goes into telling a long transient from a motion: first it counts as one, and then places that do not
     // hold by what only a window shows are searched with patience.
-    let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
     let mut found = survey(few.short())?;
     let mut known: Vec<f64> = Vec::new();
     loop {

@@ -1,7 +1,7 @@
 //! What a search for ranges, and a probability, must know of a case.
 
-use super::Varied;
 use super::reliability::Uncertain;
+use super::{Together, Varied};
 use crate::case::{Criterion, Uncertainty};
 use crate::criteria::Judged;
 use crate::system::Parameter;
@@ -11,6 +11,8 @@ use crate::system::Parameter;
 pub enum Depth {
     /// With fewer starts and places, and short windows.
     OnTheWay,
+    /// As `check` does as far as whether all criteria hold: one place at which they do not, searched in full, ends it.
+    WhetherAllHold,
     /// As `check` does.
     AsCheck,
 }
@@ -19,6 +21,11 @@ impl Depth {
     /// That for a case: one that does not take long is always looked into as `check` does.
     pub(super) fn of(self, case: &impl Varies) -> Self {
         if case.is_short() { Self::AsCheck } else { self }
+    }
+
+    /// What tells as `check` does whether a case comes to no less than this.
+    pub(super) fn telling(least: Together) -> Self {
+        if least == Together::Hold { Self::WhetherAllHold } else { Self::AsCheck }
     }
 }
 

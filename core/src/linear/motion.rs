@@ -48,10 +48,9 @@ pub fn released_between(
     oscillations: u64,
 ) -> Linear {
     let duration = TAU / f64::from(STEPS_OF_PERIOD);
-    let rates = matrix(system, damper);
+    let rates: Free = matrix(system, damper).fixed_view::<4, 4>(0, 0).into_owned();
     let step = exponential(rates * duration);
-    let mut state: LinearState =
-        [start.x, start.x_velocity, start.x, start.y_velocity, 0.0, 0.0].into();
+    let mut state = Moving::from([start.x, start.x_velocity, start.x, start.y_velocity]);
     let (amplitudes, settles) = (vec![amplitude(&start)], f64::INFINITY);
     let mut found = Linear { amplitudes, peak: 0.0, stroke: 0.0, settles };
     let mut settling = Settling::to(level);
@@ -59,12 +58,15 @@ pub fn released_between(
     let last = oscillations.saturating_mul(STEPS_OF_PERIOD.into());
     for k in 1..=last {
         let mut after = step * state;
-        let [mut x, mut stroke] = largest(duration, [&state, &after]);
-        if let Some(room) = room.filter(|room| stroke > *room) {
-            after = stopped(system, &rates, duration, state, room);
-            (x, stroke) = (state[0].abs().max(after[0].abs()), room);
+        let [peak, stroke] = largest(duration, [&state, &after], [found.peak, found.stroke]);
+        match room.filter(|room| stroke > *room) {
+            Some(room) => {
+                after = stopped(system, &rates, duration, state, room);
+                let ends = state[0].abs().max(after[0].abs());
+                (found.peak, found.stroke) = (found.peak.max(ends), room);
+            }
+            None => (found.peak, found.stroke) = (peak, stroke),
         }
-        (found.peak, found.stroke) = (found.peak.max(x), found.stroke.max(stroke));
         state = after;
         let time = k as f64 / f64::from(STEPS_OF_PERIOD);
         let now = amplitude(&State { x: state[0], x_velocity: state[1], ..start });
@@ -84,13 +86,7 @@ pub fn released_between(
 const MOST_IMPACTS: u32 = 64;
 
 /// The end of a step in which the mass of a damper meets its stops.
-fn stopped(
-    system: &System,
-    rates: &Square,
-    duration: f64,
-    mut state: LinearState,
-    room: f64,
-) -> LinearState {
+fn stopped(system: &System, rates: &Free, duration: f64, mut state: Moving, room: f64) -> Moving {
     let (mu, mut left) = (system.mass_ratio(), duration);
     for k in 0..=MOST_IMPACTS {
         let after = exponential(rates * left) * state;
@@ -173,7 +169,9 @@ struct Driven {
     state: State,
     rates: Square,
     /// Even times of a record are rounded, so that its pieces have a few durations.
-    steps: HashMap<u64, Square>,
+    steps: HashMap<u64, Step>,
+    /// That of the latest piece, with its duration.
+    latest: (f64, Step),
     shakes: Option<RateSums>,
     /// Mean square velocity and acceleration until nothing drove any more.
     mean_squares: Option<[f64; 2]>,
@@ -198,6 +196,7 @@ impl Driven {
             state: State::AT_REST,
             rates,
             steps: HashMap::new(),
+            latest: (0.0, Step::identity()),
             shakes: shaking.then(RateSums::default),
             mean_squares: None,
         }
@@ -205,18 +204,19 @@ impl Driven {
 
     /// Goes through a piece, at whose beginning nothing jumps.
     fn pass(&mut self, piece: &Piece) {
-        if self.steps.len() > MOST_STEPS {
-            self.steps.clear();
-        }
         let rates = self.rates;
-        let step = self
-            .steps
-            .entry(piece.duration.to_bits())
-            .or_insert_with(|| exponential(rates * piece.duration));
+        if self.latest.0 != piece.duration {
+            if self.steps.len() > MOST_STEPS {
+                self.steps.clear();
+            }
+            let step = self.steps.entry(piece.duration.to_bits());
+            let step = step.or_insert_with(|| moves(&exponential(rates * piece.duration)));
+            self.latest = (piece.duration, *step);
+        }
         let State { x, x_velocity, y, y_velocity } = self.state;
         let [force, slope] = piece.force;
         let begin = LinearState::from([x, x_velocity, y, y_velocity, force, slope]);
-        let at_end = *step * begin;
+        let at_end = self.latest.1 * begin;
         if let Some(sums) = &mut self.shakes {
             // The base, which moves by as much as the force is its inertia.
             let base = f64::from(u8::from(piece.shakes));
@@ -225,7 +225,8 @@ impl Driven {
                 let moves = piece.base - base * s * (force + 0.5 * s * slope);
                 [velocity + moves, acceleration - base * at[4], jerk - base * slope]
             };
-            let ends = [absolute(&begin, 0.0), absolute(&at_end, piece.duration)];
+            let driven = [force + piece.duration * slope, slope];
+            let ends = [absolute(&begin, 0.0), absolute(&with(&at_end, driven), piece.duration)];
             sums.add_short(piece.duration, ends);
         }
         let end =
@@ -239,8 +240,7 @@ impl Driven {
 /// Velocity, acceleration and jerk of the structure.
 fn shaken(rates: &Square, state: &LinearState) -> [f64; 3] {
     let first = rates * state;
-    let second = rates * first;
-    [first[0], second[0], (rates * second)[0]]
+    [first[0], first[1], (rates.fixed_rows::<1>(1) * first)[0]]
 }
 
 /// Steps of a record that are kept at once.
@@ -268,13 +268,15 @@ pub fn swept(
         let duration = stretch.duration() / f64::from(steps);
         let rates = matrix(&piece, damper);
         let step = exponential(rates * duration);
+        let (step, turn) = (moves(&step), step.fixed_view::<2, 2>(4, 4).into_owned());
         let (sine, cosine) = libm::sincos(stretch.begins);
         (state[4], state[5]) = (sine, cosine);
         let mut peak = 0.0_f64;
         for _ in 0..steps {
             let after = step * state;
-            let [x, stroke] = largest(duration, [&state, &after]);
-            (peak, found.stroke) = (peak.max(x), found.stroke.max(stroke));
+            let ends = [&state.fixed_rows::<4>(0).into_owned(), &after];
+            [peak, found.stroke] = largest(duration, ends, [peak, found.stroke]);
+            let after = with(&after, (turn * state.fixed_rows::<2>(4)).into());
             if let Some(sums) = &mut shakes {
                 sums.add_short(duration, [&state, &after].map(|at| shaken(&rates, at)));
             }
@@ -286,34 +288,59 @@ pub fn swept(
     found
 }
 
-/// The largest displacement of the structure, and of the damper's mass against it, in a step.
-fn largest(duration: f64, ends: [&LinearState; 2]) -> [f64; 2] {
+/// The largest displacement of the structure, and of the damper's mass against it, in a step and before.
+fn largest(duration: f64, ends: [&Moving; 2], [peak, stroke]: [f64; 2]) -> [f64; 2] {
     let x = ends.map(|at| [at[0], at[1]]);
-    let stroke = ends.map(|at| [at[0] - at[2], at[1] - at[3]]);
-    [x, stroke].map(|ends| Cubic::of(duration, ends).largest())
+    let against = ends.map(|at| [at[0] - at[2], at[1] - at[3]]);
+    let beyond = |ends, known| Cubic::of(duration, ends).largest_beyond(known);
+    [beyond(x, peak), beyond(against, stroke)]
 }
 
 /// Oscillations that a structure stays below a level before it counts as calm: a damper may give energy back.
 const BEAT: u32 = 20;
 
-/// Terms of the series, whose argument is halved until its norm is below 1: the rest is below rounding.
-const TERMS: u32 = 20;
+/// What terms of a series that are left out come to at most.
+const LEFT_OUT: f64 = 1e-18;
 
-/// The exponential of a matrix, by its series at a fraction of it and squaring (nalgebra's needs the system's
-/// mathematical library).
-fn exponential(of: Square) -> Square {
+/// The exponential of a matrix, by its series at a fraction of it, whose norm is at most 1, and squaring (nalgebra's needs the
+/// system's mathematical library).
+fn exponential<const N: usize>(of: SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
     let halvings = libm::ceil(libm::log2(of.norm())).max(0.0) as u32;
     let part = of / libm::pow(2.0, f64::from(halvings));
+    let (norm, mut terms, mut term) = (part.norm(), 0, 1.0);
+    while term > LEFT_OUT {
+        terms += 1;
+        term *= norm / f64::from(terms);
+    }
     // 1 + A (1 + A/2 (1 + A/3 (...))).
-    let series = (1..=TERMS)
-        .rev()
-        .fold(Square::identity(), |inner, k| Square::identity() + part * inner / f64::from(k));
-    (0..halvings).fold(series, |power, _| power * power)
+    let mut power = SMatrix::identity();
+    for k in (1..=terms).rev() {
+        power = part * power / f64::from(k);
+        (0..N).for_each(|n| power[(n, n)] += 1.0);
+    }
+    for _ in 0..halvings {
+        power = power * power;
+    }
+    power
 }
 
-/// Displacement and velocity of the structure, the same of the damper, sine and cosine of the excitation's phase.
+/// Displacement and velocity of the structure, the same of the damper.
+type Moving = SVector<f64, 4>;
+type Free = SMatrix<f64, 4, 4>;
+/// The same with what drives them: sine and cosine of the excitation's phase, or a force and its slope.
 type LinearState = SVector<f64, 6>;
 type Square = SMatrix<f64, 6, 6>;
+/// What a step makes of that.
+type Step = SMatrix<f64, 4, 6>;
+
+fn moves(step: &Square) -> Step {
+    step.fixed_rows::<4>(0).into_owned()
+}
+
+fn with(moving: &Moving, driven: [f64; 2]) -> LinearState {
+    let ([x, v, y, w], [first, second]) = ((*moving).into(), driven);
+    [x, v, y, w, first, second].into()
+}
 
 /// The derivative of a [`LinearState`].
 fn matrix(system: &System, damper: Option<&TunedMassDamper>) -> Square {

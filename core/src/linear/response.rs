@@ -119,8 +119,8 @@ impl Meter {
             |state: &State| [state.relative_displacement(), state.x_velocity - state.y_velocity];
         let w = Cubic::of(duration, states.map(against));
         let found = &mut self.found;
-        found.peak = found.peak.max(x.largest());
-        found.stroke = found.stroke.max(w.largest());
+        found.peak = x.largest_beyond(found.peak);
+        found.stroke = w.largest_beyond(found.stroke);
         if piece.is_rest() {
             return;
         }

@@ -3,6 +3,7 @@
 //! orbit begins and ends, and where its numbers are largest, are roots, not samples.
 
 use super::of_band::{BESIDE, OfBand};
+use super::sampler::Misses;
 use super::stability::{Extreme, Fact, OneToOne, extreme_at, stability};
 use super::{Effort, Motion, Motions, Place, Value, motions, rest, steady};
 use crate::executor::{Executor, Serial};
@@ -20,6 +21,7 @@ pub struct Along {
     unresolved: Vec<(Extreme, f64)>,
     peak_at: Option<f64>,
     rest_at: Option<f64>,
+    missed_at: Option<f64>,
 }
 
 impl Along {
@@ -84,6 +86,15 @@ impl Along {
         Ok(())
     }
 
+    /// The same with the motions at one of these alone, and nothing between places.
+    #[must_use]
+    pub fn only(&self, at: f64) -> Self {
+        let mut only = self.clone();
+        only.places.retain(|place| place.0 == at);
+        only.unresolved.clear();
+        only
+    }
+
     /// The motions at one of them.
     pub fn at(&self, at: f64) -> Option<&Motions> {
         self.places.iter().find(|place| place.0 == at).map(|place| &place.1)
@@ -115,6 +126,11 @@ impl Along {
         self.peak_at
     }
 
+    /// The place, searched in full, at which something is missed, and where the search ended; none of [`along`].
+    pub fn missed_at(&self) -> Option<f64> {
+        self.missed_at
+    }
+
     /// The place, `Omega` or an amplitude over the base system's own, where the structure with an absorber at rest moves
     /// farthest; none where every start wakes it.
     pub fn rest_at(&self) -> Option<f64> {
@@ -134,6 +150,22 @@ pub fn along(
     effort: Option<&Effort>,
     on: &dyn Executor,
 ) -> Result<Along, StartError> {
+    along_until(band, wanted, own, effort, None, on)
+}
+
+/// The same that ends with the first place, searched in full, at which something is missed, if one is given that says so: what lies
+/// at others is not known then.
+///
+/// # Errors
+/// As [`along`].
+pub fn along_until(
+    band: &Band,
+    wanted: &[Extreme],
+    own: Option<&Motions>,
+    effort: Option<&Effort>,
+    misses: Option<&Misses<'_, Motions>>,
+    on: &dyn Executor,
+) -> Result<Along, StartError> {
     let stability = stability(band);
     let shaking = wanted.iter().any(|one| one.of.is_of_shaking());
     let solved_for = OneToOne::along(band, shaking);
@@ -150,21 +182,21 @@ pub fn along(
         ends.any(|end| (at - end).abs() < BESIDE * band.width())
     };
     let (ends, extremes): (Vec<f64>, Vec<f64>) = extremes.into_iter().partition(is_end);
-    let (mut places, unresolved) = match effort {
+    let (mut places, unresolved, missed_at) = match effort {
         Some(effort) => {
             let peak = Extreme::PEAK;
             let others = wanted.iter().copied().filter(|one| *one != peak);
             let worst = std::iter::once(peak).chain(others).collect();
-            OfBand { band, effort, on }.sampled(&stability, extremes, own, worst)?
+            OfBand { band, effort, on }.sampled(&stability, extremes, own, worst, misses)?
         }
-        None => (solved(band, extremes, shaking)?, Vec::new()),
+        None => (solved(band, extremes, shaking)?, Vec::new(), None),
     };
     let missing = |at: &f64| places.iter().all(|place| place.0 != *at);
     let ends = ends.into_iter().filter(missing).collect();
     places.extend(solved(band, ends, shaking)?);
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (band, simulated) = (band.clone(), effort.is_some());
-    Ok(Along { band, stability, places, simulated, unresolved, peak_at, rest_at })
+    Ok(Along { band, stability, places, simulated, unresolved, peak_at, rest_at, missed_at })
 }
 
 /// What can be solved for at some places.

@@ -46,7 +46,7 @@ mod watch;
 
 use serde::Serialize;
 
-pub use along::{Along, along};
+pub use along::{Along, along, along_until};
 pub use facts::{Facts, Value};
 pub use follow::{DiagramError, DiagramPoint, SweepDirection, carried_over, follow, sweep};
 pub use identity::orbit_of;
@@ -57,7 +57,7 @@ pub use modal::{
 };
 pub use repetition::Repetition;
 pub use rest::{Rest, RestKind};
-pub use sampler::{BandEffort, Sampled, Sampling, sampled};
+pub use sampler::{BandEffort, Misses, Sampled, Sampling, sampled};
 pub use search::motions;
 pub use section::{Section, sections};
 pub use settling::{SettlingTime, window as longest_window};

@@ -1,7 +1,7 @@
 //! A band of one mode with one absorber: its places, and how motions are searched at them.
 
 use super::line::{Line, Purpose, Site};
-use super::sampler::{BandEffort, Sampled, Sampling, sampled};
+use super::sampler::{BandEffort, Misses, Sampled, Sampling, sampled};
 use super::stability::Extreme;
 use super::{Effort, Motion, MotionKind, Motions, Place, Value, motions};
 use crate::executor::Executor;
@@ -64,6 +64,7 @@ impl OfBand<'_> {
         extremes: Vec<f64>,
         own: Option<&Motions>,
         worst: Vec<Extreme>,
+        misses: Option<&Misses<'_, Motions>>,
     ) -> Result<Sampled<Self>, StartError> {
         let Self { band, effort, on } = *self;
         let at = band.own();
@@ -76,7 +77,7 @@ impl OfBand<'_> {
             }
         };
         if band.is_point() {
-            return Ok((own.into_iter().collect(), Vec::new()));
+            return Ok((own.into_iter().collect(), Vec::new(), None));
         }
         let mut first = first_places(band, stability, &effort.band);
         first.extend(extremes);
@@ -87,7 +88,9 @@ impl OfBand<'_> {
         let in_full = effort.patience >= 1.0 && even >= BandEffort::FULL.even;
         let most_in_full = if in_full { usize::MAX } else { 0 };
         let are_dear = false;
-        sampled(self, Sampling { first, own, worst, most, tolerance, most_in_full, are_dear })
+        let sampling =
+            Sampling { first, own, worst, most, tolerance, most_in_full, are_dear, misses };
+        sampled(self, sampling)
     }
 }
 

@@ -56,14 +56,18 @@ pub(super) const VAGUE_IN_FULL: f64 = 0.5;
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.
 const FOLLOWED: f64 = 0.02;
+/// Most places that are searched in full beside a search, to end it.
+const MOST_TRIED: usize = 6;
 /// Part of the worst of all places from which on a motion is followed where flights are dear.
 const NOT_SMALL: f64 = 0.5;
 /// Most motions that are followed from each neighbour.
 const MOST_FOLLOWED: usize = 3;
 
+/// Whether something is missed by the motions at a place.
+pub type Misses<'a, M> = dyn Fn(&M) -> bool + 'a;
+
 /// What is looked for along a range.
-#[derive(Debug)]
-pub struct Sampling<L: Line> {
+pub struct Sampling<'a, L: Line> {
     /// Places to begin with, ascending.
     pub first: Vec<f64>,
     /// A place whose motions are known, and to which nobody adds.
@@ -79,25 +83,40 @@ pub struct Sampling<L: Line> {
     /// Whether flights are dear: motions are followed when no place is missing any more, and only those that are not small beside the
     /// worst; places decide as well at which a motion has not settled, as it was given up.
     pub are_dear: bool,
+    /// Whether something is missed by the motions at a place: with the first at which it is, searched in full, the search ends.
+    pub misses: Option<&'a Misses<'a, L::Motions>>,
 }
 
-/// Places with their motions, ascending, and by how much each number that was asked for may be worse between them.
-pub type Sampled<L> = (Vec<(f64, <L as Line>::Motions)>, Vec<(<L as Line>::Wanted, f64)>);
+/// Places with their motions, ascending, by how much each number that was asked for may be worse between them, and the place at
+/// which something was missed and the search ended.
+pub type Sampled<L> =
+    (Vec<(f64, <L as Line>::Motions)>, Vec<(<L as Line>::Wanted, f64)>, Option<f64>);
 
 /// The places of a range with their motions.
 ///
 /// # Errors
 /// Where a motion cannot be flown.
-pub fn sampled<L: Line>(line: &L, sampling: Sampling<L>) -> Result<Sampled<L>, L::Error> {
-    let Sampling { first, own, worst, most, tolerance, most_in_full, are_dear } = sampling;
+pub fn sampled<L: Line>(line: &L, sampling: Sampling<'_, L>) -> Result<Sampled<L>, L::Error> {
+    let Sampling { first, own, worst, most, tolerance, most_in_full, are_dear, misses } = sampling;
     let spot =
         |(at, motions)| Spot { at, motions, followed: Vec::new(), is_own: true, in_full: true };
     let spots = own.into_iter().map(spot).collect();
     let finest = line.finest();
-    let mut sampler =
-        Sampler { line, finest, worst, most, tolerance, most_in_full, are_dear, spots };
+    let tried = Vec::new();
+    let mut sampler = Sampler {
+        line,
+        finest,
+        worst,
+        most,
+        tolerance,
+        most_in_full,
+        are_dear,
+        misses,
+        tried,
+        spots,
+    };
     sampler.begin(&first)?;
-    sampler.refine()?;
+    let missed = sampler.refine()?;
     // What is within the tolerance is an error as well.
     let between = |of: &L::Wanted| {
         let worst = sampler.worst_of(*of)?;
@@ -108,7 +127,8 @@ pub fn sampled<L: Line>(line: &L, sampling: Sampling<L>) -> Result<Sampled<L>, L
         Some((*of, gaps.chain(narrow).fold(worst, f64::max) - worst))
     };
     let unresolved = sampler.worst.iter().filter_map(between).collect();
-    Ok((sampler.spots.into_iter().map(|spot| (spot.at, spot.motions)).collect(), unresolved))
+    let places = sampler.spots.into_iter().map(|spot| (spot.at, spot.motions)).collect();
+    Ok((places, unresolved, missed))
 }
 
 /// A place on the way.
@@ -141,6 +161,9 @@ struct Sampler<'a, L: Line> {
     tolerance: f64,
     most_in_full: usize,
     are_dear: bool,
+    misses: Option<&'a Misses<'a, L::Motions>>,
+    /// Places that were tried for it.
+    tried: Vec<f64>,
     /// Ascending.
     spots: Vec<Spot<L>>,
 }
@@ -232,9 +255,12 @@ impl<L: Line> Sampler<'_, L> {
         Ok(())
     }
 
-    /// Further places, until the worst of each number is known.
-    fn refine(&mut self) -> Result<(), L::Error> {
+    /// Further places, until the worst of each number is known, or to the first at which something is missed.
+    fn refine(&mut self) -> Result<Option<f64>, L::Error> {
         loop {
+            if let Some(missed) = self.missed()? {
+                return Ok(Some(missed));
+            }
             let room = self.most.saturating_sub(self.spots.len());
             let mut between: Vec<f64> = Vec::new();
             for of in &self.worst {
@@ -247,7 +273,7 @@ impl<L: Line> Sampler<'_, L> {
             between.truncate(room.min(TOGETHER));
             let followed = (between.is_empty() || !self.are_dear) && self.follow()?;
             if between.is_empty() && !followed && !self.fly_in_full()? {
-                return Ok(());
+                return Ok(None);
             }
             let new = self.at(between, Purpose::Between)?;
             self.add(new);
@@ -273,20 +299,48 @@ impl<L: Line> Sampler<'_, L> {
         chosen.extend(open);
         chosen.truncate(self.most_in_full);
         self.most_in_full -= chosen.len();
-        let site = |k: &usize| {
-            let spot = &self.spots[*k];
-            let further = self.moving(spot).filter_map(L::state).collect();
-            Site { at: spot.at, further, known: None, patience: 1.0 }
-        };
-        let sites: Vec<Site<L>> = chosen.iter().map(site).collect();
-        let found = self.line.search(Purpose::InFull, &sites)?;
-        for (k, found) in found {
+        for (k, found) in self.in_full(&chosen)? {
             let spot = &mut self.spots[chosen[k]];
             (spot.motions, spot.in_full) = (found, true);
         }
         // One at which nothing can be flown is not looked at again.
         chosen.iter().for_each(|k| self.spots[*k].in_full = true);
         Ok(!chosen.is_empty())
+    }
+
+    /// A place, searched in full, at which something is missed. The worst of those at which it seems to be is tried beside the search,
+    /// which goes on as if it had not been where it is not missed there.
+    fn missed(&mut self) -> Result<Option<f64>, L::Error> {
+        let (Some(misses), Some(worst)) = (self.misses, self.worst.first().copied()) else {
+            return Ok(None);
+        };
+        let missed: Vec<usize> =
+            (0..self.spots.len()).filter(|k| misses(&self.spots[*k].motions)).collect();
+        if let Some(k) = missed.iter().find(|k| self.spots[**k].in_full) {
+            return Ok(Some(self.spots[*k].at));
+        }
+        let reach = |k: usize| self.reach(&self.spots[k], worst).map_or(0.0, |one| one.0);
+        let new = missed.into_iter().filter(|k| !self.tried.contains(&self.spots[*k].at));
+        let worst = new.max_by(|a, b| reach(*a).total_cmp(&reach(*b)));
+        let Some(k) = worst.filter(|_| self.tried.len() < MOST_TRIED) else { return Ok(None) };
+        let at = self.spots[k].at;
+        self.tried.push(at);
+        let found = self.in_full(&[k])?.pop().filter(|(_, found)| misses(found));
+        Ok(found.map(|(_, found)| {
+            self.spots[k].motions = found;
+            at
+        }))
+    }
+
+    /// The motions at places that are searched again, each start for at least as long as in a case with one place.
+    fn in_full(&self, chosen: &[usize]) -> Result<Vec<(usize, L::Motions)>, L::Error> {
+        let site = |k: &usize| {
+            let spot = &self.spots[*k];
+            let further = self.moving(spot).filter_map(L::state).collect();
+            Site { at: spot.at, further, known: None, patience: 1.0 }
+        };
+        let sites: Vec<Site<L>> = chosen.iter().map(site).collect();
+        self.line.search(Purpose::InFull, &sites)
     }
 
     /// The motions at new places: from the usual starts at the first, else also from what places beside them have.

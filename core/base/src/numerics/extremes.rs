@@ -67,6 +67,14 @@ impl Cubic {
         at_ends.max((x0 + p * (h * v0 + p * (c + p * d))).abs())
     }
 
+    /// The same, or what is known where it stays within that: between its ends it goes beyond the larger of these by at most 4/27 of
+    /// its length times both slopes (Hermite's basis), so that most cubics are not looked at.
+    pub fn largest_beyond(&self, known: f64) -> f64 {
+        let [[x0, v0], [x1, v1]] = self.ends;
+        let most = x0.abs().max(x1.abs()) + 4.0 / 27.0 * self.duration * (v0.abs() + v1.abs());
+        if most <= known { known } else { known.max(self.largest()) }
+    }
+
     /// When it first goes beyond a size outwards, in the unit of its time; none where it stays within.
     pub fn leaves(&self, size: f64) -> Option<f64> {
         const PARTS: u32 = 16;
