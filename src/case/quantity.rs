@@ -86,13 +86,6 @@ impl Dimension {
         self.accepted_units().find(|unit| plain_spelling(unit.symbol) == plain)
     }
 
-    /// The symbol of the unit of a limit as it is written, such as `<= 7.5 mm`; none where that is a plain number.
-    pub fn written_unit(self, limit: &str) -> Option<&'static str> {
-        let text = limit.trim_start_matches(['<', '>', '=', ' ']);
-        let unit = self.unit_of(&text[leading_number(text)?.end..])?;
-        Some(unit.symbol).filter(|symbol| !symbol.is_empty())
-    }
-
     /// The value in SI units of a number followed by a unit, such as `7.5 mm`.
     ///
     /// # Errors

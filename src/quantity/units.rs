@@ -147,11 +147,10 @@ impl Units {
         Self { in_g: true, ..self }
     }
 
-    /// The same with numbers of a dimension in the unit of this symbol, where it has such a one.
+    /// The same with numbers of a dimension in the unit of this one.
     #[must_use]
-    pub fn told_in(self, dimension: Dimension, symbol: &str) -> Self {
-        let unit = dimension.accepted_units().find(|unit| unit.symbol == symbol);
-        Self { told_in: unit.map(|unit| (dimension, *unit)), ..self }
+    pub fn told_like(self, dimension: Dimension, value: f64) -> Self {
+        Self { told_in: Some((dimension, self.unit(dimension, value))), ..self }
     }
 
     /// What documents call them: SI, or a reduced design's.

@@ -3,7 +3,7 @@
 //!
 //! | filter | of | gives |
 //! |---|---|---|
-//! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false`, `sign=true`, `reduced=true` (units), `unit="mm"` change it; `–` for none |
+//! | `q` | a quantity | the number with its unit and error; `digits=4`, `decimals=1`, `error=false`, `sign=true`, `reduced=true` (units), `like=other` (the unit of that) change it; `–` for none |
 //! | `q(of="clearance")` | a plain number in SI | the same, as a quantity of that kind |
 //! | `apart(from=other)` | a quantity | the number with as many digits as tell it from another one |
 //! | `label` | a quantity or its id | "clearance b" |
@@ -174,7 +174,7 @@ fn register(tera: &mut Tera) {
         Ok::<_, tera::Error>(match number(value) {
             Some(number) => {
                 let kind = kind_of(value)?;
-                told_in(units()?, kind, &options)?.apart(kind, number, other.unwrap_or(number))
+                told_like(units()?, kind, &options)?.apart(kind, number, other.unwrap_or(number))
             }
             None => quantity_text(&units()?, value, &options)?,
         })
@@ -271,11 +271,11 @@ fn without_zeros(text: &str) -> String {
     }
 }
 
-/// Units in which numbers of a kind are in that of the option `unit`, a symbol or none.
-fn told_in(units: Units, kind: &Kind, options: &Kwargs) -> TeraResult<Units> {
-    let symbol = options.get::<Value>("unit")?;
-    let symbol = symbol.as_ref().and_then(Value::as_str);
-    Ok(symbol.map_or(units, |symbol| units.told_in(kind.dimension, symbol)))
+/// Units in which numbers of a kind are in that of the option `like`, a quantity or none.
+fn told_like(units: Units, kind: &Kind, options: &Kwargs) -> TeraResult<Units> {
+    let like = options.get::<Value>("like")?;
+    let like = like.as_ref().and_then(|like| field(like.as_map()?, "value")?.as_f64());
+    Ok(like.map_or(units, |like| units.told_like(kind.dimension, like)))
 }
 
 fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<String> {
@@ -297,7 +297,7 @@ fn quantity_text(units: &Units, value: &Value, options: &Kwargs) -> TeraResult<S
         Some(true) => &Units::reduced(),
         _ => units,
     };
-    let units = &told_in(*units, kind, options)?;
+    let units = &told_like(*units, kind, options)?;
     let value = plain.map(|(_, value)| value).or_else(|| number("value"));
     let Some(value) = value else { return Ok("without limit".into()) };
     let error = match options.get::<bool>("error")? {

@@ -8,7 +8,7 @@ use super::Units;
 /// Smallest and largest number that is shown in a page's own unit of length before another prefix is taken.
 const PAGE_RANGE: [f64; 2] = [0.1, 1000.0];
 
-/// The same of a unit that an author chose.
+/// The same of the unit of another number.
 const TOLD_RANGE: [f64; 2] = [1e-3, 1e4];
 
 /// Units that stay below 1, down to [`LEAST_PLAIN`]: of a tower people say 0.79 Hz, not 790 mHz.
@@ -195,24 +195,22 @@ mod tests {
     use super::*;
     use crate::quantity::catalogue as of;
 
-    /// A limit of 0.25 m beside lengths in mm, of 300 um, and of what is too far away for its unit.
+    /// A limit and a margin beside what was found, and one that is too far away for its unit.
     #[test]
-    fn a_dimension_may_be_told_in_a_unit_of_its_own() {
+    fn a_number_may_be_in_the_unit_of_another() {
         let units = Units::physical(7.5e-3);
-        for (symbol, value, text) in [
-            ("m", 0.211, "0.211 m"),
-            ("µm", 2.2e-4, "220 µm"),
-            ("in", 2.54e-3, "0.100 in"),
-            ("m", 3.9e-4, "0.390 mm"),
-            ("m/s", 0.211, "211 mm"),
+        for (like, value, text) in [
+            (0.211, 0.25, "250 mm"),
+            (1.149e-4, 5.08e-6, "0.00508 mm"),
+            (2.2e-5, 2.5e-4, "250 µm"),
+            (1.5, 0.0034, "0.00340 m"),
+            (1.5, 1.2e-5, "12.0 µm"),
         ] {
-            assert_eq!(units.told_in(Dimension::Length, symbol).text(&of::PEAK, value), text);
+            assert_eq!(units.told_like(Dimension::Length, like).text(&of::PEAK, value), text);
         }
-        let told = units.told_in(Dimension::Length, "m");
-        assert_eq!(told.text(&of::IMPACT_SPEED, 0.0741), "74.1 mm/s");
-        assert_eq!(Dimension::Length.written_unit("<= 300 um"), Some("µm"));
-        assert_eq!(Dimension::Velocity.written_unit(">=1e-3 m/s"), Some("m/s"));
-        assert_eq!(Dimension::Length.written_unit("<= 3"), None);
+        let told = units.told_like(Dimension::Velocity, 0.0741);
+        assert_eq!(told.text(&of::IMPACT_SPEED, 0.3), "300 mm/s");
+        assert_eq!(told.text(&of::PEAK, 0.3), "300 mm");
     }
 
     #[test]

@@ -91,9 +91,9 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
             (_, Relation::AtMost) => "at-most",
             (_, Relation::Equal) => "equal",
         },
+        // Whether it is written in a unit.
+        "has_unit": as_written.contains(char::is_alphabetic) && !as_written.ends_with("dB"),
         "limit": kind.map(|kind| Quantity::new(kind, *limit, Method::Given)),
-        // In which that is written: its cells are in one unit.
-        "unit": kind.and_then(|kind| kind.dimension.written_unit(as_written)),
         "found": judged.found.zip(measure.kind_under(judged.records)).map(|(value, kind)| {
             Quantity::new(kind, value, judged.decided_by).with_error(error)
         }),
