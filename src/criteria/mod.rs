@@ -182,6 +182,11 @@ pub fn judge(case: &Case, survey: &Survey) -> Vec<Judged> {
     case.criteria.iter().map(|criterion| scope.judge(criterion)).collect()
 }
 
+/// What each motion of a survey that counts has of a criterion of a case.
+pub fn each(case: &Case, survey: &Survey, asked: &Criterion) -> Vec<Found> {
+    Scope { survey, units: case.units() }.each(asked)
+}
+
 /// Places of a survey that are worth another search, the worst of each criterion first; `known` were searched in full. None
 /// where that cannot change what all criteria together come to.
 pub fn open(case: &Case, survey: &Survey, judged: &[Judged], known: &[f64]) -> Vec<f64> {

@@ -67,11 +67,12 @@ const NATURAL_KEYS: [(&str, &[&str]); 14] = [
     ("theory", &["mode"]),
 ];
 
-/// Lists of a structure of several modes that are counted, as those along a band are: what they say stands in its worst values,
+/// Lists that are counted, as those along a band are: what they say stands in its worst values,
 /// criteria and limits.
-const COUNTED: [&str; 10] = [
+const COUNTED: [&str; 11] = [
     "compared",
     "loads/at_worst",
+    "band/decides",
     "loads/decides",
     "loads/forces/at",
     "loads/forces/limits/fails",

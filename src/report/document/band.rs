@@ -2,11 +2,13 @@
 
 use serde_json::{Value, json};
 
+use super::criteria::{WorstPlaces, criterion};
+use super::motions::listed;
 use super::scale::{ROOT_OF_ROUNDING, Scale};
 use crate::analysis::Strip;
 use crate::band::{Band, Rivals, Survey, Worst};
-use crate::case::BandOver;
-use crate::criteria::{method, of_stability};
+use crate::case::{BandOver, Case};
+use crate::criteria::{Judged, each, method, of_stability};
 use crate::linear::{bare_amplitude, level_error};
 use crate::method::Method::{self, ClosedForm, ExactOrbit, Theory};
 use crate::motions::{Motion, Motions, RestKind};
@@ -147,6 +149,19 @@ pub fn band(scale: &Scale, survey: &Survey) -> Value {
         "several": several(scale, survey),
         "worse": worse(scale, survey),
     })
+}
+
+/// The motions at each place of the band where a criterion is worst, with what they have of it.
+pub fn decides(case: &Case, scale: &Scale, survey: &Survey, judged: &[Judged]) -> Vec<Value> {
+    WorstPlaces {
+        judged: judged.iter().collect(),
+        told: None,
+        each: &|asked| each(case, survey, asked),
+        motions: &|at| Some(listed(scale, survey.motions.at(at)?, survey.count_rest)),
+        at: &|at| scale.place(survey.band().over, at),
+        row: &|one| criterion(case, one),
+    }
+    .rows()
 }
 
 /// The motion of a kind with the largest peak.

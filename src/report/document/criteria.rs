@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::scale::Scale;
 use super::word::Word;
 use crate::case::{Case, Criterion, Relation};
-use crate::criteria::{Judged, Outcome, together};
+use crate::criteria::{Found, Judged, Outcome, Worst, together};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
 use crate::motions::Motions;
@@ -91,8 +91,8 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
             (_, Relation::AtMost) => "at-most",
             (_, Relation::Equal) => "equal",
         },
-        // Whether it is written in a unit.
-        "has_unit": as_written.contains(char::is_alphabetic) && !as_written.ends_with("dB"),
+        // Whether it is written in a unit of several.
+        "has_unit": kind.is_some_and(|kind| kind.dimension.has_unit(as_written)),
         "limit": kind.map(|kind| Quantity::new(kind, *limit, Method::Given)),
         "found": judged.found.zip(measure.kind_under(judged.records)).map(|(value, kind)| {
             Quantity::new(kind, value, judged.decided_by).with_error(error)
@@ -121,4 +121,55 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
         }),
         "decided_by": judged.decided_by,
     })
+}
+
+/// Where along a range criteria are worst, as a page tells it.
+pub struct WorstPlaces<'a> {
+    /// The criteria of the range.
+    pub judged: Vec<&'a Judged>,
+    /// A place of it with a list of its own.
+    pub told: Option<f64>,
+    /// What each motion along it has of a criterion.
+    pub each: &'a dyn Fn(&Criterion) -> Vec<Found>,
+    /// The motions at a place, as a list has them; none of what is no place.
+    pub motions: &'a dyn Fn(f64) -> Option<Vec<Value>>,
+    /// What a place is.
+    pub at: &'a dyn Fn(f64) -> Quantity,
+    /// The row about a criterion.
+    pub row: &'a dyn Fn(&Judged) -> Value,
+}
+
+impl WorstPlaces<'_> {
+    /// The motions at each of them, with what each has of the criteria that are worst there; one that has a list of its own is left
+    /// out.
+    pub fn rows(&self) -> Vec<Value> {
+        let own = || self.judged.iter().copied().filter(|one| one.motion.is_some());
+        let mut places: Vec<f64> = own().filter_map(|one| one.at).collect();
+        places.retain(|at| Some(*at) != self.told);
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        places.into_iter().filter_map(|at| self.there(at, own())).collect()
+    }
+
+    fn there<'a>(&self, at: f64, own: impl Iterator<Item = &'a Judged>) -> Option<Value> {
+        let mut motions = (self.motions)(at)?;
+        let judged: Vec<&Judged> = own.filter(|one| one.at == Some(at)).collect();
+        let found = judged.iter().map(|one| {
+            let mut all = (self.each)(&one.criterion);
+            all.retain(|found| found.load == one.load && found.at == Some(at));
+            (&one.criterion, all)
+        });
+        let found: Vec<(&Criterion, Vec<Found>)> = found.collect();
+        for (number, row) in motions.iter_mut().enumerate() {
+            let has = |(asked, all): &(&Criterion, Vec<Found>)| {
+                let own = all.iter().filter(|one| one.motion == number).copied();
+                let worst = Worst::of(&own.collect::<Vec<_>>(), asked)?.found;
+                let kind = asked.measure.kind(Device::Absorber)?;
+                Some(Quantity::new(kind, worst.value, worst.known_by).with_error(worst.own))
+            };
+            row["has"] = json!(found.iter().map(has).collect::<Vec<_>>());
+        }
+        let criteria: Vec<Value> = judged.into_iter().map(self.row).collect();
+        Some(json!({ "at": (self.at)(at), "criteria": criteria, "motions": motions }))
+    }
 }

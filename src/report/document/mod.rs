@@ -154,7 +154,11 @@ pub fn document(source: &Source) -> Value {
         // A tuned mass damper of the same mass at the case's own excitation.
         "damper": band::damper(&scale, &study.rivals, None),
         "theory": theory::with_margins(&scale, study),
-        "band": study.band.as_ref().map(|survey| band::band(&scale, survey)),
+        "band": study.band.as_ref().map(|survey| {
+            let mut told = band::band(&scale, survey);
+            told["decides"] = json!(band::decides(case, &scale, survey, judged));
+            told
+        }),
         // The motions at the places of the band that were looked at.
         "places": study.band.as_ref().map(|survey| {
             motions::places(&scale, &survey.motions, survey.count_rest)

@@ -6,14 +6,14 @@ use super::{
     Beside, absorbers, along, alternatives, closed, given, motions, numbers, ranges, told_of_one,
     units, warnings,
 };
-use crate::case::{Criterion, ModalCase, Of};
-use crate::criteria::{Found, Judged, Worst};
+use crate::case::{ModalCase, Of};
+use crate::criteria::Judged;
 use crate::measure::{Device, Part};
 use crate::modal::{ModalAnswer, linear_most};
 use crate::quantity::Quantity;
 use crate::quantity::catalogue as of;
 use crate::report::criteria::{Checked, row as criteria_row};
-use crate::report::document::criteria::{counted, row};
+use crate::report::document::criteria::{WorstPlaces, counted, row};
 
 /// Where a criterion is worst.
 fn frequency(judged: &Judged) -> Option<Quantity> {
@@ -76,35 +76,15 @@ pub(super) fn elsewhere(
     worst: Option<f64>,
 ) -> Vec<Value> {
     let along = &answer.along[load];
-    let own = || answer.judged.iter().filter(|one| one.load == load && one.motion.is_some());
-    let mut frequencies: Vec<f64> = own().filter_map(|one| one.at).collect();
-    frequencies.retain(|at| Some(*at) != worst);
-    frequencies.sort_by(f64::total_cmp);
-    frequencies.dedup();
-    let told = frequencies.into_iter().filter_map(|at| {
-        let there = along.at(at)?;
-        let judged: Vec<&Judged> = own().filter(|one| one.at == Some(at)).collect();
-        let found = judged.iter().map(|one| {
-            let mut all = answer.each(case, &one.criterion);
-            all.retain(|found| found.load == load && found.at == Some(at));
-            (&one.criterion, all)
-        });
-        let found: Vec<(&Criterion, Vec<Found>)> = found.collect();
-        let mut rows = motions::rows(case, &there.motions);
-        for (number, row) in rows.iter_mut().enumerate() {
-            let has = |(asked, all): &(&Criterion, Vec<Found>)| {
-                let own = all.iter().filter(|one| one.motion == number).copied();
-                let worst = Worst::of(&own.collect::<Vec<_>>(), asked)?.found;
-                let kind = asked.measure.kind(Device::Absorber)?;
-                Some(Quantity::new(kind, worst.value, worst.known_by).with_error(worst.own))
-            };
-            row["has"] = json!(found.iter().map(has).collect::<Vec<_>>());
-        }
-        let criteria = judged.iter().map(|one| placed(case, one, row(one, frequency(one))));
-        let (at, criteria) = (given(&of::EXCITATION_FREQUENCY, at), criteria.collect::<Vec<_>>());
-        Some(json!({ "at": at, "criteria": criteria, "motions": rows }))
-    });
-    told.collect()
+    WorstPlaces {
+        judged: answer.judged.iter().filter(|one| one.load == load).collect(),
+        told: worst,
+        each: &|asked| answer.each(case, asked),
+        motions: &|at| Some(motions::rows(case, &along.at(at)?.motions)),
+        at: &|at| given(&of::EXCITATION_FREQUENCY, at),
+        row: &|one| placed(case, one, row(one, frequency(one))),
+    }
+    .rows()
 }
 
 /// Whether values meet all criteria that have one; none where none has.
