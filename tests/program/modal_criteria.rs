@@ -267,6 +267,25 @@ fn absorbers_at_rest_are_named_and_a_reduction_takes_a_device() {
     assert!(!kept("impact_velocity = '<= 9 m/s'\n"));
 }
 
+/// Whether each criterion that is worst elsewhere than there has its motion in a list of places, with what it has of it; how many do.
+fn each_is_listed(document: &Value, places: &Value, told: &Value) -> usize {
+    let rows = document["criteria"]["all"].as_array().expect("criteria");
+    let elsewhere = rows.iter().filter(|row| row["at"]["value"] != *told);
+    let listed = elsewhere.map(|row| {
+        let mut there = places.as_array().expect("places").iter();
+        let there = there.find(|one| one["at"]["value"] == row["at"]["value"]);
+        let there = there.unwrap_or_else(|| panic!("{row}"));
+        let mut asked = there["criteria"].as_array().expect("criteria").iter();
+        let number = asked.position(|one| one["name"] == row["name"]).expect("the criterion");
+        let motions = there["motions"].as_array().expect("motions");
+        let decides = motions.iter().find(|one| one["id"] == row["motion"]).expect("the motion");
+        for key in ["value", "id", "method"] {
+            assert_eq!(decides["has"][number][key], row["found"][key], "{row}");
+        }
+    });
+    listed.count()
+}
+
 /// A page lists the motion that decides each criterion, at the frequency where it does; what it says of the load's own amplitude is the
 /// verdict; and what is asked is drawn.
 #[test]
@@ -290,25 +309,7 @@ fn what_decides_is_listed_and_drawn_and_the_own_amplitude_has_the_verdict() {
     let document = fs::read_to_string(format!("{out}/case/report.json")).expect("a report");
     let document: Value = serde_json::from_str(&document).expect("JSON");
     let load = &document["loads"][0];
-    let rows = document["criteria"]["all"].as_array().expect("criteria");
-    let mut elsewhere = 0;
-    for row in rows {
-        if row["at"]["value"] == load["worst"]["at"]["value"] {
-            continue;
-        }
-        elsewhere += 1;
-        let there = load["decides"].as_array().expect("frequencies");
-        let there = there.iter().find(|one| one["at"]["value"] == row["at"]["value"]);
-        let there = there.unwrap_or_else(|| panic!("{row}"));
-        let mut asked = there["criteria"].as_array().expect("criteria").iter();
-        let number = asked.position(|one| one["name"] == row["name"]).expect("the criterion");
-        let motions = there["motions"].as_array().expect("motions");
-        let decides = motions.iter().find(|one| one["id"] == row["motion"]).expect("the motion");
-        for key in ["value", "id", "method"] {
-            assert_eq!(decides["has"][number][key], row["found"][key], "{row}");
-        }
-    }
-    assert!(elsewhere >= 1, "{rows:?}");
+    assert!(each_is_listed(&document, &load["decides"], &load["worst"]["at"]["value"]) >= 1);
     // The second mode's acceleration fails far from where the structure moves farthest.
     assert_eq!(document["verdict"]["word"], "fails");
     let fails = load["forces"]["limits"]["fails"].as_array().expect("amplitudes");
@@ -320,4 +321,28 @@ fn what_decides_is_listed_and_drawn_and_the_own_amplitude_has_the_verdict() {
         .filter_map(|one| one["name"].as_str())
         .collect();
     assert!(figures.contains(&"loads-acceleration"), "{figures:?}");
+}
+
+/// The same of a band of one mode, all of whose criteria are told so.
+#[test]
+fn what_decides_along_a_band_of_one_mode_is_listed_and_drawn() {
+    let text = format!(
+        "{HEAD}[oscillator]\nmass = '400 g'\nfrequency = '180 Hz'\ndamping_ratio = '1 %'\n\
+         [absorber]\nmass = '12 g'\nclearance = '60 um'\nrestitution = 0.5\n\
+         [excitation]\nkind = 'base-displacement'\namplitude = '2 um'\nfrequency = '180 Hz'\n\
+         [band]\nfrom = '150 Hz'\nto = '215 Hz'\n[simulation]\nstarts = 2\nperiods = 100\n\
+         [criteria]\npeak_displacement = '<= 100 um'\nacceleration = '<= 200 m/s2'\nimpact_velocity = '<= 0.3 m/s'\n"
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let (path, out) = (folder.path().join("case.toml"), folder.path().join("out"));
+    fs::write(&path, text).expect("written");
+    let [path, out] = [&path, &out].map(|one| one.to_str().expect("UTF-8"));
+    vinesink(&["report", path, "--criteria-only", "--out", out]);
+    let document = fs::read_to_string(format!("{out}/case/report.json")).expect("a report");
+    let document: Value = serde_json::from_str(&document).expect("JSON");
+    assert_eq!(each_is_listed(&document, &document["band"]["decides"], &Value::Null), 3);
+    let drawn = document["figures"].as_array().expect("figures").iter();
+    assert!(drawn.clone().any(|one| one["name"] == "band-acceleration"), "{drawn:?}");
+    let page = fs::read_to_string(format!("{out}/case/report.md")).expect("a page");
+    assert!(page.contains("where impact velocity is worst:"), "{page}");
 }

@@ -20,7 +20,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::analysis::ManifoldBranch;
-use crate::case::Case;
+use crate::case::{Case, Criterion};
 use crate::measure::Measure;
 use crate::method::Method;
 use crate::quantity::{Digits, Dimension, Kind, Units, catalogue as of};
@@ -56,6 +56,8 @@ struct DrawnCase<'a> {
     forcing: (&'static Kind, f64),
     /// The largest displacement that the case allows.
     limit: Option<f64>,
+    /// What else it asks of a structure that moves in sines, each measure once.
+    asked: Vec<&'a Criterion>,
     /// Where the theory's boundaries are.
     ends: Ends,
     /// What every caption may speak of.
@@ -73,10 +75,17 @@ struct Ends {
 }
 
 impl<'a> DrawnCase<'a> {
-    fn new(case: &Case, study: &'a CaseStudy) -> Self {
+    fn new(case: &'a Case, study: &'a CaseStudy) -> Self {
         let scale = Scale::of(case);
         let mut limits = case.criteria.iter();
         let asked = limits.find(|one| one.measure == Measure::Peak);
+        let mut others: Vec<&Criterion> = Vec::new();
+        for one in case.criteria.iter().filter(|one| one.measure.is_of_sines()) {
+            let is_known = others.iter().any(|known| known.measure == one.measure);
+            if one.measure != Measure::Peak && !is_known {
+                others.push(one);
+            }
+        }
         let own = scale.amplitude(1.0, Method::Given);
         let system = &study.analysis.system;
         let bounds = &study.analysis.boundaries;
@@ -103,6 +112,7 @@ impl<'a> DrawnCase<'a> {
             units: scale.units,
             forcing: (own.kind, own.value),
             limit: asked.map(|one| one.limit / scale.units.length(1.0)),
+            asked: others,
             ends,
             known,
         }
@@ -110,7 +120,10 @@ impl<'a> DrawnCase<'a> {
 
     fn figures_of(&self, plot: &Plot) -> Vec<Figure> {
         let figure = match plot {
-            Plot::Band(data) => peaks::band(self, data),
+            Plot::Band(data) => {
+                let others = self.asked.iter().map(|one| peaks::band_of(self, data, one));
+                return peaks::band(self, data).into_iter().chain(others.flatten()).collect();
+            }
             Plot::Ranges(data) => ranges::figure(self, data),
             Plot::Map(data) => Some(boundaries::map(self, data)),
             Plot::Plane(data) => Some(boundaries::plane(self, data)),

@@ -3,7 +3,9 @@
 use serde_json::json;
 
 use crate::band::Survey;
-use crate::case::BandOver;
+use crate::case::{BandOver, Criterion};
+use crate::measure::Device;
+use crate::motions::Fact;
 use crate::quantity::catalogue as of;
 use crate::regimes::Regime;
 use crate::report::chart::Chart;
@@ -69,6 +71,58 @@ pub(super) fn band(scene: &DrawnCase, data: &BandCurves) -> Option<Figure> {
         "inactive": survey.count_rest && survey.motions.rest_at().is_some(),
     });
     Some(scene.figure("band", "captions/band", facts).with_panel(panel))
+}
+
+/// The largest of something else along the band that is asked of a structure which moves in sines: without absorber and with a
+/// damper as lines, and in every motion that counts as points.
+pub(super) fn band_of(scene: &DrawnCase, data: &BandCurves, asked: &Criterion) -> Option<Figure> {
+    let survey = scene.study.band.as_ref()?;
+    let (band, measure) = (survey.band(), asked.measure);
+    let kind = measure.kind(Device::Absorber)?;
+    let unit = scene.units.number(kind.dimension, 1.0);
+    let of_sines = |line: &Line| -> Line {
+        let value = |at: f64, amplitude: f64| {
+            let system = band.system(at).ok()?;
+            measure.of_sine(amplitude, system.frequency_ratio())
+        };
+        line.iter().map(|[at, x]| [*at, value(*at, *x).unwrap_or(f64::NAN)]).collect()
+    };
+    let (without, with_damper) = (of_sines(&data.bare), of_sines(&data.damper));
+    let mut found = Vec::new();
+    for (at, here) in survey.motions.places() {
+        for (_, motion) in here.counting(survey.count_rest) {
+            let number = |fact: Fact| fact.of(motion);
+            let value = measure.of_motion(motion, &number, f64::NAN, &scene.units);
+            let what = motion.regime().words();
+            found.extend(value.map(|[value, _]| (*at, value / unit, what)));
+        }
+    }
+    let limit = asked.limit / unit;
+    let highest = found.iter().map(|one| one.1).fold(0.0, f64::max);
+    let lines = without.iter().chain(&with_damper).map(|point| point[1]);
+    let lines = lines.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    // A resonance or a limit far above all motions would hide them.
+    let top =
+        1.05 * if highest > 0.0 { lines.max(limit).min(1.6 * highest).max(highest) } else { lines };
+    let over = match band.over {
+        BandOver::Frequency => &of::EXCITATION_FREQUENCY,
+        BandOver::Amplitude => scene.forcing.0,
+    };
+    let chart = scene.chart([over, kind], [band.range, [0.0, top]]);
+    let marks = found.iter().map(|(at, value, what)| scene.mark(&chart, [*at, *value], what));
+    let marker = Marker::filled(Shape::Circle).sized(4.0);
+    let mut panel = chart
+        .panel()
+        .with(Layer::curve(Role::BareOscillator, without).labelled("without absorber"))
+        .with(damper(&with_damper))
+        .with(Layer::marked(marker, Role::Simulation.color(), marks).labelled("with absorber"));
+    if limit < top {
+        let style = Style::new(Color::Vermillion, 1.4, Dash::Dotted);
+        panel = panel.with(Layer::horizontal(limit, style).labelled("limit"));
+    }
+    let name = format!("band-{}", asked.key.replace('_', "-"));
+    let facts = json!({ "drawn": kind.name, "over": over.name });
+    Some(scene.figure(&name, "captions/band-of", facts).with_panel(panel))
 }
 
 /// The response with a tuned mass damper.
