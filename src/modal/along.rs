@@ -8,8 +8,8 @@ use crate::case::{Load, ModalCase, StructuralMode};
 use crate::executor::{Executor, map};
 use crate::linear::carried_frequencies;
 use crate::motions::{
-    Line, ModalEffort, ModalMotion, NEGLIGIBLE, Purpose, Sampling, Site, Value, longest_flight,
-    modal_motions, sampled,
+    Line, Misses, ModalEffort, ModalMotion, NEGLIGIBLE, Purpose, Sampling, Site, Value,
+    longest_flight, modal_motions, sampled,
 };
 use crate::numerics::scan;
 use crate::system::ModalState;
@@ -307,18 +307,28 @@ impl AlongLoad {
         effort: &AlongEffort,
         on: &dyn Executor,
     ) -> Result<Self, ModalError> {
+        Ok(Self::until(case, load, effort, None, on)?.0)
+    }
+
+    /// The same that ends with the first frequency, searched in full, at which something is missed, if one is given that says so; and
+    /// that.
+    pub(super) fn until(
+        case: &ModalCase,
+        load: &Load,
+        effort: &AlongEffort,
+        misses: Option<&Misses<'_, AtFrequency>>,
+        on: &dyn Executor,
+    ) -> Result<(Self, Option<f64>), ModalError> {
         let [from, to] = load.range_hz;
         let line = OfLoad { case, load, effort, looks: Look::all(case), on };
-        let (places, between) = if from < to {
+        let (places, between, missed) = if from < to {
             let (first, worst) = (line.first(), line.looks.clone());
             let most = first_and(effort.further, case, load);
             let most_in_full = effort.most_in_full * modes_within(case, load);
             let (own, tolerance, are_dear) = (None, effort.tolerance, true);
-            let misses = None;
             let sampling =
                 Sampling { first, own, worst, most, tolerance, most_in_full, are_dear, misses };
-            let (places, between, _) = sampled(&line, sampling)?;
-            (places, between)
+            sampled(&line, sampling)?
         } else {
             let starts = case.starts_at_one.min(effort.at_one);
             let patience = effort.patience[1];
@@ -328,14 +338,15 @@ impl AlongLoad {
                 AtFrequency::of(case, load, from, effort, &[])
             });
             let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-            (found.into_iter().map(|found| (from, found)).collect(), Vec::new())
+            let missed = misses.filter(|misses| found.iter().any(misses)).map(|_| from);
+            (found.into_iter().map(|found| (from, found)).collect(), Vec::new(), missed)
         };
         let bare = (0..case.places.len()).map(|p| {
             largest(load.range_hz, case, &[], |at| amplitudes(case, load, at, &[]).places[p])
         });
         let mut places: Vec<AtFrequency> = places.into_iter().map(|one| one.1).collect();
         places.iter_mut().for_each(|one| ModalMotion::sort(&mut one.motions));
-        Ok(Self { load: *load, bare: bare.collect(), places, between })
+        Ok((Self { load: *load, bare: bare.collect(), places, between }, missed))
     }
 
     /// Single frequencies of a load.

@@ -6,7 +6,7 @@ use super::orbits;
 use super::sensors::{Look, measured, parts};
 use super::{AlongLoad, AtFrequency, ModalAnswer};
 use crate::case::{Criterion, ModalCase, Of};
-use crate::criteria::{Findings, Found, Judged, Worst};
+use crate::criteria::{Findings, Found, Judged, Outcome, Worst};
 use crate::linear::{ModalDamper, reduction};
 use crate::measure::{Device, Measure};
 use crate::method::Method;
@@ -52,6 +52,19 @@ impl ModalAnswer {
 /// The loads of a case where no motion is known.
 pub(super) fn unflown(case: &ModalCase) -> Vec<AlongLoad> {
     case.loads.iter().map(|load| AlongLoad::at_some(*load, Vec::new(), Vec::new())).collect()
+}
+
+/// Whether a motion at a frequency of a load that counts does not hold with its own error, or still settles: not every criterion can
+/// hold then. What compares with dampers or the structure alone is not looked at.
+pub(super) fn misses(case: &ModalCase, load: usize, here: &AtFrequency) -> bool {
+    let mut along = unflown(case);
+    along[load].places.push(here.clone());
+    let scope = Scope { case, along: &along, load: Some(load) };
+    let asked = case.criteria.iter().filter(|one| one.measure.is_of_motions());
+    asked.filter(|one| one.measure.against().is_none()).any(|one| {
+        let judged = Judged::of_motions(one, &scope);
+        judged.holds.is_some() && judged.outcome() != Outcome::Holds
+    })
 }
 
 /// The layer that a motion is known by.

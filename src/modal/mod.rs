@@ -200,6 +200,32 @@ impl ModalAnswer {
         Ok(Self::judged(case, along.collect::<Result<_, _>>()?))
     }
 
+    /// The same as [`with`](Self::with), or where not all criteria hold what is known of the first frequency that shows it.
+    fn whether_all_hold(
+        case: &ModalCase,
+        effort: &AlongEffort,
+        known: &[AlongLoad],
+        on: &dyn Executor,
+    ) -> Result<Self, ModalError> {
+        let mut along = judge::unflown(case);
+        for (k, load) in case.loads.iter().enumerate() {
+            if let Some(known) = known.iter().find(|one| one.load == *load) {
+                along[k] = known.clone();
+                continue;
+            }
+            let misses = |here: &AtFrequency| judge::misses(case, k, here);
+            let (found, missed) = AlongLoad::until(case, load, effort, Some(&misses), on)?;
+            if let Some(at) = missed {
+                let mut only = judge::unflown(case);
+                only[k].places = found.places.into_iter().filter(|one| one.at == at).collect();
+                return Ok(Self::judged(case, only));
+            }
+            along[k] = found;
+        }
+        let own = Self::judged(case, along);
+        own.in_contact(case, |shifted| Self::in_no_time(shifted, effort, &[], on))
+    }
+
     /// Of what is known along loads, and nothing else.
     const fn of_loads(along: Vec<AlongLoad>) -> Self {
         Self {

@@ -83,7 +83,11 @@ impl Varies for ModalCase {
         let Known { case, along } = known;
         let same = self.modes == case.modes && self.absorbers == case.absorbers;
         let along = if same { along.as_slice() } else { &[] };
-        Ok(ModalAnswer::with(self, &effort, along, &Serial)?.judged)
+        let found = match how {
+            Depth::WhetherAllHold => ModalAnswer::whether_all_hold(self, &effort, along, &Serial)?,
+            _ => ModalAnswer::with(self, &effort, along, &Serial)?,
+        };
+        Ok(found.judged)
     }
 
     fn kept_without_absorber(&self) -> bool {

@@ -56,8 +56,8 @@ pub(super) const VAGUE_IN_FULL: f64 = 0.5;
 const TOGETHER: usize = 16;
 /// Relative amount by which a neighbour's motion must be larger to be followed to a place.
 const FOLLOWED: f64 = 0.02;
-/// Most places that are searched in full beside a search, to end it.
-const MOST_TRIED: usize = 6;
+/// Most places that are searched in full beside a search, to end it; and where flights are dear.
+const MOST_TRIED: [usize; 2] = [6, 1];
 /// Part of the worst of all places from which on a motion is followed where flights are dear.
 const NOT_SMALL: f64 = 0.5;
 /// Most motions that are followed from each neighbour.
@@ -322,7 +322,10 @@ impl<L: Line> Sampler<'_, L> {
         let reach = |k: usize| self.reach(&self.spots[k], worst).map_or(0.0, |one| one.0);
         let new = missed.into_iter().filter(|k| !self.tried.contains(&self.spots[*k].at));
         let worst = new.max_by(|a, b| reach(*a).total_cmp(&reach(*b)));
-        let Some(k) = worst.filter(|_| self.tried.len() < MOST_TRIED) else { return Ok(None) };
+        let Some(k) = worst.filter(|_| self.tried.len() < MOST_TRIED[usize::from(self.are_dear)])
+        else {
+            return Ok(None);
+        };
         let at = self.spots[k].at;
         self.tried.push(at);
         let found = self.in_full(&[k])?.pop().filter(|(_, found)| misses(found));
