@@ -6,6 +6,7 @@ mod budget;
 mod check;
 mod completions;
 mod diff;
+mod impacts;
 mod index;
 mod manual;
 mod modes;

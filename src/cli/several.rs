@@ -1,6 +1,5 @@
 //! What commands do with a case of several modes or absorbers.
 
-use std::fmt::Write as _;
 use std::path::Path;
 
 use miette::{IntoDiagnostic, Result, miette};
@@ -8,10 +7,8 @@ use vinesink::answer::Decided;
 use vinesink::answer::several::{self, LeftOut};
 use vinesink::case::{ModalCase, Objective};
 use vinesink::modal::{
-    Beside, LoadImpact, ModalAnswer, ModalOptimum, checks, orbits, seconds, seconds_of_flight,
-    usual_periods,
+    Beside, ModalAnswer, ModalOptimum, checks, orbits, seconds, seconds_of_flight, usual_periods,
 };
-use vinesink::motions::Motions;
 use vinesink::program::case_file::name;
 use vinesink::program::parallel::Parallel;
 use vinesink::program::reports;
@@ -19,9 +16,9 @@ use vinesink::report::modal::{
     analysis, analysis_text, files, optimum, optimum_files, optimum_text, simulation, text,
 };
 use vinesink::report::render::Files;
-use vinesink::store;
 
 use super::budget::Long;
+use super::impacts;
 use super::one_case::OneCase;
 
 /// Refuses options that nothing reads for such a case, by their names where they were given.
@@ -91,28 +88,12 @@ pub fn simulate(
     let answer = answered(&one.path, case, one.long)?;
     answer.observe(&Parallel);
     if let Some(file) = impacts {
-        let impacts = answer.impacts(case, periods).into_diagnostic()?;
-        store::write_file(file, csv(case, &impacts).as_bytes())?;
+        let found = answer.impacts(case, periods).into_diagnostic()?;
+        impacts::write_of_loads(file, case, &found)?;
     }
     let stem = name(&one.path)?;
     one.print(|| text(&stem, case, &answer), || simulation(&stem, case, &answer))?;
     Ok(true)
-}
-
-/// Impacts, a line each: columns of one mode with the absorber behind the side, and at the end where they are.
-fn csv(case: &ModalCase, impacts: &[LoadImpact]) -> String {
-    let mut text = String::from(
-        "tau,side,absorber,x,xdot_before,xdot_after,ydot_before,ydot_after,load,frequency,motion\n",
-    );
-    for one in impacts {
-        let side = if one.side.sign() > 0.0 { "+1" } else { "-1" };
-        let [tau, rest @ ..] = one.over_clearance(case);
-        // Rust prints the shortest text that reads back to the same number.
-        let rest = rest.map(|number| number.to_string()).join(",");
-        let id = Motions::id(one.motion);
-        let _ = writeln!(text, "{tau},{side},{},{rest},{},{},{id}", one.absorber, one.load, one.at);
-    }
-    text
 }
 
 /// Prints its exact orbits under each load.

@@ -1,6 +1,5 @@
 //! `vinesink simulate CASE`
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -23,7 +22,7 @@ use vinesink::transient::OneFlight;
 use super::budget;
 use super::budget::Work;
 use super::one_case::{self, OneCase};
-use super::several;
+use super::{impacts, several};
 
 /// Simulate a case directly, impact by impact
 ///
@@ -126,7 +125,7 @@ pub fn run(arguments: Arguments) -> Result<bool> {
     };
     drop(progress);
     if let Some(file) = &arguments.impacts {
-        store::write_file(file, csv(&log.impacts).as_bytes())?;
+        impacts::write(file, &log.impacts)?;
     }
     let found = answer.as_ref().and_then(|answer| answer.motions.as_ref());
     let simulated = Simulated { case: &case, measured: &measured, found };
@@ -159,7 +158,7 @@ impl Arguments {
         let document = page::flight(case, &flown.into_diagnostic()?.ok_or_else(none)?);
         self.one.print(|| page::flight_text(case, &document), || &document)?;
         if let Some(file) = &self.impacts {
-            store::write_file(file, csv(&log.impacts).as_bytes())?;
+            impacts::write(file, &log.impacts)?;
         }
         Ok(true)
     }
@@ -172,25 +171,6 @@ impl Arguments {
             ..asked
         }
     }
-}
-
-fn csv(impacts: &[Impact]) -> String {
-    let mut text = String::from("tau,side,x,xdot_before,xdot_after,ydot_before,ydot_after\n");
-    for impact in impacts {
-        let side = if impact.side.sign() > 0.0 { "+1" } else { "-1" };
-        // Rust prints the shortest text that reads back to the same number.
-        let _ = writeln!(
-            text,
-            "{},{side},{},{},{},{},{}",
-            impact.tau,
-            impact.x,
-            impact.x_velocity_before,
-            impact.x_velocity_after,
-            impact.y_velocity_before,
-            impact.y_velocity_after
-        );
-    }
-    text
 }
 
 /// A whole number above 0, also as `1e6`.
