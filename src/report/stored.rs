@@ -41,7 +41,8 @@ pub(super) fn incomplete(place: &str, cause: &serde_json::Error) -> ReadError {
 /// # Errors
 /// [`ReadError`] names the first that is not.
 pub(crate) fn quantities_are_known(place: &str, part: &Value) -> Result<(), ReadError> {
-    let is_quantity = part.get("error").is_some() && part.get("value").is_some();
+    // What is listed of motions has a value and an error, and is named by its field.
+    let is_quantity = ["value", "error", "method"].iter().all(|key| part.get(key).is_some());
     let id = part["id"].as_str().unwrap_or_default();
     if is_quantity && catalogue::kind(id).is_none() {
         let message = format!("{place} is damaged: it has a quantity `{id}`, which is not known");
