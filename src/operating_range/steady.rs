@@ -127,8 +127,8 @@ fn judge_band(case: &Case, effort: &Effort, how: Depth) -> Result<Vec<Judged>, D
     let few = Effort { starts: effort.starts.min(STARTS), band: BAND, ..*effort };
     if how != Depth::OnTheWay {
         let (range, settings) = (case.range(), criteria::settings(case));
-        let misses = criteria::misses(case);
-        let until: Option<&Misses<'_, Motions>> = (how == Depth::WhetherAllHold).then_some(&misses);
+        let misses = (how == Depth::WhetherAllHold).then(|| criteria::misses(case));
+        let until = misses.as_ref().map(|misses| misses as &Misses<'_, Motions>);
         let found = Survey::until(&range, &settings, until, &Serial)?;
         if let Some(at) = found.motions.missed_at() {
             return Ok(criteria::judge(case, &found.only(at)));
