@@ -56,6 +56,7 @@ fn the_page_says_what_the_program_says() {
         let found = asked(&mut page, &json!({ "ask": "study", "text": text, "at": place }));
         let case = at(&text, load, frequency, amplitude);
         let answer = ModalAnswer::of(&case, &Serial).expect("an answer");
+        answer.observe(&Serial);
         let told = at_frequency(&case, &answer).expect("words");
         assert_eq!(found["tone"], told["tone"], "{name}");
         let markdown = unbroken(told["markdown"].as_str().expect("text"));
@@ -116,7 +117,7 @@ fn a_case_of_the_other_kind_takes_its_place() {
     let mut page = opened(&mut browser, &file(), DESKTOP);
     let shown = |page: &mut Page| {
         let shown = page.evaluate(
-            "[...document.querySelectorAll('.live-slider input[type=range], [data-live] figure[data-name], .live-bar :is(button, select), .live-detail')]
+            "[...document.querySelectorAll('.live-slider input[type=range], [data-live] figure[data-name], .live-bar > button, .live-bar select, .live-detail')]
                 .filter((one) => one.checkVisibility()).map((one) => one.id || one.dataset.name || one.textContent)",
         );
         let shown: Vec<String> = serde_json::from_value(shown).expect("names");
