@@ -13,7 +13,7 @@ from pathlib import Path
 FORMULA = re.compile(r"(`+)(?:.+?)\1|\$\$(?P<block>.+?)\$\$|\$(?P<inline>[^$\n]+?)\$")
 # The title of such a link says how high the frame is, and what the page shows.
 LIVE = re.compile(r'\[!\[(?P<name>[^]]*)\]\([^)]*\)\]\(live\.md "live (?P<height>\d+)px ?(?P<shown>[^"]*)"\)')
-FILE = re.compile(r'\]\(live\.md "(live(?:-several)?)"\)')
+FILE = re.compile(r'\]\(live\.md "(live)"\)')
 FENCE = re.compile(r"^\s*(```+|~~~+)")
 
 

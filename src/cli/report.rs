@@ -45,8 +45,7 @@ pub struct Arguments {
     /// exit with 1 if any. report.html is not looked at: it is the same report once more
     #[arg(long)]
     check: bool,
-    /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program,
-    /// `vinesink-live-several.html` of several modes
+    /// Add the live page to report.html, which stays one file: PAGE, or `vinesink-live.html` beside the program
     #[arg(long, value_name = "PAGE", require_equals = true, conflicts_with = "check")]
     live: Option<Option<PathBuf>>,
     /// Without tuned mass dampers beside the absorber, and without the ranges over which criteria hold
@@ -231,7 +230,7 @@ fn live_page(page: Option<&Path>, path: &Path, case: &Case) -> Result<(String, S
             path.display()
         ));
     }
-    page_text(page, "vinesink-live.html")
+    page_text(page)
 }
 
 /// The same of a structure of several modes.
@@ -247,13 +246,13 @@ fn live_page_of_several(
             path.display()
         ));
     }
-    page_text(page, "vinesink-live-several.html")
+    page_text(page)
 }
 
-/// A live page with its name: that which is given, or the one of this name beside the program.
-fn page_text(page: Option<&Path>, name: &str) -> Result<(String, String)> {
+/// The live page with its name: that which is given, or the one beside the program.
+fn page_text(page: Option<&Path>) -> Result<(String, String)> {
     let page = match page {
-        None => std::env::current_exe().into_diagnostic()?.with_file_name(name),
+        None => std::env::current_exe().into_diagnostic()?.with_file_name("vinesink-live.html"),
         Some(page) => page.to_owned(),
     };
     let live = store::read_text(&page)

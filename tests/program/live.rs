@@ -1,6 +1,8 @@
 //! The live page in Chromium: `web/build` makes it, into `target/web/live.html` (or a file named in `VINESINK_LIVE`).
 //! Where page or browser are missing the tests fail: `.ci/deep browser` makes both and runs them.
 
+mod several;
+
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -26,31 +28,25 @@ const PRESETS: [&str; 5] = [
     "li2016-8p5hz-fig4e",
 ];
 
-pub const LIVE: &str = "document.querySelector('[data-live]').live";
+const LIVE: &str = "document.querySelector('[data-live]').live";
 
 fn file() -> PathBuf {
-    file_of(None)
-}
-
-/// The live page's file, or that of a page beside it.
-pub fn file_of(name: Option<&str>) -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let given = env::var_os("VINESINK_LIVE").map(PathBuf::from);
-    let live = given.unwrap_or_else(|| root.join("target/web/live.html"));
-    let file = name.map_or(live.clone(), |name| live.with_file_name(name));
+    let file = given.unwrap_or_else(|| root.join("target/web/live.html"));
     assert!(file.is_file(), "there is no live page: run web/build");
     file
 }
 
 /// The page in a browser, with everything on it computed.
-pub fn opened<'a>(browser: &'a mut Browser, file: &Path, view: View) -> Page<'a> {
+fn opened<'a>(browser: &'a mut Browser, file: &Path, view: View) -> Page<'a> {
     let mut page = browser.page(view);
     page.open(file);
     settle(&mut page);
     page
 }
 
-pub fn settle(page: &mut Page) {
+fn settle(page: &mut Page) {
     let ready = format!(
         "(async () => {{
             while (!{LIVE} || !document.querySelector('[data-live] figure svg'))
@@ -61,21 +57,38 @@ pub fn settle(page: &mut Page) {
     page.evaluate(&ready);
 }
 
-/// Chooses the paper's case with two symmetric impacts per period.
-fn choose_the_paper(page: &mut Page) {
-    page.evaluate(
-        "(() => {
+/// Chooses the case to begin with that has these words in its name.
+fn choose(page: &mut Page, words: &str) {
+    page.evaluate(&format!(
+        "(() => {{
             const choose = document.querySelector('.live-bar select');
-            const of = [...choose.options].find((one) => one.textContent.includes('two symmetric'));
+            const of = [...choose.options].find((one) => one.textContent.includes('{words}'));
             choose.value = of.value;
             choose.dispatchEvent(new Event('change'));
-        })()",
-    );
+        }})()"
+    ));
     settle(page);
 }
 
+/// Chooses the paper's case with two symmetric impacts per period.
+fn choose_the_paper(page: &mut Page) {
+    choose(page, "two symmetric");
+}
+
+/// Pastes a case file.
+fn paste(page: &mut Page, text: &str) {
+    page.evaluate(&format!(
+        "(() => {{
+            document.querySelector('.live-file').open = true;
+            document.querySelector('.live-file textarea').value = {};
+            document.querySelector('.live-file button').click();
+        }})()",
+        json!(text)
+    ));
+}
+
 /// Sets a slider as a person would leave it, with events.
-pub fn slide(page: &mut Page, key: &str, position: u32) {
+fn slide(page: &mut Page, key: &str, position: u32) {
     page.evaluate(&format!(
         "(() => {{
             const slider = document.querySelector('#live-{key}');
@@ -307,16 +320,6 @@ fn the_mark_is_dragged_over_the_map_and_taken_back() {
 fn a_link_holds_the_case_and_a_case_file_is_pasted() {
     let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
-    let paste = |page: &mut Page, text: &str| {
-        page.evaluate(&format!(
-            "(() => {{
-                document.querySelector('.live-file').open = true;
-                document.querySelector('.live-file textarea').value = {};
-                document.querySelector('.live-file button').click();
-            }})()",
-            json!(text)
-        ));
-    };
     let other = shipped("force-on-mass");
     paste(&mut page, &other);
     settle(&mut page);
@@ -495,8 +498,7 @@ fn a_frame_begins_with_its_case() {
 fn criteria_are_judged_as_check_judges_them() {
     let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
-    page.evaluate("((choose) => { choose.value = '1'; choose.dispatchEvent(new Event('change')); })(document.querySelector('.live-bar select'))");
-    settle(&mut page);
+    choose(&mut page, "machine foot");
     let folder = tempfile::tempdir().expect("a folder");
     for slides in [None, Some(700)] {
         if let Some(position) = slides {
@@ -597,7 +599,7 @@ fn the_running_simulation_is_the_programs() {
     simulation.run(300, 100_000, &mut trace);
     let points =
         trace.points.iter().flat_map(|at| [at.periods, at.state.x, at.state.x - at.state.y]);
-    let impacts = trace.impacts.iter().flat_map(|(at, impact)| [*at, impact.side.sign()]);
+    let impacts = trace.impacts.iter().flat_map(|(at, impact)| [*at, 0.0, impact.side.sign()]);
     assert!(trace.impacts.len() > 300, "{} impacts", trace.impacts.len());
     for (k, native) in [points.collect::<Vec<f64>>(), impacts.collect()].into_iter().enumerate() {
         let page: Vec<f64> = serde_json::from_value(ran[k].clone()).expect("numbers");
@@ -605,35 +607,33 @@ fn the_running_simulation_is_the_programs() {
     }
 }
 
+/// On a desktop and a phone, light and dark, with a case of either kind: no noise, nothing overlaps, and it is no larger than it may be.
 #[test]
 #[ignore = "deep"]
 fn the_page_is_quiet_accessible_and_fits() {
     let (file, mut browser) = (file(), browser());
-    is_quiet_accessible_and_fits(&mut browser, &file, |page| slide(page, "clearance", 300));
-}
-
-/// On a desktop and a phone, light and dark, after something was done to it: no noise, nothing overlaps, and it is no larger than it
-/// may be.
-pub fn is_quiet_accessible_and_fits(browser: &mut Browser, file: &Path, act: fn(&mut Page)) {
     let folder = file.parent().expect("a folder").canonicalize().expect("a path");
     let script = checks::axe().map(|script| fs::read_to_string(script).expect("readable"));
     for view in [DESKTOP, PHONE] {
         for dark in [false, true] {
-            let mut page = opened(browser, file, View { dark, ..view });
-            act(&mut page);
-            settle(&mut page);
-            let noise = checks::noise(&mut page, &folder);
-            assert!(noise.is_empty(), "{noise:#?}");
-            let layout = checks::layout(&mut page);
-            assert!(layout.is_empty(), "{} px, dark {dark}: {layout:#?}", view.width);
-            if let Some(script) = &script {
-                let found = checks::accessibility(&mut page, script);
-                assert!(found.is_empty(), "{} px, dark {dark}: {found:#?}", view.width);
+            let mut page = opened(&mut browser, &file, View { dark, ..view });
+            for (case, slider) in [("footbridge", "clearance"), ("two places", "clearance_1")] {
+                choose(&mut page, case);
+                slide(&mut page, slider, 300);
+                settle(&mut page);
+                let noise = checks::noise(&mut page, &folder);
+                assert!(noise.is_empty(), "{noise:#?}");
+                let layout = checks::layout(&mut page);
+                assert!(layout.is_empty(), "{case}, {} px, dark {dark}: {layout:#?}", view.width);
+                if let Some(script) = &script {
+                    let found = checks::accessibility(&mut page, script);
+                    assert!(found.is_empty(), "{case}, {} px, dark {dark}: {found:#?}", view.width);
+                }
             }
         }
     }
     assert!(script.is_some() || env::var("VINESINK_BROWSER").is_err(), "there is no axe-core");
-    let size = fs::metadata(file).expect("a file").len();
+    let size = fs::metadata(&file).expect("a file").len();
     assert!(size <= 1_800_000, "{size} bytes");
 }
 
@@ -706,21 +706,17 @@ fn the_page_beside_the_program_is_taken() {
 fn the_first_lines_say_why() {
     let (file, mut browser) = (file(), browser());
     let mut page = opened(&mut browser, &file, DESKTOP);
-    let preset = |page: &mut Page, k: u32| {
-        page.evaluate(&format!("((choose) => {{ choose.value = '{k}'; choose.dispatchEvent(new Event('change')); }})(document.querySelector('.live-bar select'))"));
-        settle(page);
-    };
     let said = |page: &mut Page, of: &str| {
         let text = format!("document.querySelector('{of}').textContent");
         page.evaluate(&text).as_str().expect("words").replace('\u{a0}', " ")
     };
-    preset(&mut page, 1);
+    choose(&mut page, "machine foot");
     let headline = said(&mut page, ".live-headline");
     assert!(
         headline.contains("not the steady 1:1 resonance that an absorber is designed for"),
         "{headline}"
     );
-    preset(&mut page, 6);
+    choose_the_paper(&mut page);
     let document = Native::of(&shipped("li2016-8p5hz-fig4c")).document;
     let motions = document["motions"].as_array().expect("motions");
     let work = |regime: &str| {

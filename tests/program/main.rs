@@ -30,7 +30,6 @@ mod figures;
 mod index;
 mod layers;
 mod live;
-mod live_several;
 mod metadata;
 mod modal;
 mod modal_accuracy;

@@ -1,4 +1,4 @@
-// What all live pages share. The same text runs in a page and in its workers.
+// What all parts of the page share. The same text runs in a page and in its workers.
 "use strict";
 
 /** The module with its memory. */
@@ -32,25 +32,6 @@ class Engine {
   }
 }
 
-if (typeof document === "undefined") {
-  let engine;
-  self.onmessage = ({ data }) => {
-    if (data.module) engine = new Engine(data.module);
-    else self.postMessage({ id: data.id, answer: engine.ask(data.request) });
-  };
-} else {
-  document.querySelectorAll("[data-live]").forEach((place) => {
-    const live = new Live(place);
-    // In a report it may never come into sight.
-    new IntersectionObserver(([one], eye) => {
-      if (!one.isIntersecting) return;
-      eye.disconnect();
-      live.begin();
-    }, { rootMargin: "300px" }).observe(place);
-    if (location.hash.startsWith("#case=")) place.scrollIntoView();
-  });
-}
-
 /** A worker that always has the newest request next, and never more than one. */
 function Desk(module, source) {
   const worker = new Worker(URL.createObjectURL(new Blob([source], { type: "text/javascript" })));
@@ -82,15 +63,19 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+const button = (words, act, more = {}) => make("button", { type: "button", onclick: act, ...more }, words);
+
+/** What is older than the sliders looks so, until it is no longer. */
+const old = (element) => element.setAttribute("aria-busy", "true"), fresh = (element) => element.removeAttribute("aria-busy");
+
 /** Whether drawings are for a phone. */
 const narrow = () => innerWidth < 640;
 const DAMAGED = "The link is damaged; this is another case.";
 
-/** The module, which the page holds packed. */
-async function packedModule() {
-  const packed = Uint8Array.from(atob(document.getElementById("live-module").textContent.trim()), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return WebAssembly.compile(await new Response(stream).arrayBuffer());
+/** The module, which the page holds packed behind its length. */
+function packedModule() {
+  const packed = bytesOf(document.getElementById("live-module").textContent);
+  return WebAssembly.compile(unlzma(packed.subarray(4), new DataView(packed.buffer).getUint32(0)));
 }
 
 // The Markdown of the program: a line, a sentence of it, and a row of a table.
@@ -108,22 +93,24 @@ function blocks(markdown, label = "Criteria") {
   return [first, table, ...others].filter(Boolean);
 }
 
-// The state as a part of the address: the text of the case, deflated.
+// The state as a part of the address: the text of the case, deflated, and of several modes the excitation of the sliders.
 async function through(stream, bytes) {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
-async function linkTo(text) {
+async function linkTo(text, at) {
   const packed = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(text));
   const code = btoa(String.fromCharCode(...packed)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
-  return `${location.href.split("#")[0]}#case=${code}`;
+  return `${location.href.split("#")[0]}#case=${code}${at ? `&at=${at.load},${at.frequency},${at.amplitude}` : ""}`;
 }
+/** The state of an address; the text is empty where it is damaged. */
 async function linked(hash = location.hash) {
-  const code = new URLSearchParams(hash.slice(1)).get("case");
+  const parts = new URLSearchParams(hash.slice(1)), code = parts.get("case");
   if (code === null) return null;
   try {
     const bytes = Uint8Array.from(atob(code.replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
-    return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));
-  } catch { return ""; }
+    const [load, frequency, amplitude] = parts.get("at")?.split(",").map(Number) ?? [];
+    return { text: new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes)), at: load === undefined ? load : { load, frequency, amplitude } };
+  } catch { return { text: "" }; }
 }
 
 /** The next round number. */
@@ -131,6 +118,10 @@ function round(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9)) * power;
 }
+
+/** A value at a share of a slider or an axis, and the share of a value. */
+const along = ({ range: [low, high], log }, share) => log ? low * (high / low) ** share : low + share * (high - low);
+const share = ({ range: [low, high], log }, value) => log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
 
 const number = (value) => Number(value.toPrecision(3));
 

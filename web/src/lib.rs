@@ -4,38 +4,15 @@
 //! The page writes a request of `length` bytes at `room(length)`, calls `ask(length)`, and reads `answer_length()`
 //! bytes at `answer_at()`. Nothing else is shared.
 
-#[cfg(not(feature = "several"))]
 mod answers;
-#[cfg(not(feature = "several"))]
 mod controls;
-#[cfg(not(feature = "several"))]
+mod one;
 mod plain;
-#[cfg(not(feature = "several"))]
 mod running;
-#[cfg(feature = "several")]
 mod several;
 mod told;
 
-#[cfg(not(feature = "several"))]
-use {answers::to, running::go_on as run_on};
-#[cfg(feature = "several")]
-use {several::go_on as run_on, several::to};
-
 use std::cell::RefCell;
-
-use serde::Deserialize;
-
-/// How a simulation begins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum From {
-    /// With the displacements and velocities of the one before.
-    Here,
-    /// At rest, the absorber in the middle of its cavity.
-    Rest,
-    /// Half the way to a wall, with a velocity of the absorber of one clearance per `1/omega0`.
-    Push,
-}
 
 thread_local! {
     static TEXT: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
@@ -56,7 +33,7 @@ pub extern "C" fn room(length: usize) -> *mut u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn ask() {
     let request = TEXT.take();
-    TEXT.set(to(&request));
+    TEXT.set(answers::to(&request));
 }
 
 /// Where the answer is, until the next call of [`room`].
@@ -72,12 +49,12 @@ pub extern "C" fn answer_length() -> usize {
 }
 
 /// Lets the running simulation go on for so many periods, with so many points a period; how many numbers
-/// describe what happened: see the `go_on` of the page.
+/// describe what happened: see [`running::go_on`].
 #[unsafe(no_mangle)]
 pub extern "C" fn go_on(periods: u32, samples: f64) -> usize {
     NUMBERS.with_borrow_mut(|numbers| {
         numbers.clear();
-        run_on(periods, samples, numbers);
+        running::go_on(periods, samples, numbers);
         numbers.len()
     })
 }

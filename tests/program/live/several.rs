@@ -1,5 +1,4 @@
-//! The live page of structures of several modes in Chromium: `web/build` makes it, into `target/web/live-several.html`.
-//! Where page or browser are missing the tests fail: `.ci/deep browser` makes both and runs them.
+//! The live page with structures of several modes or absorbers.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -14,12 +13,17 @@ use vinesink::report::modal::at_frequency;
 use vinesink::simulation::{ModalObserver, ModalSegment, ModalSimulation};
 use vinesink::system::{ModalState, ModalSystem};
 
-use super::live::{LIVE, file_of, is_quiet_accessible_and_fits, opened, settle, slide};
+use super::{LIVE, choose, file, opened, paste, settle, slide, text};
 use crate::browser::browser;
 use crate::browser_support::checks::{self, DESKTOP};
-use crate::browser_support::chromium::Page;
+use crate::browser_support::chromium::{Browser, Page};
 
-const PAGE: &str = "live-several.html";
+/// The page with a mast of three modes.
+fn with_a_mast<'a>(browser: &'a mut Browser) -> Page<'a> {
+    let mut page = opened(browser, &file(), DESKTOP);
+    choose(&mut page, "ball on a mast");
+    page
+}
 
 fn shipped(name: &str) -> String {
     fs::read_to_string(format!("cases/several/{name}.toml")).expect("a shipped case")
@@ -42,8 +46,8 @@ fn at(text: &str, load: usize, frequency: f64, amplitude: f64) -> ModalCase {
 #[test]
 #[ignore = "deep"]
 fn the_page_says_what_the_program_says() {
-    let (file, mut browser) = (file_of(Some(PAGE)), browser());
-    let mut page = opened(&mut browser, &file, DESKTOP);
+    let mut browser = browser();
+    let mut page = with_a_mast(&mut browser);
     for (name, load, frequency, amplitude) in
         [("mast", 1, 6.9, 14.07), ("floor", 0, 5.1, 800.0), ("graded", 0, 2.0, 30.0)]
     {
@@ -52,6 +56,7 @@ fn the_page_says_what_the_program_says() {
         let found = asked(&mut page, &json!({ "ask": "study", "text": text, "at": place }));
         let case = at(&text, load, frequency, amplitude);
         let answer = ModalAnswer::of(&case, &Serial).expect("an answer");
+        answer.observe(&Serial);
         let told = at_frequency(&case, &answer).expect("words");
         assert_eq!(found["tone"], told["tone"], "{name}");
         let markdown = unbroken(told["markdown"].as_str().expect("text"));
@@ -66,16 +71,15 @@ fn the_page_says_what_the_program_says() {
 #[test]
 #[ignore = "deep"]
 fn sliders_move_everything() {
-    let (file, mut browser) = (file_of(Some(PAGE)), browser());
-    let mut page = opened(&mut browser, &file, DESKTOP);
+    let mut browser = browser();
+    let mut page = with_a_mast(&mut browser);
     let said = "document.querySelector('.live-headline').textContent";
     let before = page.evaluate(said);
     let periods = page.evaluate(&format!("{LIVE}.running().clock"));
     slide(&mut page, "clearance_1", 800);
     settle(&mut page);
-    let text = page.evaluate(&format!("{LIVE}.text"));
-    let text = text.as_str().expect("text");
-    let case = ModalCase::parse("case.toml", text).expect("a case");
+    let text = text(&mut page);
+    let case = ModalCase::parse("case.toml", &text).expect("a case");
     // 2.7 mm, a factor of eight to either side.
     let wanted = 2.7e-3 / 8.0 * libm::pow(64.0, 0.8);
     assert!((case.absorbers[0].clearance_m / wanted - 1.0).abs() < 1e-3, "{text}");
@@ -89,22 +93,73 @@ fn sliders_move_everything() {
         "(() => { const of = document.querySelectorAll('.live-bar select')[1]; of.value = '2'; of.dispatchEvent(new Event('change')); })()",
     );
     settle(&mut page);
-    let place = page.evaluate(&format!("{LIVE}.at()"));
+    let place = page.evaluate(&format!("{LIVE}.at"));
     assert_eq!(
         [&place["load"], &place["frequency"], &place["amplitude"]],
         [&json!(2), &json!(19.31), &json!(110.3)]
     );
     // What is wrong with a case file is said with its line, and the case of before stays.
     let wrong = text.replacen("restitution = 0.3", "restitution = 1.3", 1);
-    page.evaluate(&format!(
-        "(() => {{ const of = document.querySelector('textarea'); of.value = {}; of.parentElement.querySelector('button').click(); }})()",
-        json!(wrong)
-    ));
+    paste(&mut page, &wrong);
     let problem = page.evaluate("document.querySelector('.live-problem').textContent");
     assert!(
         problem.as_str().is_some_and(|text| text.contains("Line ") && text.contains("from 0 to 1")),
         "{problem}"
     );
+}
+
+/// One page shows both kinds: controls and figures are those of the case, going back goes back over both, and a link holds the excitation
+/// of the sliders too.
+#[test]
+#[ignore = "deep"]
+fn a_case_of_the_other_kind_takes_its_place() {
+    let mut browser = browser();
+    let mut page = opened(&mut browser, &file(), DESKTOP);
+    let shown = |page: &mut Page| {
+        let shown = page.evaluate(
+            "[...document.querySelectorAll('.live-slider input[type=range], [data-live] figure[data-name], .live-bar > button, .live-bar select, .live-detail')]
+                .filter((one) => one.checkVisibility()).map((one) => one.id || one.dataset.name || one.textContent)",
+        );
+        let shown: Vec<String> = serde_json::from_value(shown).expect("names");
+        shown
+    };
+    let of_one = shown(&mut page);
+    let begin = text(&mut page);
+    let has = |shown: &[String], name: &str| shown.iter().any(|one| one.contains(name));
+    for name in ["live-clearance", "map", "amplitude", "Best clearance", "theory"] {
+        assert!(has(&of_one, name), "{name}: {of_one:?}");
+    }
+    paste(&mut page, &shipped("floor"));
+    settle(&mut page);
+    let of_several = shown(&mut page);
+    for name in ["live-frequency", "live-amplitude", "live-clearance_2", "loads"] {
+        assert!(has(&of_several, name), "{name}: {of_several:?}");
+    }
+    for name in ["map", "Best clearance", "theory"] {
+        assert!(!has(&of_several, name), "{name}: {of_several:?}");
+    }
+    slide(&mut page, "frequency", 250);
+    settle(&mut page);
+    let [at, link] = ["at", "link()"].map(|of| page.evaluate(&format!("{LIVE}.{of}")));
+    assert!((at["frequency"].as_f64().expect("a frequency") - 5.0).abs() < 1e-9, "{at}");
+    assert_eq!(text(&mut page), shipped("floor"), "the frequency is not of the case");
+    let undo = |page: &mut Page| {
+        page.evaluate(
+            "[...document.querySelectorAll('button')].find((one) => one.title === 'Undo').click()",
+        );
+        settle(page);
+    };
+    undo(&mut page);
+    assert_eq!(page.evaluate(&format!("{LIVE}.at.frequency")), json!(5.2));
+    undo(&mut page);
+    assert_eq!((text(&mut page), shown(&mut page)), (begin, of_one));
+    drop(page);
+    let address = link.as_str().expect("a link").to_owned();
+    let mut page = browser.page(DESKTOP);
+    page.open_address(&address);
+    settle(&mut page);
+    assert_eq!(page.evaluate(&format!("{LIVE}.at")), at);
+    assert_eq!(text(&mut page), shipped("floor"));
 }
 
 /// Displacement and gap of the first absorber once a period.
@@ -128,8 +183,8 @@ impl ModalObserver for Once<'_> {
 #[test]
 #[ignore = "deep"]
 fn the_running_simulation_is_the_programs() {
-    let (file, mut browser) = (file_of(Some(PAGE)), browser());
-    let mut page = opened(&mut browser, &file, DESKTOP);
+    let mut browser = browser();
+    let mut page = with_a_mast(&mut browser);
     let text = shipped("floor");
     let request = json!({ "ask": "run", "text": text, "from": "rest", "at": { "load": 0, "frequency": 5.1, "amplitude": 883.0 } });
     let script = format!(
@@ -151,18 +206,11 @@ fn the_running_simulation_is_the_programs() {
     assert!(simulation.impacts() > 0 && (simulation.phase() / TAU).fract() < 1e-9);
 }
 
-#[test]
-#[ignore = "deep"]
-fn the_page_is_quiet_accessible_and_fits() {
-    let (file, mut browser) = (file_of(Some(PAGE)), browser());
-    is_quiet_accessible_and_fits(&mut browser, &file, |page| slide(page, "restitution_1", 700));
-}
-
 /// A report with the page is still one file and begins with its own case; modes in a file are refused.
 #[test]
 #[ignore = "deep"]
 fn a_report_holds_the_page() {
-    let (file, mut browser) = (file_of(Some(PAGE)), browser());
+    let (file, mut browser) = (file(), browser());
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path().canonicalize().expect("a path");
     let run = |case: &str| {
@@ -176,7 +224,7 @@ fn a_report_holds_the_page() {
     page.open(&folder.join("graded/report.html"));
     page.evaluate("document.querySelector('#live').scrollIntoView({ behavior: 'instant' })");
     settle(&mut page);
-    assert_eq!(page.evaluate(&format!("{LIVE}.text")), json!(shipped("graded")));
+    assert_eq!(text(&mut page), shipped("graded"));
     let noise = checks::noise(&mut page, &folder);
     assert!(noise.is_empty(), "{noise:#?}");
     let refused = run("cases/several/mast-two.toml");
