@@ -22,9 +22,9 @@ pub enum From {
 
 enum Running {
     /// Of one mode with one absorber, with the clearance, in the case's unit, that its lengths are over.
-    One(Simulation, f64),
+    One(Box<Simulation>, f64),
     /// Of several modes or absorbers, in m.
-    Several(ModalSimulation, ModalSystem),
+    Several(Box<(ModalSimulation, ModalSystem)>),
 }
 
 thread_local! {
@@ -49,7 +49,7 @@ pub fn one(system: &System, clearance: f64, from: From) -> Result<(), String> {
         };
         let simulation =
             Simulation::new(system, start, phase).map_err(|error| error.to_string())?;
-        *running = Some(Running::One(simulation, clearance));
+        *running = Some(Running::One(Box::new(simulation), clearance));
         Ok(())
     })
 }
@@ -72,9 +72,10 @@ pub fn several(system: &ModalSystem, from: From) -> Result<(), String> {
     RUNNING.with_borrow_mut(|running| {
         let (mut state, mut phase) = (ModalState::AT_REST, 0.0);
         match running {
-            Some(Running::Several(simulation, before))
-                if from == From::Here && size(before) == size(system) =>
+            Some(Running::Several(before))
+                if from == From::Here && size(&before.1) == size(system) =>
             {
+                let (simulation, _) = &**before;
                 (state, phase) = (simulation.state(), simulation.phase());
                 for (j, b) in clearances.enumerate() {
                     let x = displacement(system, &state, j);
@@ -91,7 +92,7 @@ pub fn several(system: &ModalSystem, from: From) -> Result<(), String> {
         }
         let simulation = ModalSimulation::new(system, &state, phase);
         let simulation = simulation.map_err(|error| error.to_string())?;
-        *running = Some(Running::Several(simulation, system.clone()));
+        *running = Some(Running::Several(Box::new((simulation, system.clone()))));
         Ok(())
     })
 }
@@ -151,7 +152,8 @@ pub fn go_on(periods: u32, samples: f64, numbers: &mut Vec<f64>) {
                 numbers.extend([*periods, 0.0, impact.side.sign()]);
             }
         }
-        Some(Running::Several(simulation, system)) => {
+        Some(Running::Several(several)) => {
+            let (simulation, system) = &mut **several;
             let mut trace = ModalTrace { system, samples, points: Vec::new(), impacts: Vec::new() };
             simulation.run(periods.into(), AT_MOST, &mut trace);
             let width = 1 + 2 * system.absorbers().len();
