@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, NamedSource, Report};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use vinesink::answer::{Answer, Asked};
 use vinesink::case;
-use vinesink::case_input::CaseInputError;
 use vinesink::excitation::Scene;
 use vinesink::motions::Effort;
 use vinesink::report::console::Analysed;
@@ -18,13 +16,10 @@ use vinesink::store::Reach;
 use vinesink::study::fidelity::LayerPlan;
 use vinesink::system::{Parameter, State};
 
-use crate::errors::{CaseError, FileError};
+use crate::errors::{refused, warned};
 use crate::simulate::{self, Impacts, Wanted};
-use crate::work::{self, Columns, WorkState, json, refused};
+use crate::work::{self, Columns, WorkState, json};
 use crate::{branch, decide, report};
-
-/// Width of messages, as the program writes them where no terminal tells another.
-const WIDTH: usize = 80;
 
 /// A case as it was read.
 #[pyclass(frozen, module = "vinesink._vinesink")]
@@ -34,14 +29,6 @@ pub struct Case {
     /// As messages say it, and the stem of its file.
     name: String,
     stem: String,
-}
-
-/// Warnings of a case as the program says them of its text.
-pub fn warned(name: &str, text: &str, warnings: &[case::Problem]) -> Vec<String> {
-    let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let source = || NamedSource::new(name, visible.to_owned());
-    let shown = |one: &case::Problem| shown(&*Report::new(one.clone()).with_source_code(source()));
-    warnings.iter().map(shown).collect()
 }
 
 impl Case {
@@ -289,46 +276,8 @@ pub fn states(initial: &[[f64; 4]]) -> Vec<State> {
     initial.iter().copied().map(simulate::state).collect()
 }
 
-/// A problem as the program shows it, with the text underlined.
-fn shown(problem: &dyn Diagnostic) -> String {
-    let mut text = String::new();
-    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
-    let handler = handler.with_width(WIDTH);
-    // Writing into a text does not fail.
-    let _ = handler.render_report(&mut text, problem);
-    text
-}
-
 pub fn reach(allow_outside: bool) -> Reach {
     if allow_outside { Reach::Anywhere } else { Reach::Folder }
-}
-
-/// With the program's message, and each problem as a dict in `problems`.
-pub fn not_read(py: Python<'_>, error: &CaseInputError) -> PyErr {
-    match error {
-        CaseInputError::Case(error) => case_error(py, error),
-        CaseInputError::Named { source, .. } => FileError::new_err(source.to_string()),
-        other => FileError::new_err(other.to_string()),
-    }
-}
-
-fn case_error(py: Python<'_>, error: &case::CaseError) -> PyErr {
-    let raised = CaseError::new_err(shown(error));
-    let each = error.problems().map(|problem| {
-        let dict = PyDict::new(py);
-        dict.set_item("line", problem.line)?;
-        dict.set_item("column", problem.column)?;
-        dict.set_item("underlined", &problem.underlined)?;
-        dict.set_item("message", &problem.message)?;
-        dict.set_item("expected", &problem.expected)?;
-        dict.set_item("help", &problem.help)?;
-        Ok(dict)
-    });
-    let all: PyResult<Vec<_>> = each.collect();
-    match all.and_then(|all| raised.value(py).setattr("problems", all)) {
-        Ok(()) => raised,
-        Err(other) => other,
-    }
 }
 
 /// The JSON Schema of a case file.

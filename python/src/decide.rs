@@ -17,7 +17,8 @@ use vinesink::sweep::columns::{Cell, Column, Storage};
 use vinesink::sweep::work::points;
 use vinesink::sweep::{ModalPlan, Plan};
 
-use crate::work::{Columns, WorkState, json, refused};
+use crate::errors::refused;
+use crate::work::{Columns, WorkState, json};
 
 /// Points of a sweep that are worked out together.
 const TOGETHER: u64 = 64;

@@ -12,8 +12,9 @@ use vinesink::regimes::Regime;
 use vinesink::system::{Parameter, State, System};
 
 use crate::case::{Case, states};
+use crate::errors::refused;
 use crate::simulate::numbers;
-use crate::work::{self, Columns, WorkState, refused};
+use crate::work::{self, Columns, WorkState};
 
 /// Trajectories side by side, as in a sweep: many times the lanes of a batch, and few enough to stay in a cache.
 const TOGETHER: usize = 256;

@@ -11,11 +11,12 @@ use vinesink::modal::{Beside, ModalAnswer, ModalOptimum, orbits, usual_periods};
 use vinesink::report::modal::{analysis, checked, files, optimum, simulation};
 use vinesink::report::render::Files;
 
-use crate::case::{Case, not_read, reach, warned};
+use crate::case::{Case, reach};
 use crate::decide;
+use crate::errors::{not_read, refused, warned};
 use crate::report;
 use crate::simulate::of_several;
-use crate::work::{self, Columns, WorkState, json, refused};
+use crate::work::{self, Columns, WorkState, json};
 
 /// A case as it was read.
 #[pyclass(frozen, module = "vinesink._vinesink")]

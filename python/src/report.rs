@@ -10,8 +10,8 @@ use vinesink::report::render::{self, Files};
 use vinesink::store;
 use vinesink::study::fidelity::LayerPlan;
 
-use crate::errors::FileError;
-use crate::work::{WorkState, refused};
+use crate::errors::{FileError, refused};
+use crate::work::WorkState;
 
 /// The files, and whether simulations are to be trusted and what was asked of accuracy holds.
 pub fn rendered(case: &Case, name: &str, work: &WorkState) -> PyResult<(Files, bool)> {

@@ -14,8 +14,8 @@ use vinesink::motions::{Effort, Motion, Motions};
 use vinesink::report::console::Simulated;
 use vinesink::system::State;
 
-use crate::errors::RefusedError;
-use crate::work::{Columns, WorkState, refused};
+use crate::errors::refused;
+use crate::work::{Columns, WorkState};
 
 /// Impacts after which a run is ended, as by the program.
 const IMPACT_LIMIT: u64 = 200_000_000;
@@ -179,7 +179,7 @@ pub fn sampled(case: &Case, start: State, times: Vec<f64>, work: &WorkState) -> 
     if !(ascend && begins && last.is_finite()) {
         let message =
             "times must be finite numbers of excitation periods, 0 or more, in ascending order";
-        return Err(RefusedError::new_err(message));
+        return Err(refused(message));
     }
     let mut simulation = Simulation::new(&case.system(), start, 0.0).map_err(refused)?;
     let (begun, states) = (simulation.state(), Vec::with_capacity(4 * times.len()));
