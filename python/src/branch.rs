@@ -10,7 +10,8 @@ use vinesink::answer::branch::{
 use vinesink::case::Case;
 use vinesink::system::Parameter;
 
-use crate::work::{Columns, refused};
+use crate::errors::refused;
+use crate::work::Columns;
 
 /// Orbits with two impacts per period, in the case's units: the fields of `orbits` in the JSON of `analyze` and more.
 pub fn orbits(case: &Case) -> Vec<Value> {

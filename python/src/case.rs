@@ -1,66 +1,47 @@
-//! A case: read, and what the program's commands say of it.
+//! A case, of one mode with one absorber or of several: read, and what the program's commands say of it.
 
 use std::path::PathBuf;
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, NamedSource, Report};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use vinesink::answer::{Answer, Asked};
 use vinesink::case;
-use vinesink::case_input::CaseInputError;
+use vinesink::case_input::{self, AnyCase};
 use vinesink::excitation::Scene;
-use vinesink::motions::Effort;
-use vinesink::report::console::Analysed;
-use vinesink::report::document::Content;
-use vinesink::report::transient as page;
 use vinesink::store::Reach;
-use vinesink::study::fidelity::LayerPlan;
-use vinesink::system::{Parameter, State};
+use vinesink::system::Parameter;
 
-use crate::errors::{CaseError, FileError};
-use crate::simulate::{self, Impacts, Wanted};
-use crate::work::{self, Columns, WorkState, json, refused};
-use crate::{branch, decide, report};
-
-/// Width of messages, as the program writes them where no terminal tells another.
-const WIDTH: usize = 80;
+use crate::errors::{not_read, refused, warned};
+use crate::simulate::{self, Told, Wanted};
+use crate::work::{self, Columns, WorkState, json};
+use crate::{analyze, branch, decide, report};
 
 /// A case as it was read.
 #[pyclass(frozen, module = "vinesink._vinesink")]
 pub struct Case {
-    pub inner: case::Case,
+    pub inner: AnyCase,
     text: String,
     /// As messages say it, and the stem of its file.
     name: String,
     stem: String,
 }
 
-/// Warnings of a case as the program says them of its text.
-pub fn warned(name: &str, text: &str, warnings: &[case::Problem]) -> Vec<String> {
-    let visible = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let source = || NamedSource::new(name, visible.to_owned());
-    let shown = |one: &case::Problem| shown(&*Report::new(one.clone()).with_source_code(source()));
-    warnings.iter().map(shown).collect()
-}
-
-impl Case {
-    /// A case that was read from its text, or the file of a name.
-    pub fn of(inner: vinesink::case::Case, text: String, name: String, stem: String) -> Self {
-        Self { inner, text, name, stem }
-    }
-}
-
 #[pymethods]
 impl Case {
     #[getter]
     fn title(&self) -> &str {
-        &self.inner.title
+        match &self.inner {
+            AnyCase::One(case) => &case.title,
+            AnyCase::Several(case) => &case.title,
+        }
     }
 
     #[getter]
     fn source(&self) -> &str {
-        &self.inner.source
+        match &self.inner {
+            AnyCase::One(case) => &case.source,
+            AnyCase::Several(case) => &case.source,
+        }
     }
 
     #[getter]
@@ -74,20 +55,37 @@ impl Case {
         &self.stem
     }
 
-    /// Whether it is driven steadily.
+    /// Whether it is driven steadily, as several modes are by every load.
     #[getter]
     fn steady(&self) -> bool {
-        self.inner.design.scene() == Scene::Steady
+        match &self.inner {
+            AnyCase::One(case) => case.design.scene() == Scene::Steady,
+            AnyCase::Several(_) => true,
+        }
+    }
+
+    /// The places at which modes have a shape; none of one mode with one absorber.
+    #[getter]
+    fn places(&self) -> Vec<String> {
+        match &self.inner {
+            AnyCase::One(_) => Vec::new(),
+            AnyCase::Several(case) => case.places.clone(),
+        }
     }
 
     /// What is probably a slip in it, as the program says it of the text.
     fn warnings(&self) -> Vec<String> {
-        warned(&self.name, &self.text, self.inner.warnings())
+        let warnings = match &self.inner {
+            AnyCase::One(case) => case.warnings(),
+            AnyCase::Several(case) => &case.warnings,
+        };
+        warned(&self.name, &self.text, warnings)
     }
 
     /// Clearance, natural frequency and mass, which turn dimensionless numbers into the case's units.
     fn scales<'py>(&self, py: Python<'py>) -> PyResult<Columns<'py>> {
-        let scales = self.inner.units();
+        let case = self.one()?;
+        let scales = case.units();
         let dict = PyDict::new(py);
         dict.set_item("physical", scales.physical)?;
         dict.set_item("length", scales.length(1.0))?;
@@ -95,22 +93,36 @@ impl Case {
         dict.set_item("velocity", scales.velocity(1.0))?;
         dict.set_item("energy", scales.energy(1.0))?;
         dict.set_item("frequency", scales.frequency(1.0))?;
-        dict.set_item("period", scales.time(self.inner.system().period()))?;
+        dict.set_item("period", scales.time(case.system().period()))?;
         Ok(dict)
     }
 
     /// As `vinesink analyze --format json`.
     fn analyze(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<String> {
-        work::done(py, progress, |work| json(&self.analysed(work)?))
+        let analysed = |work: &WorkState| analyze::analysed(&self.inner, &self.stem, work);
+        work::done(py, progress, |work| json(&analysed(work)?))
     }
 
     /// All exact orbits with two impacts per period: the document of each, and its sequence of walls.
     fn orbits(&self, py: Python<'_>) -> PyResult<String> {
-        self.needs_steady("a list of orbits is")?;
-        work::done(py, None, |_| json(&branch::orbits(&self.inner)))
+        let case = self.driven_steadily("a list of orbits is")?;
+        work::done(py, None, |_| json(&branch::orbits(case)))
     }
 
-    /// As `vinesink simulate --format json`; the impacts of the measured window and its start.
+    /// Refuses `periods`, or what else was asked of a run, where the case itself says what is flown.
+    fn needs_run(&self, periods: bool, other: bool) -> PyResult<()> {
+        match &self.inner {
+            AnyCase::Several(_) if other => Err(refused(
+                "the structure has several modes or absorbers, whose starts are those of the search; call simulate(), or simulate(periods=...)",
+            )),
+            AnyCase::One(_) if !self.steady() && (periods || other) => Err(refused(
+                "the structure is not driven steadily: the case itself says what becomes of it; call simulate()",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// As `vinesink simulate --format json`; the impacts that `--impacts` writes, and where one steady motion starts.
     fn simulate<'py>(
         &self,
         py: Python<'py>,
@@ -118,20 +130,16 @@ impl Case {
         discard: Option<u64>,
         initial: Option<[f64; 4]>,
         progress: Option<Py<PyAny>>,
-    ) -> PyResult<(String, Columns<'py>, [f64; 4])> {
-        if !self.steady() {
-            let text = work::done(py, progress, |work| {
-                let answer = Answer::of(&self.inner, Asked::Motions, None, work);
-                json(&self.unsteady(&answer.map_err(refused)?, Content::Simulation))
-            })?;
-            return Ok((text, PyDict::new(py), [f64::NAN; 4]));
+    ) -> PyResult<Told<'py>> {
+        match &self.inner {
+            AnyCase::Several(case) => simulate::of_several(py, case, &self.stem, periods, progress),
+            AnyCase::One(case) if !self.steady() => {
+                simulate::unsteady(py, case, &self.stem, progress)
+            }
+            AnyCase::One(case) => {
+                simulate::steady(py, case, &Wanted::of(case, periods, discard, initial), progress)
+            }
         }
-        let wanted = self.wanted(periods, discard, initial);
-        let (text, impacts, start) = work::done(py, progress, |work| {
-            let (document, impacts, start) = simulate::measured(&self.inner, &wanted, work)?;
-            Ok((json(&document)?, Impacts::of(&impacts), start))
-        })?;
-        Ok((text, impacts.columns(py)?, simulate::numbers(start)))
     }
 
     /// The impacts of one trajectory, without measuring it.
@@ -143,9 +151,9 @@ impl Case {
         initial: [f64; 4],
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Columns<'py>> {
-        self.needs_steady("a list of impacts is")?;
-        let wanted = self.wanted(periods, discard, Some(initial));
-        work::done(py, progress, |work| simulate::flown(&self.inner, &wanted, work))?.columns(py)
+        let case = self.driven_steadily("a list of impacts is")?;
+        let wanted = Wanted::of(case, periods, discard, Some(initial));
+        work::done(py, progress, |work| simulate::flown(case, &wanted, work))?.columns(py)
     }
 
     /// The states of a trajectory at times in excitation periods, ascending from 0: a row of four each.
@@ -155,10 +163,9 @@ impl Case {
         initial: [f64; 4],
         times: Vec<f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.needs_steady("a trajectory is")?;
+        let case = self.driven_steadily("a trajectory is")?;
         let start = simulate::state(initial);
-        let found =
-            work::done(py, None, |work| simulate::sampled(&self.inner, start, times, work))?;
+        let found = work::done(py, None, |work| simulate::sampled(case, start, times, work))?;
         Ok(found.into_pyarray(py))
     }
 
@@ -168,9 +175,10 @@ impl Case {
         py: Python<'_>,
         folder: PathBuf,
         name: &str,
+        long: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<bool> {
-        let render = |work: &WorkState| report::rendered(&self.inner, name, work);
+        let render = |work: &WorkState| report::rendered(&self.inner, name, long, work);
         let (files, holds) = work::done(py, progress, render)?;
         report::write(&folder, &files)?;
         Ok(holds)
@@ -181,11 +189,11 @@ impl Case {
         &self,
         py: Python<'_>,
         criteria_only: bool,
+        long: bool,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<String> {
-        let check =
-            |work: &WorkState| decide::checked(&self.inner, &self.stem, criteria_only, work);
-        work::done(py, progress, check)
+        let (case, stem) = (&self.inner, &self.stem);
+        work::done(py, progress, |work| decide::checked(case, stem, criteria_only, long, work))
     }
 
     /// As `vinesink optimize --format json`, the text of the better case, and whether it is a success.
@@ -211,21 +219,23 @@ impl Case {
 
     /// The tables of its text, as JSON.
     fn document(&self) -> PyResult<String> {
+        self.one()?;
         let text = self.text.strip_prefix('\u{feff}').unwrap_or(&self.text);
         let read: serde_json::Value = toml::from_str(text).map_err(refused)?;
         json(&read)
     }
 
     /// A number of the case by its name, in SI or the units of a reduced case; none of what it has not.
-    fn value(&self, name: &str) -> Option<f64> {
-        self.inner.design.value(Parameter::of_name(name)?)
+    fn value(&self, name: &str) -> PyResult<Option<f64>> {
+        let case = self.one()?;
+        Ok(Parameter::of_name(name).and_then(|known| case.design.value(known)))
     }
 
     /// The unit in which numbers of this name are, "1" for a plain number.
     fn unit(&self, name: &str) -> PyResult<&'static str> {
-        let known = Parameter::of_name(name);
+        let (case, known) = (self.one()?, Parameter::of_name(name));
         let known = known.ok_or_else(|| refused(format!("there is no `{name}` to vary")))?;
-        Ok(self.inner.design.unit(known))
+        Ok(case.design.unit(known))
     }
 
     /// A branch of exact orbits: its points as columns, bifurcations and ends as JSON.
@@ -237,102 +247,77 @@ impl Case {
         orbit: Option<usize>,
         most_points: usize,
     ) -> PyResult<(Columns<'py>, String)> {
-        self.needs_steady("a branch is")?;
-        let followed = || branch::followed(&self.inner, parameter, range, orbit, most_points);
+        let case = self.driven_steadily("a branch is")?;
+        let followed = || branch::followed(case, parameter, range, orbit, most_points);
         let found = work::done(py, None, |_| followed())?;
         Ok((found.columns(py)?, json(&found.told)?))
     }
 }
 
 impl Case {
-    pub fn needs_steady(&self, what: &str) -> PyResult<()> {
-        match self.inner.design.scene() {
-            Scene::Steady => Ok(()),
+    /// What only a structure of one mode with one absorber can be asked.
+    fn one(&self) -> PyResult<&case::Case> {
+        match &self.inner {
+            AnyCase::One(case) => Ok(case),
+            AnyCase::Several(_) => Err(refused(
+                "the structure has several modes or absorbers: analyze, simulate, motions, check, optimize, sweep and report tell of it",
+            )),
+        }
+    }
+
+    /// The same where it has to be driven steadily.
+    pub fn driven_steadily(&self, what: &str) -> PyResult<&case::Case> {
+        let case = self.one()?;
+        match case.design.scene() {
+            Scene::Steady => Ok(case),
             other => Err(refused(format!(
                 "its structure is {}, and {what} about one that is driven steadily",
                 other.words()
             ))),
         }
     }
-
-    fn wanted(
-        &self,
-        periods: Option<u64>,
-        discard: Option<u64>,
-        initial: Option<[f64; 4]>,
-    ) -> Wanted {
-        let asked = self.inner.effort();
-        let (periods, discard) = (periods.unwrap_or(asked.periods), discard.or(asked.discard));
-        Wanted { effort: Effort { periods, discard, ..asked }, start: initial.map(simulate::state) }
-    }
-
-    /// What becomes of a structure that is not driven steadily; none of another.
-    fn unsteady(&self, answer: &Answer, content: Content) -> Option<serde_json::Value> {
-        let study = answer.transient.as_ref()?;
-        Some(page::document(&self.stem, &self.inner, study, &[], content))
-    }
-
-    fn analysed(&self, work: &WorkState) -> PyResult<serde_json::Value> {
-        let case = &self.inner;
-        let plan = LayerPlan::of_case(case, None).map_err(refused)?;
-        let answer = Answer::of(case, Asked::Analysis, plan.as_ref(), work).map_err(refused)?;
-        if let Some(document) = self.unsteady(&answer, Content::Analysis) {
-            return Ok(document);
-        }
-        let none = || refused("the case was not analysed");
-        Ok(Analysed::of(case, &answer).ok_or_else(none)?.document())
-    }
 }
 
-/// A state that is given as four numbers.
-pub fn states(initial: &[[f64; 4]]) -> Vec<State> {
-    initial.iter().copied().map(simulate::state).collect()
-}
-
-/// A problem as the program shows it, with the text underlined.
-fn shown(problem: &dyn Diagnostic) -> String {
-    let mut text = String::new();
-    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor());
-    let handler = handler.with_width(WIDTH);
-    // Writing into a text does not fail.
-    let _ = handler.render_report(&mut text, problem);
-    text
-}
-
-pub fn reach(allow_outside: bool) -> Reach {
+fn reach(allow_outside: bool) -> Reach {
     if allow_outside { Reach::Anywhere } else { Reach::Folder }
 }
 
-/// With the program's message, and each problem as a dict in `problems`.
-pub fn not_read(py: Python<'_>, error: &CaseInputError) -> PyErr {
-    match error {
-        CaseInputError::Case(error) => case_error(py, error),
-        CaseInputError::Named { source, .. } => FileError::new_err(source.to_string()),
-        other => FileError::new_err(other.to_string()),
-    }
+/// A case from its text; files that it names are below `folder`, unless they may be anywhere.
+#[pyfunction]
+pub fn parse(
+    py: Python<'_>,
+    name: String,
+    text: String,
+    folder: PathBuf,
+    allow_outside: bool,
+) -> PyResult<Case> {
+    let inner = case_input::parse_any(&name, &text, &folder, reach(allow_outside));
+    let inner = inner.map_err(|error| not_read(py, &error))?;
+    Ok(Case { inner, text, name, stem: String::new() })
 }
 
-fn case_error(py: Python<'_>, error: &case::CaseError) -> PyErr {
-    let raised = CaseError::new_err(shown(error));
-    let each = error.problems().map(|problem| {
-        let dict = PyDict::new(py);
-        dict.set_item("line", problem.line)?;
-        dict.set_item("column", problem.column)?;
-        dict.set_item("underlined", &problem.underlined)?;
-        dict.set_item("message", &problem.message)?;
-        dict.set_item("expected", &problem.expected)?;
-        dict.set_item("help", &problem.help)?;
-        Ok(dict)
-    });
-    let all: PyResult<Vec<_>> = each.collect();
-    match all.and_then(|all| raised.value(py).setattr("problems", all)) {
-        Ok(()) => raised,
-        Err(other) => other,
-    }
+/// The same from its file.
+#[pyfunction]
+pub fn read(py: Python<'_>, path: PathBuf, allow_outside: bool) -> PyResult<Case> {
+    let read = case_input::read_any(&path, reach(allow_outside));
+    let (inner, text) = read.map_err(|error| not_read(py, &error))?;
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(Case { inner, text, name: path.display().to_string(), stem })
+}
+
+/// What changed from one case to another: the document of `vinesink diff`, and Markdown.
+#[pyfunction]
+pub fn compare(
+    py: Python<'_>,
+    old: &Case,
+    new: &Case,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<(String, String)> {
+    work::done(py, progress, |work| decide::compared(&old.inner, &new.inner, work))
 }
 
 /// The JSON Schema of a case file.
 #[pyfunction]
 pub fn schema() -> String {
-    vinesink::case::schema().to_string()
+    case::schema().to_string()
 }

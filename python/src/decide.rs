@@ -5,37 +5,70 @@ use std::ops::Range;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use vinesink::answer::several::{self, LeftOut};
 use vinesink::answer::{Answer, Asked, Decided};
-use vinesink::case::{Case, ModalCase, Objective};
+use vinesink::case::{ModalCase, Objective};
+use vinesink::case_input::AnyCase;
 use vinesink::case_optimum::Optimum;
 use vinesink::case_report::Report;
 use vinesink::diff::{Difference, Document, Reports, markdown};
 use vinesink::executor::map;
+use vinesink::modal::{ModalAnswer, ModalOptimum};
 use vinesink::report::criteria::Checked;
+use vinesink::report::modal;
 use vinesink::report::render::Files;
 use vinesink::sweep::columns::{Cell, Column, Storage};
 use vinesink::sweep::work::points;
 use vinesink::sweep::{ModalPlan, Plan};
 
-use crate::work::{Columns, WorkState, json, refused};
+use crate::errors::refused;
+use crate::report::rendered;
+use crate::work::{Columns, WorkState, json};
 
 /// Points of a sweep that are worked out together.
 const TOGETHER: u64 = 64;
 
 /// What `vinesink check --format json` says of a case.
-pub fn checked(case: &Case, stem: &str, alone: bool, work: &WorkState) -> PyResult<String> {
-    if case.criteria.is_empty() {
-        return Err(refused(
-            "the case has no criteria: give it some, criteria={\"peak_displacement\": \"<= 4 mm\"}",
-        ));
-    }
-    let (asked, decides) = match alone {
-        true => (Asked::Criteria, Decided::NOTHING),
-        false => (Asked::Decision, Decided::CHECKED),
+pub fn checked(
+    case: &AnyCase,
+    stem: &str,
+    alone: bool,
+    long: bool,
+    work: &WorkState,
+) -> PyResult<String> {
+    let none = |advice| Err(refused(format!("the case has no criteria: give it {advice}")));
+    let told = if alone { Decided::NOTHING } else { Decided::CHECKED };
+    let checked = match case {
+        AnyCase::One(case) if case.criteria.is_empty() => {
+            return none("some, criteria={\"peak_displacement\": \"<= 4 mm\"}");
+        }
+        AnyCase::One(case) => {
+            let asked = if alone { Asked::Criteria } else { Asked::Decision };
+            let answer = Answer::of(case, asked, None, work).map_err(refused)?;
+            let answer = answer.decided(case, told, work).map_err(refused)?;
+            Checked::judged(stem, stem, case, &answer)
+        }
+        AnyCase::Several(case) if case.criteria.is_empty() => return none("a table [criteria]"),
+        AnyCase::Several(case) => {
+            let answer = of_several(case, told, long, work)?;
+            answer.observe(work);
+            modal::checked(stem, stem, case, &answer)
+        }
     };
-    let answer = Answer::of(case, asked, None, work).map_err(refused)?;
-    let answer = answer.decided(case, decides, work).map_err(refused)?;
-    json(&Checked::judged(stem, stem, case, &answer).document)
+    json(&checked.document)
+}
+
+/// What is known of several modes or absorbers, with what is told beside the criteria: as far as that is ordinary work, or any is
+/// asked for.
+pub fn of_several(
+    case: &ModalCase,
+    told: Decided,
+    long: bool,
+    work: &WorkState,
+) -> PyResult<ModalAnswer> {
+    let affords = |_: LeftOut, _: f64, is_ordinary: bool| long || is_ordinary;
+    let answer = ModalAnswer::of(case, work).map_err(refused)?;
+    several::decided(case, answer, told, &affords, work).map_err(refused)
 }
 
 /// The objective of a name.
@@ -47,46 +80,52 @@ fn objective_of(name: &str) -> PyResult<Objective> {
     })
 }
 
-/// The same for a structure of several modes.
-pub fn objective_of_several(name: &str) -> PyResult<Objective> {
-    match objective_of(name)? {
-        Objective::Z3Share => Err(refused(
-            "z3-share is an area of the theory of one mode and one absorber: ask for stable-share",
-        )),
-        objective => Ok(objective),
-    }
-}
-
 /// What `vinesink optimize --format json` says, the text of the case with the optimum, where there is one, and whether it is
 /// better than the case's own and meets all criteria.
 pub fn optimum(
-    case: &Case,
+    case: &AnyCase,
     text: &str,
     objective: Option<&str>,
     work: &WorkState,
 ) -> PyResult<(String, Option<String>, bool)> {
     let objective = objective.map(objective_of).transpose()?;
-    let found = Optimum::of("the case", case, text, objective, work).map_err(refused)?;
-    let better = found.better.map(|better| better.text);
-    Ok((json(&found.document)?, better, found.succeeds))
+    match case {
+        AnyCase::One(case) => {
+            let found = Optimum::of("the case", case, text, objective, work).map_err(refused)?;
+            let better = found.better.map(|better| better.text);
+            Ok((json(&found.document)?, better, found.succeeds))
+        }
+        AnyCase::Several(_) if objective == Some(Objective::Z3Share) => Err(refused(
+            "z3-share is an area of the theory of one mode and one absorber: ask for stable-share",
+        )),
+        AnyCase::Several(case) => {
+            let found = ModalOptimum::of(case, text, objective, work).map_err(refused)?;
+            let better = found.best.first().filter(|_| found.succeeds());
+            let better = better.map(|best| best.text.clone());
+            Ok((json(&modal::optimum(case, &found))?, better, found.succeeds()))
+        }
+    }
 }
 
 /// The columns of the sweep of a case, all points in order.
-pub fn swept(case: &Case, work: &WorkState) -> PyResult<Vec<Column>> {
-    let plan = Plan::of(case).ok_or_else(|| refused("the case has no table [sweep]"))?;
-    let line = match plan.settings.axes.last() {
-        Some(axis) if plan.settings.follow => axis.values.len() as u64,
-        _ => 1,
-    };
-    // Where motions are followed, along whole lines.
-    let together = line * (TOGETHER / line).max(1);
-    in_parts(plan.points(), together, work, |part| points(&plan, part).map_err(refused))
-}
-
-/// The same of a structure of several modes.
-pub fn swept_several(case: &ModalCase, work: &WorkState) -> PyResult<Vec<Column>> {
-    let plan = ModalPlan::of(case).ok_or_else(|| refused("the case has no table [sweep]"))?;
-    in_parts(plan.grid.points(), 1, work, |part| Ok(plan.points(part)))
+pub fn swept(case: &AnyCase, work: &WorkState) -> PyResult<Vec<Column>> {
+    let none = || refused("the case has no table [sweep]");
+    match case {
+        AnyCase::One(case) => {
+            let plan = Plan::of(case).ok_or_else(none)?;
+            let line = match plan.settings.axes.last() {
+                Some(axis) if plan.settings.follow => axis.values.len() as u64,
+                _ => 1,
+            };
+            // Where motions are followed, along whole lines.
+            let together = line * (TOGETHER / line).max(1);
+            in_parts(plan.points(), together, work, |part| points(&plan, part).map_err(refused))
+        }
+        AnyCase::Several(case) => {
+            let plan = ModalPlan::of(case).ok_or_else(none)?;
+            in_parts(plan.grid.points(), 1, work, |part| Ok(plan.points(part)))
+        }
+    }
 }
 
 /// The columns of so many points, some together at a time.
@@ -130,19 +169,13 @@ pub fn lists<'py>(py: Python<'py>, columns: &[Column]) -> PyResult<(Columns<'py>
     Ok((dict, units))
 }
 
-/// The files of the report that a comparison of cases reads.
-pub fn of_one(case: &Case, work: &WorkState) -> PyResult<Files> {
-    let report = Report::of(COMPARED, case, None, Decided::ALL, work).map_err(refused)?;
-    report.files(case, work).map_err(refused)
-}
-
 /// As what a case is called where two are compared.
-pub const COMPARED: &str = "case";
+const COMPARED: &str = "case";
 
 /// What changed from one case to another, as `vinesink diff` says it of the files of their reports: the document, and Markdown.
-pub fn compared(old: &Files, new: &Files) -> PyResult<(String, String)> {
-    let side = |label: &str, files: &Files| -> PyResult<Reports> {
-        let (document, figures) = parts(files);
+pub fn compared(old: &AnyCase, new: &AnyCase, work: &WorkState) -> PyResult<(String, String)> {
+    let side = |label: &str, case: &AnyCase| -> PyResult<Reports> {
+        let (document, figures) = parts(&files(case, work)?);
         let document = Document::parse(label, &document, figures).map_err(refused)?;
         Ok(BTreeMap::from([(COMPARED.to_owned(), document)]))
     };
@@ -150,6 +183,17 @@ pub fn compared(old: &Files, new: &Files) -> PyResult<(String, String)> {
     let difference = Difference::of(("old", &old), ("new", &new));
     let told = markdown::markdown(&difference, markdown::Addresses::default()).map_err(refused)?;
     Ok((json(&difference)?, told))
+}
+
+/// The files of the report that a comparison reads: without what is asked of accuracy.
+fn files(case: &AnyCase, work: &WorkState) -> PyResult<Files> {
+    match case {
+        AnyCase::One(case) => {
+            let report = Report::of(COMPARED, case, None, Decided::ALL, work).map_err(refused)?;
+            report.files(case, work).map_err(refused)
+        }
+        AnyCase::Several(_) => Ok(rendered(case, COMPARED, false, work)?.0),
+    }
 }
 
 /// The document of a report, and its drawings by their names.

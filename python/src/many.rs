@@ -11,9 +11,10 @@ use vinesink::quantity::Units;
 use vinesink::regimes::Regime;
 use vinesink::system::{Parameter, State, System};
 
-use crate::case::{Case, states};
-use crate::simulate::numbers;
-use crate::work::{self, Columns, WorkState, refused};
+use crate::case::Case;
+use crate::errors::refused;
+use crate::simulate::{numbers, state};
+use crate::work::{self, Columns, WorkState};
 
 /// Trajectories side by side, as in a sweep: many times the lanes of a batch, and few enough to stay in a cache.
 const TOGETHER: usize = 256;
@@ -40,8 +41,7 @@ pub fn simulate_many<'py>(
     discard: Option<u64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Columns<'py>> {
-    case.needs_steady("simulate_many is")?;
-    let case = &case.inner;
+    let case = case.driven_steadily("simulate_many is")?;
     let mut parameters = Vec::new();
     for (row, name) in names.iter().enumerate() {
         let known = |one: &Parameter| case.design.value(*one).is_some();
@@ -63,7 +63,8 @@ pub fn simulate_many<'py>(
     let values = values.as_slice().map_err(refused)?.to_vec();
     let rows =
         initial.map(|rows| rows.as_slice().map(<[f64]>::to_vec)).transpose().map_err(refused)?;
-    let starts = rows.map(|rows| states(rows.as_chunks().0));
+    let starts: Option<Vec<State>> =
+        rows.map(|rows| rows.as_chunks().0.iter().copied().map(state).collect());
     let effort = Effort { discard, ..Effort::over(periods) };
     let found = work::done(py, progress, |work| {
         let place = |k| {

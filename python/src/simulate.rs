@@ -1,4 +1,4 @@
-//! One trajectory, or the search for all motions: as the program's `simulate`.
+//! One trajectory, or the search for all motions: as the program's `simulate`, of any case.
 
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
@@ -9,23 +9,43 @@ use vinesink::answer::trajectory::{
 };
 use vinesink::answer::{Answer, Asked};
 use vinesink::case::{Case, ModalCase};
-use vinesink::modal::LoadImpact;
+use vinesink::modal::{LoadImpact, ModalAnswer, usual_periods};
 use vinesink::motions::{Effort, Motion, Motions};
 use vinesink::report::console::Simulated;
+use vinesink::report::document::Content;
+use vinesink::report::modal::simulation;
 use vinesink::system::State;
 
-use crate::errors::RefusedError;
-use crate::work::{Columns, WorkState, refused};
+use crate::analyze;
+use crate::errors::refused;
+use crate::work::{self, Columns, WorkState, json};
 
 /// Impacts after which a run is ended, as by the program.
 const IMPACT_LIMIT: u64 = 200_000_000;
 /// Excitation periods between two looks at whether to go on: a millisecond or so.
 const STRETCH: u64 = 1000;
 
+/// A document, impacts, and where one steady motion starts; of another NaN.
+pub type Told<'py> = (String, Columns<'py>, [f64; 4]);
+
 /// What is to be followed.
 pub struct Wanted {
-    pub effort: Effort,
-    pub start: Option<State>,
+    effort: Effort,
+    start: Option<State>,
+}
+
+impl Wanted {
+    /// What a case asks for, where nothing else is given.
+    pub fn of(
+        case: &Case,
+        periods: Option<u64>,
+        discard: Option<u64>,
+        initial: Option<[f64; 4]>,
+    ) -> Self {
+        let asked = case.effort();
+        let (periods, discard) = (periods.unwrap_or(asked.periods), discard.or(asked.discard));
+        Self { effort: Effort { periods, discard, ..asked }, start: initial.map(state) }
+    }
 }
 
 pub fn state([x, x_velocity, y, y_velocity]: [f64; 4]) -> State {
@@ -66,8 +86,8 @@ impl Impacts {
     }
 }
 
-/// Impacts of several modes or absorbers as columns, named as in the file that `--impacts` writes.
-pub fn of_several<'py>(
+/// The same of several modes or absorbers.
+fn impacts_of_several<'py>(
     py: Python<'py>,
     case: &ModalCase,
     all: &[LoadImpact],
@@ -111,8 +131,54 @@ impl Observer for Impacts {
     }
 }
 
-/// The document of `vinesink simulate`, the impacts of the measured window, and where the measured trajectory starts.
-pub fn measured(
+/// What `vinesink simulate` says of a structure that is driven steadily, and the impacts of the measured window.
+pub fn steady<'py>(
+    py: Python<'py>,
+    case: &Case,
+    wanted: &Wanted,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Told<'py>> {
+    let (text, impacts, start) = work::done(py, progress, |work| {
+        let (document, impacts, start) = measured(case, wanted, work)?;
+        Ok((json(&document)?, Impacts::of(&impacts), start))
+    })?;
+    Ok((text, impacts.columns(py)?, numbers(start)))
+}
+
+/// The same of one that is not: its document alone.
+pub fn unsteady<'py>(
+    py: Python<'py>,
+    case: &Case,
+    stem: &str,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Told<'py>> {
+    let text = work::done(py, progress, |work| {
+        let answer = Answer::of(case, Asked::Motions, None, work).map_err(refused)?;
+        json(&analyze::unsteady(case, stem, &answer, Content::Simulation))
+    })?;
+    Ok((text, PyDict::new(py), [f64::NAN; 4]))
+}
+
+/// The same of several modes or absorbers, and the impacts of so many excitation periods under each load.
+pub fn of_several<'py>(
+    py: Python<'py>,
+    case: &ModalCase,
+    stem: &str,
+    periods: Option<u64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Told<'py>> {
+    let periods = periods.unwrap_or_else(|| usual_periods(case));
+    let (text, impacts) = work::done(py, progress, |work| {
+        let answer = ModalAnswer::of(case, work).map_err(refused)?;
+        answer.observe(work);
+        let impacts = answer.impacts(case, periods).map_err(refused)?;
+        Ok((json(&simulation(stem, case, &answer))?, impacts))
+    })?;
+    Ok((text, impacts_of_several(py, case, &impacts)?, [f64::NAN; 4]))
+}
+
+/// The document, the impacts of the measured window, and where the measured trajectory starts.
+fn measured(
     case: &Case,
     wanted: &Wanted,
     work: &WorkState,
@@ -179,7 +245,7 @@ pub fn sampled(case: &Case, start: State, times: Vec<f64>, work: &WorkState) -> 
     if !(ascend && begins && last.is_finite()) {
         let message =
             "times must be finite numbers of excitation periods, 0 or more, in ascending order";
-        return Err(RefusedError::new_err(message));
+        return Err(refused(message));
     }
     let mut simulation = Simulation::new(&case.system(), start, 0.0).map_err(refused)?;
     let (begun, states) = (simulation.state(), Vec::with_capacity(4 * times.len()));

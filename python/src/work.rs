@@ -13,7 +13,7 @@ use rayon::iter::{IndexedParallelIterator as _, IntoParallelIterator as _, Paral
 use serde::Serialize;
 use vinesink::executor::Executor;
 
-use crate::errors::{InternalError, RefusedError};
+use crate::errors::{InternalError, refused};
 
 /// Time between two looks for Ctrl-C and two calls of `progress`.
 const LOOK: Duration = Duration::from_millis(100);
@@ -145,11 +145,6 @@ pub type Columns<'py> = Bound<'py, PyDict>;
 /// A document as the program prints it.
 pub fn json(document: &impl Serialize) -> PyResult<String> {
     serde_json::to_string(document).map_err(refused)
-}
-
-/// An error of the library as Python's `ValueError`, with its own message.
-pub fn refused(error: impl std::fmt::Display) -> PyErr {
-    RefusedError::new_err(error.to_string())
 }
 
 /// For tests: panics as a fault in the physics would.

@@ -160,7 +160,7 @@ class Case:
         A keyword that no case has.
     """
 
-    _core: _vinesink.Case | _vinesink.ModalCase
+    _core: _vinesink.Case
     _folder: str
     _allow_outside: bool
 
@@ -175,7 +175,7 @@ class Case:
     def _read(self, name: str, text: str, folder: str, allow_outside: bool) -> None:
         self._keep(_vinesink.parse(name, text, folder, allow_outside), folder, allow_outside)
 
-    def _keep(self, core: _vinesink.Case | _vinesink.ModalCase, folder: str, allow_outside: bool) -> None:
+    def _keep(self, core: _vinesink.Case, folder: str, allow_outside: bool) -> None:
         for attribute, value in (("_core", core), ("_folder", folder), ("_allow_outside", allow_outside)):
             object.__setattr__(self, attribute, value)
         for warning in core.warnings():
@@ -202,15 +202,6 @@ class Case:
             case._keep(_vinesink.read(source, allow_outside), str(Path(source).resolve().parent), allow_outside)
         return case
 
-    @property
-    def _one(self) -> _vinesink.Case:
-        """What only a structure of one mode with one absorber can be asked."""
-        if isinstance(self._core, _vinesink.ModalCase):
-            raise RefusedError(
-                "the structure has several modes or absorbers: analyze, simulate, motions, check, optimize, sweep and report tell of it"
-            )
-        return self._core
-
     @classmethod
     def _of_text(cls, text: str, folder: str, allow_outside: bool) -> Case:
         case = cls.__new__(cls)
@@ -219,7 +210,7 @@ class Case:
 
     def _with(self, given: Mapping[str, Any]) -> str:
         """The text of the case with other keywords."""
-        document = json.loads(self._one.document())
+        document = json.loads(self._core.document())
         all_of = given_of(document)
         for name in given:
             for either in EITHER:
@@ -240,9 +231,8 @@ class Case:
         return self._of_text(self._with(keys), self._folder, self._allow_outside)
 
     def __repr__(self) -> str:
-        if isinstance(self._core, _vinesink.ModalCase):
-            return f"Case({self.title!r}, places={self.places!r})"
-        return f"Case({self.title!r}, clearance={self.value('clearance'):.6g})"
+        own = f"places={self.places!r}" if self.places else f"clearance={self.value('clearance'):.6g}"
+        return f"Case({self.title!r}, {own})"
 
     def _repr_html_(self) -> str:
         import html
@@ -270,14 +260,14 @@ class Case:
     @property
     def places(self) -> list[str]:
         """The places at which its modes have a shape; none of one mode with one absorber."""
-        return self._core.places if isinstance(self._core, _vinesink.ModalCase) else []
+        return self._core.places
 
     def value(self, name: str) -> float:
         """A number of the case by its keyword, such as "clearance", in SI or the units of a reduced case.
 
         Raises `RefusedError` where the case has no such number.
         """
-        found = self._one.value(name)
+        found = self._core.value(name)
         if found is None:
             raise RefusedError(f"the case has no number `{name}`{meant(name, list(Parameters.__annotations__))}")
         return found
@@ -285,7 +275,7 @@ class Case:
     @property
     def scales(self) -> Scales:
         """What turns dimensionless numbers into the case's units."""
-        return Scales(**self._one.scales())
+        return Scales(**self._core.scales())
 
     def analyze(self, *, progress: Progress | None = None) -> Analysis:
         """What theory and exact orbits say: the document of `vinesink analyze --format json`; of several modes the orbits with two
@@ -302,7 +292,7 @@ class Case:
 
         Raises `RefusedError` of a structure that is not driven steadily.
         """
-        if isinstance(self._core, _vinesink.Case) and not self._core.steady:
+        if not self._core.steady:
             raise RefusedError("its structure is not driven steadily and has no long-term motion: simulate() says what becomes of it")
         return self.simulate(progress=progress)._rows()
 
@@ -313,10 +303,7 @@ class Case:
         may change. Of several modes what would take more than some minutes is left out unless `long` is given.
         Raises `RefusedError` of a case without criteria.
         """
-        told = _told(progress)
-        if isinstance(self._core, _vinesink.ModalCase):
-            return Check(json.loads(self._core.check(criteria_only, long, told)))
-        return Check(json.loads(self._core.check(criteria_only, told)))
+        return Check(json.loads(self._core.check(criteria_only, long, _told(progress))))
 
     def optimize(self, *, objective: str | None = None, progress: Progress | None = None) -> Optimum:
         """The absorber that serves the case best: what `vinesink optimize --format json` says.
@@ -340,11 +327,11 @@ class Case:
     def plot_motion(self, *, periods: float = 6, ax: Axes | None = None) -> Axes:
         """Draws the motion that most starts lead to: structure and absorber over time, with the walls. Needs matplotlib."""
         self._needs_steady("a motion")
+        size, unit = self._millimetres()
         if not isinstance(periods, (int, float)) or not 0.0 < periods < 1e6:
             raise RefusedError(f"periods is {periods!r}, expected a number above 0")
         found = self.simulate(times=np.linspace(0.0, periods, int(round(200 * periods)) + 1)).trajectory
         assert found is not None
-        size, unit = self._millimetres()
         length = size * self.scales.length
         labels = {"xlabel": "time (excitation periods)", "ylabel": f"displacement ({unit})", "title": self.title}
         return _plots.motion(ax, found.periods, found.x * length, found.y * length, length, labels)
@@ -373,7 +360,7 @@ class Case:
         return _plots.regimes(ax, (axis, clearances * size), words, (self.value(name), own * size), labels)
 
     def _needs_steady(self, what: str) -> None:
-        if not self._one.steady:
+        if not self._core.steady:
             raise RefusedError(f"its structure is not driven steadily, and {what} is of one that is")
 
     def _millimetres(self) -> tuple[float, str]:
@@ -389,7 +376,7 @@ class Case:
         name = "frequency" if self.scales.physical else "frequency_ratio"
         own = self.value(name)
         low, high = 0.85 * own, 1.15 * own
-        band = given_of(json.loads(self._one.document())).get("band", {})
+        band = given_of(json.loads(self._core.document())).get("band", {})
         if self.scales.physical and "from" in band and band.get("of", "frequency") == "frequency":
             low, high = self._numbers(name, [band["from"], band["to"]])
         return {name: np.linspace(low, high, points)}
@@ -401,7 +388,7 @@ class Case:
             # Read as a case file has it; what else the case asks for does not matter.
             given = {name: written, "band": None, "criteria": None, "sweep": None}
             found = _vinesink.parse(f"{name} = {written}", self._with(given), self._folder, self._allow_outside)
-            number = found.value(name) if isinstance(found, _vinesink.Case) else None
+            number = found.value(name)
             if number is None:
                 raise RefusedError(f"the case has no `{name}`")
             return number
@@ -422,14 +409,14 @@ class Case:
             if name not in Parameters.__annotations__:
                 raise RefusedError(f"there is no `{name}` to vary{meant(name, list(Parameters.__annotations__))}")
             plain = self._numbers(name, values).reshape(-1).tolist()
-            unit = self._one.unit(name)
+            unit = self._core.unit(name)
             table[name] = {"values": plain if unit == "1" else [f"{one!r} {unit}" for one in plain]}
         planned = self._of_text(self._with({"sweep": table}), self._folder, self._allow_outside)
         return planned.sweep(progress=progress)
 
     def orbits(self) -> Orbits:
         """The exact periodic orbits with two impacts per period: in an ideal cavity the symmetric ones, else all."""
-        return Orbits(json.loads(self._one.orbits()))
+        return Orbits(json.loads(self._core.orbits()))
 
     def simulate(
         self,
@@ -472,18 +459,8 @@ class Case:
         start = None if initial is None else [float(one) for one in initial]
         if start is not None and len(start) != 4:
             raise RefusedError(f"initial has {len(start)} numbers, expected four: x, xdot, y, ydot")
-        if isinstance(self._core, _vinesink.ModalCase):
-            if any(given is not None for given in (discard, initial, times)) or not measure:
-                raise RefusedError(
-                    "the structure has several modes or absorbers, whose starts are those of the search; call simulate(), or simulate(periods=...)"
-                )
-            text, impacts = self._core.simulate(periods, told)
-            return Simulation(json.loads(text), Table(impacts), None)
-        if not self._core.steady:
-            if any(given is not None for given in (periods, discard, initial, times)) or not measure:
-                raise RefusedError("the structure is not driven steadily: the case itself says what becomes of it; call simulate()")
-            text, _, _ = self._core.simulate(None, None, None, told)
-            return Simulation(json.loads(text), Table({}), None)
+        other = any(given is not None for given in (discard, initial, times)) or not measure
+        self._core.needs_run(periods is not None, other)
         document: dict[str, Any] = {}
         if measure:
             text, impacts, start = self._core.simulate(periods, discard, start, told)
@@ -514,8 +491,4 @@ class Case:
         `FileError` where the folder cannot be written.
         """
         name = name or self._core.stem or Path(folder).resolve().name
-        told = _told(progress)
-        if isinstance(self._core, _vinesink.ModalCase):
-            self._core.report(os.fspath(folder), name, long, told)
-            return True
-        return self._core.report(os.fspath(folder), name, told)
+        return self._core.report(os.fspath(folder), name, long, _told(progress))

@@ -53,7 +53,7 @@ def branch(
     """
     case = _case_of(case)
     low, high = (float(edge) for one in range for edge in case._numbers(parameter, one).reshape(-1))
-    columns, told = case._one.branch(parameter, [low, high], orbit, most_points)
+    columns, told = case._core.branch(parameter, [low, high], orbit, most_points)
     return Branch(parameter, columns, json.loads(told))
 
 
@@ -104,7 +104,7 @@ def single_trajectories(
     if starts is not None:
         starts = np.ascontiguousarray(np.broadcast_to(starts, (*shape, 4)).reshape(-1, 4))
     count, left_out = _whole("periods", periods, 1) or 1, _whole("discard", discard, 0)
-    columns = _vinesink.simulate_many(case._one, list(arrays), values, starts, count, left_out, _told(progress))
+    columns = _vinesink.simulate_many(case._core, list(arrays), values, starts, count, left_out, _told(progress))
     names: NDArray[np.str_] = np.array([*_vinesink.regimes(), ""])
     columns["regime"] = names[columns["regime"]]
     # What varies stands first.
