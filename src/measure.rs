@@ -282,6 +282,15 @@ impl Measure {
         }
     }
 
+    /// The amplitude that it compares with, of the structure alone or with a damper; not a number where it compares nothing.
+    pub fn compared_with(self, bare: impl Fn() -> f64, damped: impl Fn() -> f64) -> f64 {
+        match self.against() {
+            Some(Device::Without) => bare(),
+            Some(Device::Damper) => damped(),
+            _ => f64::NAN,
+        }
+    }
+
     /// The number of a motion that decides it; none of what no single number does.
     pub const fn fact(self) -> Option<Fact> {
         Some(match self {

@@ -100,12 +100,6 @@ impl Survey {
         }
     }
 
-    /// The same with the motions at one of its places alone.
-    #[must_use]
-    pub fn only(&self, at: f64) -> Self {
-        Self { motions: self.motions.only(at), ..self.clone() }
-    }
-
     /// The band.
     pub fn band(&self) -> &Band {
         self.motions.band()

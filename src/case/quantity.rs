@@ -86,13 +86,6 @@ impl Dimension {
         self.accepted_units().find(|unit| plain_spelling(unit.symbol) == plain)
     }
 
-    /// Whether a limit, such as `<= 7.5 mm`, is written in a unit of several.
-    pub fn has_unit(self, limit: &str) -> bool {
-        let text = limit.trim_start_matches(['<', '>', '=', ' ']);
-        let written = leading_number(text).map(|number| text[number.end..].trim());
-        self.accepted_units().count() > 1 && written.is_some_and(|unit| !unit.is_empty())
-    }
-
     /// The value in SI units of a number followed by a unit, such as `7.5 mm`.
     ///
     /// # Errors

@@ -212,22 +212,19 @@ pub fn open(case: &Case, survey: &Survey, judged: &[Judged], known: &[f64]) -> V
     open
 }
 
-/// Says of a place of a case's range whether a motion there that counts does not hold with its own error, or still settles: not
-/// every criterion can hold then.
+/// Says whether a motion at a place of a case's range that counts misses a criterion: not all can hold then.
 pub fn misses(case: &Case) -> impl Fn(&Motions) -> bool + '_ {
     let (range, units) = (case.range(), case.units());
-    let against = |one: &Criterion| match one.measure.against() {
-        Some(Device::Without) => bare_along(&range).1,
-        Some(Device::Damper) => Rivals::of_displacement(&range).damped.amplitude,
-        _ => f64::NAN,
+    let against = |one: &Criterion| {
+        let damped = || Rivals::of_displacement(&range).damped.amplitude;
+        one.measure.compared_with(|| bare_along(&range).1, damped)
     };
     let of_motions = case.criteria.iter().filter(|one| one.measure.is_of_motions());
     let asked: Vec<(&Criterion, f64)> = of_motions.map(|one| (one, against(one))).collect();
     move |here: &Motions| {
         let misses = |motion: &Motion, (one, against): &(&Criterion, f64)| {
             let found = one.measure.of_motion(motion, &|fact| fact.of(motion), *against, &units);
-            let judged = found.map(|[value, error]| one.judged(Some(value), error, method(motion)));
-            judged.is_some_and(|of| !motion.settled() || of.outcome() != Outcome::Holds)
+            found.is_some_and(|own| one.is_missed_by(own, method(motion), motion.settled()))
         };
         here.counting(case.count_inactive)
             .any(|(_, motion)| asked.iter().any(|one| misses(motion, one)))
@@ -273,6 +270,17 @@ impl Criterion {
         let against =
             if self.measure.against().is_some() { Relation::AtLeast } else { Relation::AtMost };
         within && (room >= 0.0 || !(worst && self.relation == against))
+    }
+
+    /// Whether a motion that has so much of it, with the error that is its own, still settles or does not meet it: whatever else
+    /// there is, it does not hold then.
+    pub(crate) fn is_missed_by(
+        &self,
+        [value, error]: [f64; 2],
+        known_by: Method,
+        settled: bool,
+    ) -> bool {
+        !settled || self.judged(Some(value), error, known_by).outcome() != Outcome::Holds
     }
 
     /// A value that is known of the whole range, or of a motion that has settled.

@@ -4,7 +4,7 @@ use super::found::{self, Findings, Found};
 use super::{Judged, Outcome, ROUNDING, method, of_stability};
 use crate::band::{Survey, theory};
 use crate::case::{Criterion, Of};
-use crate::measure::{Device, Measure};
+use crate::measure::Measure;
 use crate::method::Method;
 use crate::motions::{Fact, Motion, MotionKind, WhyNot};
 use crate::quantity::Units;
@@ -102,11 +102,8 @@ impl Scope<'_> {
 
     /// The amplitude that a criterion compares with.
     fn against(&self, criterion: &Criterion) -> f64 {
-        match criterion.measure.against() {
-            Some(Device::Without) => self.survey.bare().1,
-            Some(Device::Damper) => self.survey.least_moved(),
-            _ => f64::NAN,
-        }
+        let Self { survey, .. } = self;
+        criterion.measure.compared_with(|| survey.bare().1, || survey.least_moved())
     }
 
     fn of(&self, criterion: &Criterion, (at, index, motion): Placed<'_>) -> Option<Found> {

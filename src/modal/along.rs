@@ -311,14 +311,14 @@ impl AlongLoad {
     }
 
     /// The same that ends with the first frequency, searched in full, at which something is missed, if one is given that says so; and
-    /// that.
+    /// whether it did, and has that alone.
     pub(super) fn until(
         case: &ModalCase,
         load: &Load,
         effort: &AlongEffort,
         misses: Option<&Misses<'_, AtFrequency>>,
         on: &dyn Executor,
-    ) -> Result<(Self, Option<f64>), ModalError> {
+    ) -> Result<(Self, bool), ModalError> {
         let [from, to] = load.range_hz;
         let line = OfLoad { case, load, effort, looks: Look::all(case), on };
         let (places, between, missed) = if from < to {
@@ -338,7 +338,7 @@ impl AlongLoad {
                 AtFrequency::of(case, load, from, effort, &[])
             });
             let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
-            let missed = misses.filter(|misses| found.iter().any(misses)).map(|_| from);
+            let missed = misses.is_some_and(|misses| found.iter().any(misses));
             (found.into_iter().map(|found| (from, found)).collect(), Vec::new(), missed)
         };
         let bare = (0..case.places.len()).map(|p| {

@@ -6,9 +6,9 @@ use super::orbits;
 use super::sensors::{Look, measured, parts};
 use super::{AlongLoad, AtFrequency, ModalAnswer};
 use crate::case::{Criterion, ModalCase, Of};
-use crate::criteria::{Findings, Found, Judged, Outcome, Worst};
+use crate::criteria::{Findings, Found, Judged, Worst};
 use crate::linear::{ModalDamper, reduction};
-use crate::measure::{Device, Measure};
+use crate::measure::Measure;
 use crate::method::Method;
 use crate::motions::{ModalMotion, longest_flight};
 use crate::numerics::scan;
@@ -54,16 +54,16 @@ pub(super) fn unflown(case: &ModalCase) -> Vec<AlongLoad> {
     case.loads.iter().map(|load| AlongLoad::at_some(*load, Vec::new(), Vec::new())).collect()
 }
 
-/// Whether a motion at a frequency of a load that counts does not hold with its own error, or still settles: not every criterion can
-/// hold then. What compares with dampers or the structure alone is not looked at.
+/// Whether a motion at a frequency of a load that counts misses a criterion: not all can hold then. What compares with dampers or the
+/// structure alone is not looked at.
 pub(super) fn misses(case: &ModalCase, load: usize, here: &AtFrequency) -> bool {
     let mut along = unflown(case);
     along[load].places.push(here.clone());
     let scope = Scope { case, along: &along, load: Some(load) };
     let asked = case.criteria.iter().filter(|one| one.measure.is_of_motions());
     asked.filter(|one| one.measure.against().is_none()).any(|one| {
-        let judged = Judged::of_motions(one, &scope);
-        judged.holds.is_some() && judged.outcome() != Outcome::Holds
+        let found = scope.each(one);
+        found.iter().any(|of| one.is_missed_by([of.value, of.own], of.known_by, of.settled))
     })
 }
 
@@ -192,15 +192,12 @@ pub(super) fn against(case: &ModalCase, asked: &Criterion) -> f64 {
         let most = peak.as_ref().and_then(|peak| linear_most(case, peak, dampers));
         most.unwrap_or(f64::NAN)
     };
-    match asked.measure.against() {
-        Some(Device::Without) => with(&[]),
-        Some(Device::Damper) => {
-            // The best of what moves, whatever else is asked.
-            let case = ModalCase { criteria: Vec::new(), ..case.clone() };
-            designs(&case).iter().map(|one| with(&one.on(&case, 1.0))).fold(f64::NAN, f64::min)
-        }
-        _ => f64::NAN,
-    }
+    let damped = || {
+        // The best of what moves, whatever else is asked.
+        let case = ModalCase { criteria: Vec::new(), ..case.clone() };
+        designs(&case).iter().map(|one| with(&one.on(&case, 1.0))).fold(f64::NAN, f64::min)
+    };
+    asked.measure.compared_with(|| with(&[]), damped)
 }
 
 /// By which share a clearance may be off at a frequency in Hz before an orbit no longer attracts, of the orbit that allows most; 0 where

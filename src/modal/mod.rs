@@ -215,9 +215,9 @@ impl ModalAnswer {
             }
             let misses = |here: &AtFrequency| judge::misses(case, k, here);
             let (found, missed) = AlongLoad::until(case, load, effort, Some(&misses), on)?;
-            if let Some(at) = missed {
+            if missed {
                 let mut only = judge::unflown(case);
-                only[k].places = found.places.into_iter().filter(|one| one.at == at).collect();
+                only[k] = found;
                 return Ok(Self::judged(case, only));
             }
             along[k] = found;

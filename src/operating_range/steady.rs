@@ -130,8 +130,8 @@ fn judge_band(case: &Case, effort: &Effort, how: Depth) -> Result<Vec<Judged>, D
         let misses = (how == Depth::WhetherAllHold).then(|| criteria::misses(case));
         let until = misses.as_ref().map(|misses| misses as &Misses<'_, Motions>);
         let found = Survey::until(&range, &settings, until, &Serial)?;
-        if let Some(at) = found.motions.missed_at() {
-            return Ok(criteria::judge(case, &found.only(at)));
+        if found.motions.ended_early() {
+            return Ok(criteria::judge(case, &found));
         }
         return Ok(judge_in_contact(case, &found, *effort, again)?);
     }

@@ -8,6 +8,7 @@
 //! | `apart(from=other)` | a quantity | the number with as many digits as tell it from another one |
 //! | `label` | a quantity or its id | "clearance b" |
 //! | `name`, `symbol` | the same | its parts |
+//! | `limit` | a criterion | what it asks, in the unit of what was found |
 //! | `num(digits=3)` | a number | significant digits; `–` for none |
 //! | `pct` | a number | a share in per cent |
 //! | `rest` | a share | what is left beside it in per cent, rounded down |
@@ -179,6 +180,7 @@ fn register(tera: &mut Tera) {
             None => quantity_text(&units()?, value, &options)?,
         })
     });
+    tera.register_filter("limit", |of: &Map, _: Kwargs, _: &State| limit_text(&units()?, of));
     tera.register_filter("label", |value: &Value, _: Kwargs, _: &State| {
         let kind = kind_of(value)?;
         Ok::<_, tera::Error>(match kind.symbol {
@@ -269,6 +271,28 @@ fn without_zeros(text: &str) -> String {
         true => format!("{}{unit}", number.trim_end_matches('0').trim_end_matches('.')),
         false => text.to_owned(),
     }
+}
+
+/// Digits of a limit, which may be written in another unit.
+const LIMIT_DIGITS: Digits = Digits::Significant(5);
+
+/// What a criterion asks, in the unit of what was found; as it is written where that is not in a unit of several.
+fn limit_text(units: &Units, of: &Map) -> TeraResult<String> {
+    let text = |key| field(of, key).and_then(Value::as_str).unwrap_or_default();
+    let number = |key| field(field(of, key)?.as_map()?, "value")?.as_f64();
+    let asked = text("asked").replace(">=", "\u{2265}").replace("<=", "\u{2264}");
+    let written = if text("relation") == "equal" { format!("= {asked}") } else { asked };
+    let (Some(limit), Some(found), true) = (number("limit"), number("found"), units.physical)
+    else {
+        return Ok(written);
+    };
+    let kind = kind_of(field(of, "limit").unwrap_or(&Value::none()))?;
+    if kind.dimension.accepted_units().count() == 1 {
+        return Ok(written);
+    }
+    let told = units.told_like(kind.dimension, found).with_digits(kind, limit, LIMIT_DIGITS);
+    let sign: String = written.chars().take_while(|c| !c.is_ascii_digit()).collect();
+    Ok(format!("{} {}", sign.trim_end(), without_zeros(&told)))
 }
 
 /// Units in which numbers of a kind are in that of the option `like`, a quantity or none.

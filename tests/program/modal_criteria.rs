@@ -267,6 +267,17 @@ fn absorbers_at_rest_are_named_and_a_reduction_takes_a_device() {
     assert!(!kept("impact_velocity = '<= 9 m/s'\n"));
 }
 
+/// The document and the page of a report of its criteria alone.
+fn reported(text: &str) -> (Value, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (path, out) = (folder.path().join("case.toml"), folder.path().join("out"));
+    fs::write(&path, text).expect("written");
+    let [path, out] = [&path, &out].map(|one| one.to_str().expect("UTF-8"));
+    vinesink(&["report", path, "--criteria-only", "--out", out]);
+    let read = |name: &str| fs::read_to_string(format!("{out}/case/{name}")).expect("a report");
+    (serde_json::from_str(&read("report.json")).expect("JSON"), read("report.md"))
+}
+
 /// Whether each criterion that is worst elsewhere than there has its motion in a list of places, with what it has of it; how many do.
 fn each_is_listed(document: &Value, places: &Value, told: &Value) -> usize {
     let rows = document["criteria"]["all"].as_array().expect("criteria");
@@ -301,13 +312,7 @@ fn what_decides_is_listed_and_drawn_and_the_own_amplitude_has_the_verdict() {
          [criteria]\npeak_displacement = '<= 140 um'\nacceleration = '<= 250 m/s2'\nimpact_velocity = '<= 0.3 m/s'\n\
          reduction_db = {{ limit = '>= 1', place = 'corner' }}\n"
     );
-    let folder = tempfile::tempdir().expect("a folder");
-    let (path, out) = (folder.path().join("case.toml"), folder.path().join("out"));
-    fs::write(&path, text).expect("written");
-    let [path, out] = [&path, &out].map(|one| one.to_str().expect("UTF-8"));
-    vinesink(&["report", path, "--criteria-only", "--out", out]);
-    let document = fs::read_to_string(format!("{out}/case/report.json")).expect("a report");
-    let document: Value = serde_json::from_str(&document).expect("JSON");
+    let (document, _) = reported(&text);
     let load = &document["loads"][0];
     assert!(each_is_listed(&document, &load["decides"], &load["worst"]["at"]["value"]) >= 1);
     // The second mode's acceleration fails far from where the structure moves farthest.
@@ -333,16 +338,9 @@ fn what_decides_along_a_band_of_one_mode_is_listed_and_drawn() {
          [band]\nfrom = '150 Hz'\nto = '215 Hz'\n[simulation]\nstarts = 2\nperiods = 100\n\
          [criteria]\npeak_displacement = '<= 100 um'\nacceleration = '<= 200 m/s2'\nimpact_velocity = '<= 0.3 m/s'\n"
     );
-    let folder = tempfile::tempdir().expect("a folder");
-    let (path, out) = (folder.path().join("case.toml"), folder.path().join("out"));
-    fs::write(&path, text).expect("written");
-    let [path, out] = [&path, &out].map(|one| one.to_str().expect("UTF-8"));
-    vinesink(&["report", path, "--criteria-only", "--out", out]);
-    let document = fs::read_to_string(format!("{out}/case/report.json")).expect("a report");
-    let document: Value = serde_json::from_str(&document).expect("JSON");
+    let (document, page) = reported(&text);
     assert_eq!(each_is_listed(&document, &document["band"]["decides"], &Value::Null), 3);
     let drawn = document["figures"].as_array().expect("figures").iter();
     assert!(drawn.clone().any(|one| one["name"] == "band-acceleration"), "{drawn:?}");
-    let page = fs::read_to_string(format!("{out}/case/report.md")).expect("a page");
     assert!(page.contains("where impact velocity is worst:"), "{page}");
 }

@@ -21,7 +21,7 @@ pub struct Along {
     unresolved: Vec<(Extreme, f64)>,
     peak_at: Option<f64>,
     rest_at: Option<f64>,
-    missed_at: Option<f64>,
+    ended_early: bool,
 }
 
 impl Along {
@@ -86,15 +86,6 @@ impl Along {
         Ok(())
     }
 
-    /// The same with the motions at one of these alone, and nothing between places.
-    #[must_use]
-    pub fn only(&self, at: f64) -> Self {
-        let mut only = self.clone();
-        only.places.retain(|place| place.0 == at);
-        only.unresolved.clear();
-        only
-    }
-
     /// The motions at one of them.
     pub fn at(&self, at: f64) -> Option<&Motions> {
         self.places.iter().find(|place| place.0 == at).map(|place| &place.1)
@@ -126,9 +117,9 @@ impl Along {
         self.peak_at
     }
 
-    /// The place, searched in full, at which something is missed, and where the search ended; none of [`along`].
-    pub fn missed_at(&self) -> Option<f64> {
-        self.missed_at
+    /// Whether there is one place alone, searched in full, at which something is missed and the search ended; never of [`along`].
+    pub fn ended_early(&self) -> bool {
+        self.ended_early
     }
 
     /// The place, `Omega` or an amplitude over the base system's own, where the structure with an absorber at rest moves
@@ -182,21 +173,23 @@ pub fn along_until(
         ends.any(|end| (at - end).abs() < BESIDE * band.width())
     };
     let (ends, extremes): (Vec<f64>, Vec<f64>) = extremes.into_iter().partition(is_end);
-    let (mut places, unresolved, missed_at) = match effort {
+    let (mut places, unresolved, ended_early) = match effort {
         Some(effort) => {
             let peak = Extreme::PEAK;
             let others = wanted.iter().copied().filter(|one| *one != peak);
             let worst = std::iter::once(peak).chain(others).collect();
             OfBand { band, effort, on }.sampled(&stability, extremes, own, worst, misses)?
         }
-        None => (solved(band, extremes, shaking)?, Vec::new(), None),
+        None => (solved(band, extremes, shaking)?, Vec::new(), false),
     };
-    let missing = |at: &f64| places.iter().all(|place| place.0 != *at);
-    let ends = ends.into_iter().filter(missing).collect();
-    places.extend(solved(band, ends, shaking)?);
+    if !ended_early {
+        let missing = |at: &f64| places.iter().all(|place| place.0 != *at);
+        let ends = ends.into_iter().filter(missing).collect();
+        places.extend(solved(band, ends, shaking)?);
+    }
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (band, simulated) = (band.clone(), effort.is_some());
-    Ok(Along { band, stability, places, simulated, unresolved, peak_at, rest_at, missed_at })
+    Ok(Along { band, stability, places, simulated, unresolved, peak_at, rest_at, ended_early })
 }
 
 /// What can be solved for at some places.

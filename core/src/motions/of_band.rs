@@ -77,7 +77,7 @@ impl OfBand<'_> {
             }
         };
         if band.is_point() {
-            return Ok((own.into_iter().collect(), Vec::new(), None));
+            return Ok((own.into_iter().collect(), Vec::new(), false));
         }
         let mut first = first_places(band, stability, &effort.band);
         first.extend(extremes);

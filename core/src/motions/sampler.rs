@@ -87,10 +87,9 @@ pub struct Sampling<'a, L: Line> {
     pub misses: Option<&'a Misses<'a, L::Motions>>,
 }
 
-/// Places with their motions, ascending, by how much each number that was asked for may be worse between them, and the place at
-/// which something was missed and the search ended.
-pub type Sampled<L> =
-    (Vec<(f64, <L as Line>::Motions)>, Vec<(<L as Line>::Wanted, f64)>, Option<f64>);
+/// Places with their motions, ascending, by how much each number that was asked for may be worse between them, and whether something
+/// was missed at the only one of them, with which the search ended.
+pub type Sampled<L> = (Vec<(f64, <L as Line>::Motions)>, Vec<(<L as Line>::Wanted, f64)>, bool);
 
 /// The places of a range with their motions.
 ///
@@ -116,7 +115,10 @@ pub fn sampled<L: Line>(line: &L, sampling: Sampling<'_, L>) -> Result<Sampled<L
         spots,
     };
     sampler.begin(&first)?;
-    let missed = sampler.refine()?;
+    if let Some(k) = sampler.refine()? {
+        let Spot { at, motions, .. } = sampler.spots.swap_remove(k);
+        return Ok((vec![(at, motions)], Vec::new(), true));
+    }
     // What is within the tolerance is an error as well.
     let between = |of: &L::Wanted| {
         let worst = sampler.worst_of(*of)?;
@@ -128,7 +130,7 @@ pub fn sampled<L: Line>(line: &L, sampling: Sampling<'_, L>) -> Result<Sampled<L
     };
     let unresolved = sampler.worst.iter().filter_map(between).collect();
     let places = sampler.spots.into_iter().map(|spot| (spot.at, spot.motions)).collect();
-    Ok((places, unresolved, missed))
+    Ok((places, unresolved, false))
 }
 
 /// A place on the way.
@@ -255,8 +257,8 @@ impl<L: Line> Sampler<'_, L> {
         Ok(())
     }
 
-    /// Further places, until the worst of each number is known, or to the first at which something is missed.
-    fn refine(&mut self) -> Result<Option<f64>, L::Error> {
+    /// Further places, until the worst of each number is known, or to the first at which something is missed: its number.
+    fn refine(&mut self) -> Result<Option<usize>, L::Error> {
         loop {
             if let Some(missed) = self.missed()? {
                 return Ok(Some(missed));
@@ -310,14 +312,14 @@ impl<L: Line> Sampler<'_, L> {
 
     /// A place, searched in full, at which something is missed. The worst of those at which it seems to be is tried beside the search,
     /// which goes on as if it had not been where it is not missed there.
-    fn missed(&mut self) -> Result<Option<f64>, L::Error> {
+    fn missed(&mut self) -> Result<Option<usize>, L::Error> {
         let (Some(misses), Some(worst)) = (self.misses, self.worst.first().copied()) else {
             return Ok(None);
         };
         let missed: Vec<usize> =
             (0..self.spots.len()).filter(|k| misses(&self.spots[*k].motions)).collect();
         if let Some(k) = missed.iter().find(|k| self.spots[**k].in_full) {
-            return Ok(Some(self.spots[*k].at));
+            return Ok(Some(*k));
         }
         let reach = |k: usize| self.reach(&self.spots[k], worst).map_or(0.0, |one| one.0);
         let new = missed.into_iter().filter(|k| !self.tried.contains(&self.spots[*k].at));
@@ -326,12 +328,11 @@ impl<L: Line> Sampler<'_, L> {
         else {
             return Ok(None);
         };
-        let at = self.spots[k].at;
-        self.tried.push(at);
+        self.tried.push(self.spots[k].at);
         let found = self.in_full(&[k])?.pop().filter(|(_, found)| misses(found));
         Ok(found.map(|(_, found)| {
             self.spots[k].motions = found;
-            at
+            k
         }))
     }
 

@@ -91,8 +91,6 @@ pub fn row(judged: &Judged, at: Option<Quantity>) -> Value {
             (_, Relation::AtMost) => "at-most",
             (_, Relation::Equal) => "equal",
         },
-        // Whether it is written in a unit of several.
-        "has_unit": kind.is_some_and(|kind| kind.dimension.has_unit(as_written)),
         "limit": kind.map(|kind| Quantity::new(kind, *limit, Method::Given)),
         "found": judged.found.zip(measure.kind_under(judged.records)).map(|(value, kind)| {
             Quantity::new(kind, value, judged.decided_by).with_error(error)
