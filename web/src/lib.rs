@@ -49,7 +49,7 @@ pub extern "C" fn answer_length() -> usize {
 }
 
 /// Lets the running simulation go on for so many periods, with so many points a period; how many numbers
-/// describe what happened: see [`running::go_on`].
+/// describe what happened: see `running::go_on`.
 #[unsafe(no_mangle)]
 pub extern "C" fn go_on(periods: u32, samples: f64) -> usize {
     NUMBERS.with_borrow_mut(|numbers| {
